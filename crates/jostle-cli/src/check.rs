@@ -8,7 +8,9 @@ use jostle::hysteresis::{Hysteresis, Side};
 use jostle::model::{Damping, Hinges, Structure, usual_damping_modes};
 use jostle::structure::StepEquations;
 use jostle::system::BuildingSystem;
-use jostle::{Building, LinkLaw, Model, Plan, RiccatiSweep, Solver, System};
+use jostle::{
+    Building, LinkLaw, Model, Plan, RiccatiSweep, Solver, SpaceMember, SpacePlace, System, Tiers,
+};
 
 use crate::args::CheckArgs;
 use crate::failure::Failure;
@@ -134,6 +136,27 @@ fn records(opened: &Opened) -> Result<String, Failure> {
     Ok(text)
 }
 
+/// Columns, beams and grid lines of a space frame.
+fn space_frame(tiers: &Tiers) -> String {
+    let Some(frame) = &tiers.space_frame else {
+        return String::new();
+    };
+    let is_column = |member: &&SpaceMember| matches!(member.place, SpacePlace::Column { .. });
+    let columns = frame.members.iter().filter(is_column).count();
+    let lines = |lines: &[f64]| {
+        let all = lines.iter().map(|line| format!("{line}"));
+        all.collect::<Vec<_>>().join(", ")
+    };
+    format!(
+        "space frame, {}, {} and {}\n  grid lines at x = {} m, at y = {} m",
+        counted(tiers.floors.len(), "storey"),
+        counted(columns, "column"),
+        counted(frame.members.len() - columns, "beam"),
+        lines(&frame.lines_x),
+        lines(&frame.lines_y)
+    )
+}
+
 fn describe(text: &mut String, model: &Model, system: &System) -> std::fmt::Result {
     writeln!(text, "{}\n", styled(BOLD, &model.title))?;
     for (index, building) in system.structures().iter().enumerate() {
@@ -151,6 +174,7 @@ fn describe(text: &mut String, model: &Model, system: &System) -> std::fmt::Resu
                 counted(tiers.frames.len(), "frame"),
                 counted(tiers.floors.len(), "storey")
             ),
+            Structure::Tiers(tiers) if tiers.space_frame.is_some() => space_frame(tiers),
             Structure::Tiers(tiers) => format!(
                 "shear building with a plan, {}",
                 counted(tiers.floors.len(), "storey")

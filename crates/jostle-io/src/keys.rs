@@ -35,6 +35,12 @@ pub(crate) enum Section {
     Element,
     /// Plane frame at a line of a plan.
     PlanFrame,
+    /// Further keys of `kind = "space-frame"`.
+    SpaceFrame,
+    /// Columns of it at some places.
+    SpaceColumn,
+    /// Beams of it at some places.
+    SpaceBeam,
     /// Further keys of `kind = "given"`.
     Given,
     /// Files of its matrices.
@@ -174,6 +180,10 @@ pub(crate) enum Kind {
     TableOf(&'static [Section]),
     /// One table, or a list of tables from the ground up.
     TablePerStorey(Section),
+    /// One table for all places, or a list of tables for some.
+    TablePerPlace(Section),
+    /// A number, or the first and the last.
+    FromTo,
     /// A text, or a table instead.
     TextOrTable(Section),
     /// A word, or the number it spells.
@@ -228,7 +238,7 @@ pub(crate) const SAMPLINGS: &[&str] = names!(Sampling);
 pub(crate) const DISTRIBUTIONS: &[&str] = &["uniform", "normal", "lognormal"];
 pub(crate) const SPACINGS: &[&str] = &["linear", "log"];
 pub(crate) const FRAGILITY_METHODS: &[&str] = names!(FragilityMethod);
-pub(crate) const BUILDING_KINDS: &[&str] = &["frame", "shear", "given"];
+pub(crate) const BUILDING_KINDS: &[&str] = &["frame", "shear", "space-frame", "given"];
 /// Units of force and length of given matrices.
 pub(crate) const MATRIX_UNITS: &[&str] =
     &["N, m", "kN, m", "N, mm", "kN, mm", "kip, ft", "kip, in"];
@@ -359,7 +369,7 @@ use Section as S;
 pub(crate) const KEYS: &[Key] = &[
     default(S::Root, "title", Text, "\"Untitled\"", "Printed on summaries and reports."),
     optional(S::Root, "motion", Kind::Table(S::Motion), "The ground motion."),
-    required(S::Root, "building", Tables(&[S::Building, S::Frame, S::Shear, S::Given]), "The buildings, from left to right."),
+    required(S::Root, "building", Tables(&[S::Building, S::Frame, S::Shear, S::SpaceFrame, S::Given]), "The buildings, from left to right."),
     optional(S::Root, "gap", Tables(&[S::Gap]), "The gaps between neighbours, and between the ends of the row and walls there."),
     optional(S::Root, "link", Tables(&[S::Link, S::LinkLaw]), "Springs, dampers and sliders that join neighbours, or floors of one building."),
     optional(S::Root, "wall", Tables(&[S::Wall]), "Walls that gaps and links can name, anywhere beside a building."),
@@ -417,7 +427,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Spectrum, "factor", Quantity(D::Dimensionless), "1", "Factor on the spectrum."),
 
     default(S::Building, "name", Text, "\"B1\", \"B2\", …", "Name of the building, used by gaps and links."),
-    default(S::Building, "kind", Choice(BUILDING_KINDS), "\"frame\"", "Frame of beams and columns, shear building with storey springs, or matrices of another program."),
+    default(S::Building, "kind", Choice(BUILDING_KINDS), "\"frame\"", "Frame of beams and columns, shear building with storey springs, columns and beams in space, or matrices of another program."),
     optional(S::Building, "storeys", Count, "Number of storeys; not needed with a list per storey."),
     optional(S::Building, "floors", Count, "The same as storeys."),
     optional(S::Building, "storey_height", PerStorey(D::Length), "Storey height; required for frames, 3 m by default for shear buildings."),
@@ -489,6 +499,35 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::PlanFrame, "poisson_ratio", Quantity(D::Dimensionless), "0.2", "Poisson's ratio, for the shear modulus."),
     optional(S::PlanFrame, "joint", Kind::Table(S::Joint), "Elastic hinge at the beam ends."),
     default(S::PlanFrame, "base", WordOrTable("fixed", &[S::ShearBase, S::FrameBase]), "\"fixed\"", "Springs and dashpots under every column."),
+    required(S::SpaceFrame, "lines_x", Quantities(D::Length), "Where the grid lines across stand along x, from the origin of the plan, rising."),
+    required(S::SpaceFrame, "lines_y", Quantities(D::Length), "Where the grid lines along x stand, from the origin of the plan across, rising."),
+    required(S::SpaceFrame, "column", Kind::TablePerPlace(S::SpaceColumn), "Columns at the crossings: one table for all, or [[building.column]] for some; later ones replace earlier ones. Without plan, the plan is the rectangle of the outer lines; columns and beams outside of the plan of their floor do not exist."),
+    optional(S::SpaceFrame, "beam_x", Kind::TablePerPlace(S::SpaceBeam), "Beams along x, likewise. Needed where lines_x has two lines or more."),
+    optional(S::SpaceFrame, "beam_y", Kind::TablePerPlace(S::SpaceBeam), "Beams across, likewise. Needed where lines_y has two lines or more."),
+    optional(S::SpaceFrame, "elastic_modulus", Quantity(D::Modulus), "Modulus of elasticity of columns and beams."),
+    optional(S::SpaceFrame, "concrete", Kind::Concrete(CONCRETES), "Concrete instead of elastic_modulus, as for a plane frame."),
+    default(S::SpaceFrame, "stiffness_factor", NumberOrTable(S::StiffnessFactor), "1", "Factor on every EI, for cracked sections."),
+    default(S::SpaceFrame, "torsion_factor", Quantity(D::Dimensionless), "1", "Factor on every GJ, for cracked sections."),
+    default(S::SpaceFrame, "axial", Choice(AXIAL), "\"flexible\"", "Axial deformation of columns; floors are rigid."),
+    default(S::SpaceFrame, "shear", ChoiceOrTable(AXIAL, S::ShearDeformation), "\"rigid\"", "Shear deformation of members (Timoshenko)."),
+    default(S::SpaceFrame, "poisson_ratio", Quantity(D::Dimensionless), "0.2", "Poisson's ratio, for the shear modulus."),
+    default(S::SpaceFrame, "angle", Quantity(D::Dimensionless), "0", "Angle from x of the site to the lines along x, counter-clockwise, such as \"30 deg\"; it turns the plan and mass_centre with them."),
+    optional(S::SpaceColumn, "size", Quantities(D::Length), "Sizes along x and across; needed unless omit."),
+    default(S::SpaceColumn, "x", Kind::FromTo, "all", "Its line of lines_x, counted from 1; or the first and the last."),
+    default(S::SpaceColumn, "y", Kind::FromTo, "all", "Its line of lines_y, likewise."),
+    default(S::SpaceColumn, "storeys", Kind::FromTo, "all", "Its storey, likewise."),
+    default(S::SpaceColumn, "omit", Flag, "false", "Leave out the columns at these places."),
+    optional(S::SpaceColumn, "elastic_modulus", Quantity(D::Modulus), "Modulus of elasticity, if it differs from that of the building."),
+    optional(S::SpaceColumn, "concrete", Kind::Concrete(CONCRETES), "Concrete instead of elastic_modulus."),
+    optional(S::SpaceBeam, "width", Quantity(D::Length), "Width; needed unless omit."),
+    optional(S::SpaceBeam, "depth", Quantity(D::Length), "Depth in the direction of bending; needed unless omit."),
+    default(S::SpaceBeam, "x", Kind::FromTo, "all", "The line of lines_x at which a beam along x begins, or on which a beam across lies, counted from 1; or the first and the last."),
+    default(S::SpaceBeam, "y", Kind::FromTo, "all", "The line of lines_y on which a beam along x lies, or at which a beam across begins, likewise."),
+    default(S::SpaceBeam, "storeys", Kind::FromTo, "all", "The storey whose ceiling it is, likewise."),
+    default(S::SpaceBeam, "omit", Flag, "false", "Leave out the beams at these places."),
+    optional(S::SpaceBeam, "elastic_modulus", Quantity(D::Modulus), "Modulus of elasticity, if it differs from that of the building."),
+    optional(S::SpaceBeam, "concrete", Kind::Concrete(CONCRETES), "Concrete instead of elastic_modulus."),
+
     optional(S::Shear, "hinges", Kind::Table(S::StoreyHinges), "Cracking and yield of the storeys; without it they are elastic."),
 
     optional(S::Given, "matrices", TextOrTable(S::Matrices), "NumPy archive (.npz) with the arrays K and M, or a table of Matrix Market files, relative to this file. C is the damping matrix, r the displacements when the ground moves by 1, h their heights."),

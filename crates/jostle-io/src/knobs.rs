@@ -82,13 +82,19 @@ fn table(node: Option<&Node>, sections: &[Section], path: &str, at: At<'_>, into
         // A fault that the reader reports.
         Some(_) => return,
     };
-    let own = match table.get("kind").map(|node| &node.value) {
-        Some(Value::Text(kind)) if kind == "shear" => Section::Shear,
-        Some(Value::Text(kind)) if kind == "given" => Section::Given,
-        _ => Section::Frame,
+    let own: &[Section] = match table.get("kind").map(|node| &node.value) {
+        Some(Value::Text(kind)) if kind == "shear" => &[Section::Shear],
+        Some(Value::Text(kind)) if kind == "given" => &[Section::Given],
+        Some(Value::Text(kind)) if kind == "space-frame" => &[Section::Shear, Section::SpaceFrame],
+        _ => &[Section::Frame],
     };
-    let kinds = [Section::Frame, Section::Shear, Section::Given];
-    let is_own = |section: &Section| *section == own || !kinds.contains(section);
+    let kinds = [
+        Section::Frame,
+        Section::Shear,
+        Section::SpaceFrame,
+        Section::Given,
+    ];
+    let is_own = |section: &Section| own.contains(section) || !kinds.contains(section);
     let sections: Vec<Section> = sections.iter().copied().filter(is_own).collect();
     for key in keys_of(&sections) {
         let node = table.get(key.name);
@@ -111,6 +117,7 @@ fn entry(
     let inner: &[Section] = match &key.kind {
         Kind::Table(section)
         | Kind::TablePerStorey(section)
+        | Kind::TablePerPlace(section)
         | Kind::NumberOrTable(section)
         | Kind::TextOrTable(section)
         | Kind::ChoiceOrTable(_, section) => std::slice::from_ref(section),
@@ -153,6 +160,8 @@ fn entry(
                         if named.is_empty() { fallback } else { named },
                         String::new(),
                     )
+                } else if matches!(key.kind, Kind::TablePerPlace(_)) {
+                    (group.to_owned(), format!("{name} {}", index + 1))
                 } else {
                     (group.to_owned(), format!("{name} of storey {}", index + 1))
                 };

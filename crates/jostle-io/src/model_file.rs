@@ -29,6 +29,7 @@ mod reinforced;
 mod section;
 mod shear;
 mod soil;
+mod space_frame;
 #[cfg(test)]
 mod tests;
 mod unusual_results;

@@ -482,6 +482,7 @@ fn suggest(key: &str, sections: &'static [Section]) -> String {
         (Section::Frame, "frame"),
         (Section::Shear, "shear"),
         (Section::Given, "given"),
+        (Section::SpaceFrame, "space-frame"),
     ];
     for (section, kind) in other_kinds {
         if sections.contains(&Section::Building) && keys_of(&[section]).any(|k| k.name == key) {

@@ -54,6 +54,17 @@ const TABLES: &[(Section, &str, &str)] = &[
         "With `kind = \"frame\"` and a `plan`; the building then has the keys of `kind = \"shear\"`. See [Frames at lines of a plan](how-to/frames-in-plan.md).",
     ),
     (
+        Section::SpaceFrame,
+        "`[[building]]` with `kind = \"space-frame\"`",
+        "And the keys of `kind = \"shear\"`, `frame` and `hinges` excepted. See [Space frames](how-to/space-frames.md).",
+    ),
+    (Section::SpaceColumn, "`column` of a space frame", ""),
+    (
+        Section::SpaceBeam,
+        "`beam_x` and `beam_y` of a space frame",
+        "",
+    ),
+    (
         Section::Given,
         "`[[building]]` with `kind = \"given\"`",
         "By matrices and ports, or by mass, periods and shapes; see [From ETABS to jostle](how-to/from-etabs.md).",
@@ -326,6 +337,8 @@ fn value(key: &Key) -> String {
         Kind::NumberOrTable(_) => "number, or a table".into(),
         Kind::Table(_) | Kind::TableOf(_) => "table".into(),
         Kind::TablePerStorey(_) => "table; or a list from the ground up".into(),
+        Kind::TablePerPlace(_) => "table; or a list for some places each".into(),
+        Kind::FromTo => "number; or the first and the last".into(),
         Kind::TextOrTable(_) => "text, or a table".into(),
         Kind::Tables(_) => "tables".into(),
         Kind::Neighbours => "`[\"J1\", \"J2\"]`".into(),

@@ -43,8 +43,8 @@ fn table(sections: &[Section]) -> Value {
 
 /// A building: the keys of its kind.
 fn building() -> Value {
-    let of_kind = |section, kind: &str, named: &[&str]| {
-        let mut schema = table(&[Section::Building, section]);
+    let of_kinds = |sections: &'static [Section], kind: &str, named: &[&str]| {
+        let mut schema = table(sections);
         schema["properties"]["kind"] = json!({ "const": kind });
         if !named.is_empty() {
             match schema["required"].as_array_mut() {
@@ -55,10 +55,15 @@ fn building() -> Value {
         schema
     };
     json!({ "oneOf": [
-        of_kind(Section::Frame, "frame", &[]),
-        of_kind(Section::Shear, "frame", &["kind", "plan", "frame"]),
-        of_kind(Section::Shear, "shear", &["kind"]),
-        of_kind(Section::Given, "given", &["kind"]),
+        of_kinds(&[Section::Building, Section::Frame], "frame", &[]),
+        of_kinds(&[Section::Building, Section::Shear], "frame", &["kind", "plan", "frame"]),
+        of_kinds(&[Section::Building, Section::Shear], "shear", &["kind"]),
+        of_kinds(
+            &[Section::Building, Section::Shear, Section::SpaceFrame],
+            "space-frame",
+            &["kind"],
+        ),
+        of_kinds(&[Section::Building, Section::Given], "given", &["kind"]),
     ] })
 }
 
@@ -163,7 +168,13 @@ fn kind(kind: Kind) -> Value {
             json!({ "anyOf": [{ "type": "string" }, table(&[section])] })
         }
         Kind::Word(words) => json!({ "anyOf": [{ "enum": words }, { "type": "number" }] }),
-        Kind::TablePerStorey(section) => one_or_list(table(&[section])),
+        Kind::FromTo => json!({ "anyOf": [
+            { "type": "integer", "minimum": 1 },
+            { "type": "array", "minItems": 2, "maxItems": 2, "items": { "type": "integer", "minimum": 1 } },
+        ] }),
+        Kind::TablePerStorey(section) | Kind::TablePerPlace(section) => {
+            one_or_list(table(&[section]))
+        }
         Kind::Tables(sections) if sections.contains(&Section::Building) => {
             json!({ "type": "array", "minItems": 1, "items": building() })
         }

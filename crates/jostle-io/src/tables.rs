@@ -7,8 +7,8 @@ use jostle::history::MemberHistory;
 use jostle::hysteresis::Side;
 use jostle::quantity::Read;
 use jostle::results::summary::{
-    ContactSummary, ImpactSummary, MemberSummary, RatioPlace, RatioSummary, SectionSummary,
-    SpringSummary,
+    AcrossSummary, ContactSummary, ImpactSummary, MemberSummary, RatioPlace, RatioSummary,
+    SectionSummary, SpringSummary,
 };
 use jostle::results::{member_name, section_name};
 use jostle::structure::{BaseMotion, MemberEnd, SectionAt, SpringPlace};
@@ -285,6 +285,20 @@ pub fn member_columns(summary: &Summary, building: Option<usize>) -> Vec<(&'stat
     ];
     let sections = || rows.iter().map(|(.., section)| *section);
     columns.extend(quantity_columns(SectionSummary::QUANTITIES, sections));
+    if sections().any(|section| section.across.is_some()) {
+        let across = |of: fn(&AcrossSummary) -> f64| {
+            let values = sections().map(|section| section.across.as_ref().map(of));
+            Values::Instant(values.collect())
+        };
+        columns.extend([
+            ("shear_across_peak_n", across(|own| own.shear_across_peak_n)),
+            (
+                "moment_across_peak_n_m",
+                across(|own| own.moment_across_peak_n_m),
+            ),
+            ("torque_peak_n_m", across(|own| own.torque_peak_n_m)),
+        ]);
+    }
     columns
 }
 
@@ -432,7 +446,12 @@ pub fn member_history_columns(
     let times = history.times().iter();
     let times = times.flat_map(|time| std::iter::repeat_n(*time, sections.len()));
     let heights = sections.iter().map(|section| section.2).cycle();
-    vec![
+    let members = history.members().iter();
+    let mut followed = members.flat_map(|[building, member]| {
+        &system.buildings[*building].members.members[*member].sections
+    });
+    let in_space = followed.any(|section| section.across.is_some());
+    let mut columns = vec![
         ("time_s", Values::Real(times.collect())),
         ("member", repeated(|section| section.0.clone())),
         ("end", repeated(|section| section.1.to_owned())),
@@ -443,7 +462,15 @@ pub fn member_history_columns(
         ("axial_n", real(0)),
         ("shear_n", real(1)),
         ("moment_n_m", real(2)),
-    ]
+    ];
+    if in_space {
+        columns.extend([
+            ("shear_across_n", real(3)),
+            ("moment_across_n_m", real(4)),
+            ("torque_n_m", real(5)),
+        ]);
+    }
+    columns
 }
 
 /// Writes the histories of members that were asked for; see [`member_history_columns`].

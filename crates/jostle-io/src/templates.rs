@@ -3,11 +3,12 @@
 use crate::builtin_model::model_text;
 
 /// Names of the templates; the first is the default.
-pub const TEMPLATE_NAMES: [&str; 6] = [
+pub const TEMPLATE_NAMES: [&str; 7] = [
     "frames",
     "towers",
     "single",
     "row",
+    "space-frames",
     "paper",
     "paper-inelastic",
 ];
@@ -20,6 +21,7 @@ pub fn template(name: &str, title: &str) -> Option<String> {
         "towers" => include_str!("../data/towers.toml"),
         "single" => include_str!("../data/single.toml"),
         "row" => include_str!("../data/row.toml"),
+        "space-frames" => include_str!("../data/space_frames.toml"),
         _ => return model_text(name).map(ToOwned::to_owned),
     };
     // Quotes, backslashes and control characters would end or change the TOML string.

@@ -13,6 +13,7 @@ pub(crate) fn describe(model: &Model, system: &System) -> Value {
             Structure::Shear(_) => ("shear", Vec::new()),
             Structure::Given(_) => ("given", Vec::new()),
             Structure::Tiers(tiers) if !tiers.frames.is_empty() => ("frame", Vec::new()),
+            Structure::Tiers(tiers) if tiers.space_frame.is_some() => ("space-frame", Vec::new()),
             Structure::Tiers(_) => ("shear", Vec::new()),
         };
         let periods: Vec<f64> = assembled

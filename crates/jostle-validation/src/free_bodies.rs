@@ -88,6 +88,7 @@ fn building(stored: &Value) -> Building {
             storey_heights: vec![number(floor, "/height_m")],
             floors: vec![tier],
             frames: Vec::new(),
+            space_frame: None,
         }),
         damping: Damping::Rayleigh {
             alpha: 0.0,

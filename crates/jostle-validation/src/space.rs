@@ -111,6 +111,7 @@ fn building(stored: &Value) -> Building {
             storeys: storeys.collect(),
             storey_heights: heights.collect(),
             frames: Vec::new(),
+            space_frame: None,
         }),
         damping: Damping::Rayleigh {
             alpha: number(stored, "/alpha_1_s"),
@@ -613,6 +614,7 @@ fn polygons() -> Vec<Row> {
                     floors: vec![tier],
                     storey_heights: vec![3.0],
                     frames: Vec::new(),
+                    space_frame: None,
                 }),
                 damping: Damping::Ratio {
                     ratio: 0.05,

@@ -112,6 +112,7 @@ fn model(depth: f64, turn: f64, points: usize) -> Model {
                 floors: vec![tier],
                 storeys: vec![storey],
                 storey_heights: vec![3.0],
+                space_frame: None,
             }),
             damping: Damping::Rayleigh {
                 alpha: 0.0,

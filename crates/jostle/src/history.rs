@@ -651,14 +651,18 @@ impl SpringHistory {
     }
 }
 
-/// Axial force, shear and moment of members over time, at the instants of a [`History`] \[N, N, N·m\].
+/// Axial force, shear and moment of members over time, then shear and moment in the plane across and torque, which are zero beyond
+/// space frames, at the instants of a [`History`] \[N, N, N·m, N, N·m, N·m\].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MemberHistory {
     members: Vec<[usize; 2]>,
     sections: usize,
     times: Vec<f64>,
-    values: Vec<[f64; 3]>,
+    values: Vec<[f64; SECTION_FORCES]>,
 }
+
+/// Forces at a section of a member.
+pub const SECTION_FORCES: usize = 6;
 
 impl MemberHistory {
     /// Of these members: building, and member of its forces; `None` if there are none.
@@ -684,8 +688,12 @@ impl MemberHistory {
             let forces = &system.buildings[*building].members;
             let sections = forces.members[*member].sections.iter();
             let own = &values[*building];
-            self.values
-                .extend(sections.map(|section| section.forms.map(|form| own[form])));
+            self.values.extend(sections.map(|section| {
+                let [axial, shear, moment] = section.forms.map(|form| own[form]);
+                let across = section.across.map(|forms| forms.map(|form| own[form]));
+                let [shear_across, moment_across, torque] = across.unwrap_or_default();
+                [axial, shear, moment, shear_across, moment_across, torque]
+            }));
         }
     }
 
@@ -707,7 +715,7 @@ impl MemberHistory {
     }
 
     /// Forces of the sections of all members at every instant, in the order of the members.
-    pub fn rows(&self) -> impl Iterator<Item = &[[f64; 3]]> {
+    pub fn rows(&self) -> impl Iterator<Item = &[[f64; SECTION_FORCES]]> {
         self.values.chunks(self.sections.max(1))
     }
 }

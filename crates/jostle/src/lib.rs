@@ -119,7 +119,8 @@ pub use model::{
     FrameHinges, Gap, Given, Gravity, HalfSpace, Hinges, Integrator, Isolation, Isolator,
     IsolatorDamping, Joint, JointRequest, Level, Link, LinkLaw, MemberRequest, Model, ModelFault,
     PlanArea, PlanContact, PlanFrame, PlanPoint, Section, Shear, Soil, SoilCoupling, Solver,
-    SpeedFriction, Stop, Structure, Tier, TierStorey, Tiers, Wall,
+    SpaceFrame, SpaceMember, SpacePlace, SpaceSection, SpeedFriction, Stop, Structure, Tier,
+    TierStorey, Tiers, Wall,
 };
 pub use motion::{Bearing, GroundMotion, GroundPath, GroundPoint, Grounds, OwnGround, Wave};
 pub use quantity::{Quantity, Unit};

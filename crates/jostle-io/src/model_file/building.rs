@@ -120,6 +120,10 @@ fn read(
         Kind::Shear => reader.open(field, &[Section::Building, Section::Shear]),
         Kind::Frame => reader.open(field, &[Section::Building, Section::Frame]),
         Kind::FramesInPlan => reader.open(field, &[Section::Building, Section::Shear]),
+        Kind::SpaceFrame => reader.open(
+            field,
+            &[Section::Building, Section::Shear, Section::SpaceFrame],
+        ),
         Kind::Given => reader.open(field, &[Section::Building, Section::Given]),
     }?;
     let name = reader
@@ -145,6 +149,11 @@ fn read(
                 "kind",
                 "add kind = \"frame\" for frames at lines of a plan",
             ),
+            Kind::SpaceFrame => reader.missing(
+                &view,
+                "kind",
+                "add kind = \"space-frame\" for columns and beams at grid lines",
+            ),
             Kind::Frame => {}
         },
     }
@@ -155,7 +164,7 @@ fn read(
                 *reader.bad(&field, "needs kind = \"frame\"") =
                     Some("write kind = \"frame\"; stiffness and elements may stay".into());
             }
-            let read = plan::read(reader, &view, false);
+            let read = plan::read(reader, &view, plan::HeldBy::Springs);
             *at = read.at;
             Structure::Tiers(read.tiers)
         }
@@ -163,7 +172,16 @@ fn read(
             if !view.has("plan") {
                 reader.missing(&view, "plan", "add plan = [\"20 m\", \"12 m\"], or corners");
             }
-            let read = plan::read(reader, &view, true);
+            let read = plan::read(reader, &view, plan::HeldBy::Frames);
+            *at = read.at;
+            Structure::Tiers(read.tiers)
+        }
+        Kind::SpaceFrame => {
+            if let Some(field) = reader.get(&view, "frame") {
+                *reader.bad(&field, "needs kind = \"frame\"") =
+                    Some("leave out [[building.frame]]; walls can be [[building.element]]".into());
+            }
+            let read = plan::read(reader, &view, plan::HeldBy::SpaceFrame);
             *at = read.at;
             Structure::Tiers(read.tiers)
         }
@@ -228,14 +246,21 @@ fn read(
     };
     let stated = match kind {
         Kind::Given => None,
-        Kind::Frame | Kind::Shear | Kind::FramesInPlan => reader.get(&view, "hinges"),
+        Kind::Frame | Kind::Shear | Kind::FramesInPlan | Kind::SpaceFrame => {
+            reader.get(&view, "hinges")
+        }
     };
     building.hinges = match &building.structure {
         Structure::Shear(shear) => {
             stated.and_then(|field| hinges::read_storeys(reader, &field, shear))
         }
         Structure::Tiers(_) => {
-            if let Some(field) = &stated {
+            if let (Some(field), true) = (&stated, kind == Kind::SpaceFrame) {
+                *reader.bad(
+                    field,
+                    "is not possible in a space frame yet: it stays elastic",
+                ) = Some("leave out hinges; plane frames and storey springs can yield".into());
+            } else if let Some(field) = &stated {
                 *reader.bad(field, "is not possible for a building with a plan yet") =
                     Some("leave out hinges, or plan".into());
             }
@@ -324,6 +349,8 @@ enum Kind {
     Given,
     /// Frames at lines of a plan.
     FramesInPlan,
+    /// Columns and beams at grid lines.
+    SpaceFrame,
 }
 
 /// The kind of a building. If `kind` is absent or misspelt, the other keys decide, so that one mistake gives one fault.
@@ -335,10 +362,12 @@ fn kind_of(field: &Field<'_>) -> Kind {
     match table.get("kind").map(|kind| &kind.value) {
         Some(Value::Text(kind)) if kind == "shear" => Kind::Shear,
         Some(Value::Text(kind)) if kind == "given" => Kind::Given,
+        Some(Value::Text(kind)) if kind == "space-frame" => Kind::SpaceFrame,
         Some(Value::Text(kind)) if kind == "frame" && (has("plan") || has("frame")) => {
             Kind::FramesInPlan
         }
         Some(Value::Text(kind)) if kind == "frame" => Kind::Frame,
+        _ if has("lines_x") || has("lines_y") => Kind::SpaceFrame,
         _ if has("frame") && (has("plan") || has("mass")) => Kind::FramesInPlan,
         _ if has("matrices") || has("ports") || has("shapes") => Kind::Given,
         _ if (has("mass") || has("stiffness")) && !has("spans") && !has("column") => Kind::Shear,

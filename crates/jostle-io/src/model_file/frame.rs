@@ -249,7 +249,7 @@ fn beam_segments(
 }
 
 /// Whether columns and beams are flexible in some way: a word for all, or a table.
-fn flexible_members(
+pub(super) fn flexible_members(
     reader: &mut Reader<'_>,
     view: &View<'_>,
     key: &'static str,
@@ -276,7 +276,7 @@ fn flexible_members(
     (flexible("columns"), flexible("beams"))
 }
 
-fn read_poisson_ratio(reader: &mut Reader<'_>, view: &View<'_>) -> f64 {
+pub(super) fn read_poisson_ratio(reader: &mut Reader<'_>, view: &View<'_>) -> f64 {
     let Some(field) = reader.get(view, "poisson_ratio") else {
         return CONCRETE_POISSON_RATIO;
     };

@@ -6,6 +6,7 @@ use jostle::{Building, Gap, Model, PlanArea, PlanPoint, Structure, Tier, TierSto
 use super::building::{has_length, per_storey, storeys};
 use super::plan_frames;
 use super::shear::DEFAULT_STOREY_HEIGHT;
+use super::space_frame::{self, Grid};
 use crate::keys::Section;
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
@@ -19,8 +20,31 @@ pub(super) struct Planned {
     pub(super) at: Option<PlanPoint>,
 }
 
-/// Reads the keys of a building that has a plan; `has_frames`: whether it is of frames. After a fault, harmless values are used.
-pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, has_frames: bool) -> Planned {
+/// What holds floors beside storey springs and elements.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum HeldBy {
+    Springs,
+    Frames,
+    SpaceFrame,
+}
+
+/// Reads the keys of a building that has a plan. After a fault, harmless values are used.
+pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, held_by: HeldBy) -> Planned {
+    let has_frames = held_by != HeldBy::Springs;
+    let grid = (held_by == HeldBy::SpaceFrame).then(|| Grid::read(reader, view));
+    if grid
+        .as_ref()
+        .is_some_and(|grid| grid.direction != [1.0, 0.0])
+    {
+        for key in ["stiffness", "element"] {
+            if let Some(field) = reader.get(view, key) {
+                *reader.bad(
+                    &field,
+                    "acts along x and y of the site, which is not possible beside angle",
+                ) = Some(format!("leave out angle, or {key}"));
+            }
+        }
+    }
     let elements = reader
         .get(view, "element")
         .and_then(|field| field.entries());
@@ -54,7 +78,9 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, has_frames: bool) -
         .get(view, "plan")
         .and_then(|field| read_plans(reader, &field, count));
     let square = || vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
-    let plans = plans.unwrap_or_else(|| vec![square(); count]);
+    let usual = || grid.as_ref().map_or_else(square, Grid::rectangle);
+    let plans = plans.unwrap_or_else(|| vec![usual(); count]);
+    let turned = |point: PlanPoint| grid.as_ref().map_or(point, |grid| grid.turned(point));
     let at = reader
         .get(view, "at")
         .and_then(|field| pair(reader, &field));
@@ -73,8 +99,8 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, has_frames: bool) -
             Tier {
                 mass,
                 polar_mass: polar.unwrap_or(mass * area.gyration()),
-                centre,
-                plan: plan.clone(),
+                centre: turned(centre),
+                plan: plan.iter().map(|corner| turned(*corner)).collect(),
             }
         })
         .collect();
@@ -98,16 +124,18 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, has_frames: bool) -
         None => of_stiffness(reader, view, &floors, &plans),
     };
     let storey_heights = heights.unwrap_or_else(|| vec![DEFAULT_STOREY_HEIGHT; count]);
-    let frames = match has_frames {
-        true => plan_frames::read_all(reader, view, &storey_heights),
-        false => Vec::new(),
+    let frames = match held_by {
+        HeldBy::Frames => plan_frames::read_all(reader, view, &storey_heights),
+        HeldBy::Springs | HeldBy::SpaceFrame => Vec::new(),
     };
+    let space_frame = grid.map(|grid| space_frame::read(reader, view, grid, &plans));
     Planned {
         tiers: Tiers {
             floors,
             storeys,
             storey_heights,
             frames,
+            space_frame,
         },
         at,
     }

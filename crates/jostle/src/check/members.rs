@@ -1,13 +1,14 @@
 //! Names of members whose histories are asked for.
 
 use super::Faults;
-use crate::model::{Building, Frame, Model, PlanFrame, Structure, Tiers};
+use crate::model::{Building, Frame, Model, PlanFrame, SpaceFrame, Structure, Tiers};
+use crate::structure::MemberPlace;
 
 pub(super) fn check_members(faults: &mut Faults, model: &Model) {
     let request = &model.analysis.members;
     let has_frame = |building: &Building| match &building.structure {
         Structure::Frame(_) => true,
-        Structure::Tiers(tiers) => !tiers.frames.is_empty(),
+        Structure::Tiers(tiers) => !tiers.frames.is_empty() || tiers.space_frame.is_some(),
         Structure::Shear(_) | Structure::Given(_) => false,
     };
     faults.require(
@@ -35,6 +36,11 @@ fn fault_of(name: &str, model: &Model) -> Option<String> {
             model.buildings.first().map_or("J1", |first| &first.name)
         ));
     };
+    if let Structure::Tiers(tiers) = &building.structure
+        && let Some(frame) = &tiers.space_frame
+    {
+        return fault_in_space(name, &place, building, frame);
+    }
     if let Structure::Tiers(tiers) = &building.structure
         && !tiers.frames.is_empty()
     {
@@ -65,6 +71,26 @@ fn fault_in_plan(name: &str, place: &str, building: &Building, tiers: &Tiers) ->
     };
     let own = format!("{}.{}", building.name, frame.name);
     fault_in_frame(name, &place, &own, &frame.frame)
+}
+
+/// The same for a space frame.
+fn fault_in_space(
+    name: &str,
+    place: &str,
+    building: &Building,
+    frame: &SpaceFrame,
+) -> Option<String> {
+    let mut members = frame.members.iter();
+    let known = members.any(|own| MemberPlace::InSpace(own.place).to_string() == place);
+    (!known).then(|| {
+        format!(
+            "\"{name}\" is no member of \"{own}\"; it has {own}.column.X.Y.STOREY, {own}.beam_x.FLOOR.X.Y and {own}.beam_y.FLOOR.X.Y with lines x 1…{} and y 1…{}, storeys 1…{}, as far as they are not omitted; X and Y are the lines at which a beam begins",
+            frame.lines_x.len(),
+            frame.lines_y.len(),
+            building.floors(),
+            own = building.name
+        )
+    })
 }
 
 /// What is wrong with the place of a member in a frame of this name.

@@ -7,6 +7,7 @@ mod neighbours;
 mod plan;
 mod plan_frames;
 mod soil;
+mod space_frame;
 
 use members::check_members;
 use neighbours::check_neighbours;

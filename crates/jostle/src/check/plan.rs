@@ -1,6 +1,6 @@
 //! Faults of buildings with plans, and of gaps between them.
 
-use super::{Faults, each, plan_frames};
+use super::{Faults, each, plan_frames, space_frame};
 use crate::contact::LawKind;
 use crate::interface::faces_of_gap;
 use crate::interface::plan_contacts::MOST_POINTS;
@@ -27,7 +27,7 @@ pub(super) fn check_tiers(faults: &mut Faults, path: &str, tiers: &Tiers, buildi
     let n = tiers.floors.len();
     let at = |field: &str| format!("{path}.{field}");
     faults.require(n >= 1, at("mass"), || "needs at least one floor".into());
-    let has_frames = !tiers.frames.is_empty();
+    let has_frames = !tiers.frames.is_empty() || tiers.space_frame.is_some();
     for (field, count) in [
         ("stiffness", tiers.storeys.len()),
         ("storey_height", tiers.storey_heights.len()),
@@ -97,6 +97,7 @@ pub(super) fn check_tiers(faults: &mut Faults, path: &str, tiers: &Tiers, buildi
         );
     }
     plan_frames::check_plan_frames(faults, path, tiers, building);
+    space_frame::check_space_frame(faults, path, tiers, building);
     faults.require(building.base == Base::default(), at("base"), || {
         "is not possible for a building with a plan yet; leave it out, or give it to a frame".into()
     });

@@ -12,6 +12,7 @@ mod link_law;
 mod members;
 mod plan_frame;
 mod soil;
+mod space_frame;
 mod tiers;
 mod wall;
 
@@ -28,6 +29,7 @@ pub use link_law::LinkLaw;
 pub use members::{JointRequest, MemberRequest};
 pub use plan_frame::{LumpedFloor, PlanFrame, SharedColumn};
 pub use soil::{Foundation, FoundationSprings, HalfSpace, Soil, SoilCoupling};
+pub use space_frame::{SpaceFrame, SpaceMember, SpacePlace, SpaceSection};
 pub use tiers::{PlanArea, PlanElement, PlanPoint, Tier, TierStorey, Tiers};
 pub use wall::Wall;
 

@@ -1,6 +1,6 @@
 //! A building in space: floors that move in both horizontal directions and turn about a vertical axis.
 
-use super::{LumpedFloor, PlanFrame, STANDARD_GRAVITY};
+use super::{LumpedFloor, PlanFrame, STANDARD_GRAVITY, SpaceFrame};
 
 /// A point or a vector in plan: x along the row, y across it \[m\].
 pub type PlanPoint = [f64; 2];
@@ -25,6 +25,7 @@ pub type PlanPoint = [f64; 2];
 ///     storeys: vec![storey],
 ///     storey_heights: vec![3.2],
 ///     frames: Vec::new(),
+///     space_frame: None,
 /// };
 /// assert_eq!(tiers.floors.len(), tiers.storeys.len());
 /// ```
@@ -32,12 +33,14 @@ pub type PlanPoint = [f64; 2];
 pub struct Tiers {
     /// Floors from the ground up.
     pub floors: Vec<Tier>,
-    /// Storeys from the ground up, as many as floors; none where frames alone hold the floors.
+    /// Storeys from the ground up, as many as floors; none where frames alone, plane ones or a space frame, hold the floors.
     pub storeys: Vec<TierStorey>,
     /// Storey heights from the ground up, > 0 \[m\].
     pub storey_heights: Vec<f64>,
     /// Plane frames at lines of the plan, which hold the floors beside the springs of the storeys.
     pub frames: Vec<PlanFrame>,
+    /// Space frame that holds the floors, beside the springs of the storeys.
+    pub space_frame: Option<SpaceFrame>,
 }
 
 /// A floor in plan.
@@ -139,6 +142,9 @@ impl Tiers {
         self.frames
             .iter_mut()
             .for_each(|frame| shift(&mut frame.at));
+        if let Some(frame) = &mut self.space_frame {
+            shift(&mut frame.at);
+        }
     }
 
     /// What the weight above a storey, counted from 0, takes from its stiffness where P-Delta is included: (P/h) diag(1, 1, ρ²) at

@@ -3,21 +3,22 @@
 use super::capacity;
 use super::summarise::{Run, counted_impacts};
 use super::summary::{
-    ForcesSummary, MemberComparison, MemberSummary, SectionSummary, StruckSummary,
+    AcrossSummary, ForcesSummary, MemberComparison, MemberSummary, SectionSummary, StruckSummary,
 };
 use crate::interface::DofRow;
 use crate::stepping::Outcome;
 use crate::structure::{MemberPlace, MemberSection, MemberSections, SectionAt};
 use crate::system::BuildingSystem;
 
-/// Name of a section of a member: `foot`, `head`, `left`, `right`, `below` or `above`.
+/// Name of a section of a member: `foot`, `head`, `left`, `right`, `below` or `above`. The left end of a beam across is that at the
+/// smaller y.
 #[must_use]
 pub fn section_name(place: MemberPlace, at: SectionAt) -> &'static str {
-    match (place, at) {
-        (MemberPlace::Column { .. }, SectionAt::First) => "foot",
-        (MemberPlace::Column { .. }, SectionAt::Last) => "head",
-        (MemberPlace::Beam { .. }, SectionAt::First) => "left",
-        (MemberPlace::Beam { .. }, SectionAt::Last) => "right",
+    match (place.is_column(), at) {
+        (true, SectionAt::First) => "foot",
+        (true, SectionAt::Last) => "head",
+        (false, SectionAt::First) => "left",
+        (false, SectionAt::Last) => "right",
         (_, SectionAt::Below) => "below",
         (_, SectionAt::Above) => "above",
         (_, SectionAt::Core) => "core",
@@ -43,6 +44,14 @@ pub(super) fn members_of(index: usize, run: &Run) -> Vec<MemberSummary> {
             axial_min_n: axial[1],
             shear_peak_n: size(shear),
             moment_peak_n_m: size(moment),
+            across: section.across.map(|forms| {
+                let [shear, moment, torque] = forms.map(|form| size(extremes[form]));
+                AcrossSummary {
+                    shear_across_peak_n: shear,
+                    moment_across_peak_n_m: moment,
+                    torque_peak_n_m: torque,
+                }
+            }),
         }
     };
     let members = building.members.members.iter().enumerate();
@@ -86,7 +95,13 @@ fn compared(building: usize, member: &MemberSections, run: &Run) -> Option<Membe
         for section in &member.sections {
             let [axial, shear, moment] = section.forms.map(|form| extremes[form]);
             peaks[0] = peaks[0].max(-axial[1]);
-            for (peak, [greatest, least]) in peaks[1..].iter_mut().zip([shear, moment]) {
+            let across = section.across.map(|forms| forms.map(|form| extremes[form]));
+            let across = across
+                .into_iter()
+                .flat_map(|[shear, moment, _]| [shear, moment]);
+            let both = [shear, moment].into_iter().chain(across);
+            for (kind, [greatest, least]) in both.enumerate() {
+                let peak = &mut peaks[1 + kind % 2];
                 *peak = peak.max(greatest).max(-least);
             }
         }

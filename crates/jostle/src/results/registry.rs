@@ -8,11 +8,11 @@ use super::ground::GroundSummary;
 use super::in_plan::{BuildingInPlan, FloorInPlan};
 use super::response::{BuildingResponse, FloorResponse};
 use super::summary::{
-    AcceptanceSummary, AxialFailureSummary, BuildingSummary, CapacitySummary, ContactSummary,
-    EnergySummary, ExceededSummary, FloorSummary, ForcesSummary, FoundationSummary, GapSummary,
-    HingeSummary, ImpactSummary, IsolationSummary, JointRatio, JointSummary, LinkFloorSummary,
-    LinkSummary, MemberComparison, MotionSummary, PromiseSummary, RatioPlace, RatioSummary,
-    SectionSummary, SpringSummary, StruckSummary, Summary, WallSummary, WorkSummary,
+    AcceptanceSummary, AcrossSummary, AxialFailureSummary, BuildingSummary, CapacitySummary,
+    ContactSummary, EnergySummary, ExceededSummary, FloorSummary, ForcesSummary, FoundationSummary,
+    GapSummary, HingeSummary, ImpactSummary, IsolationSummary, JointRatio, JointSummary,
+    LinkFloorSummary, LinkSummary, MemberComparison, MotionSummary, PromiseSummary, RatioPlace,
+    RatioSummary, SectionSummary, SpringSummary, StruckSummary, Summary, WallSummary, WorkSummary,
 };
 use crate::quantity::{Places, Quantity};
 
@@ -73,6 +73,7 @@ pub fn owners() -> Vec<Owner> {
         owner("Hinges of a building", "buildings[].hinges", None, "", &[entries(HingeSummary::QUANTITIES)]),
         owner("Hinges", "buildings[].hinges.list[]", Some("hinges.parquet"), "", &[entries(SpringSummary::QUANTITIES)]),
         owner("Sections of columns and beams", "buildings[].members[].ends[]", None, "", &[entries(SectionSummary::QUANTITIES)]),
+        owner("Sections of space frames", "buildings[].members[].ends[]", None, "", &[entries(AcrossSummary::QUANTITIES)]),
         owner("Columns and beams with contact and without", "buildings[].members[].compared", None, "", &[entries(MemberComparison::QUANTITIES)]),
         owner("Struck points of columns", "buildings[].members[].struck[]", None, "", &[entries(StruckSummary::QUANTITIES)]),
         owner("Forces of members at the worst instant", "buildings[].members[].at_worst[]", None, "", &[entries(ForcesSummary::QUANTITIES)]),

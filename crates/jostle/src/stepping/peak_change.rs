@@ -2,6 +2,7 @@
 
 use super::outcome::Outcome;
 use crate::history::{Extreme, FloorPeaks, FoundationPeaks, Impact, LinkTotals};
+use crate::structure::MemberSection;
 use crate::system::System;
 
 /// Weight of differences between parts of runs, which are usually larger than those of the peaks.
@@ -48,7 +49,8 @@ pub(super) fn change_of_peaks(system: &System, [a, b]: [&Outcome; 2]) -> f64 {
             .max(both(|peaks| peaks.rocking));
         for kind in 0..MEMBER_FORCES {
             let members = system.buildings[index].members.members.iter();
-            let forms = members.flat_map(|m| m.sections.iter().map(|section| section.forms[kind]));
+            let forms = members.flat_map(|m| m.sections.iter().flat_map(MemberSection::by_kind));
+            let forms = forms.filter(|(own, _)| *own == kind).map(|(_, form)| form);
             let pairs = forms.flat_map(|form| {
                 let [a, b] = [a, b].map(|run| run.members[index][form]);
                 [0, 1].map(|side| [a[side], b[side]])

@@ -1,7 +1,10 @@
 //! From a building as described to lumped masses and massless elements.
 
+use std::sync::Arc;
+
 use super::element::{THETA, X};
 use super::member_forces::{FrameMember, MemberPlace};
+use super::space_frame::CondensedFrame;
 use super::spring_place::{BaseMotion, MemberEnd, SpringPlace};
 use super::stick_model::{Coupling, Hinge, Member, Node, Spring, StickModel, Support};
 use super::tiers::discretize_tiers;
@@ -36,6 +39,8 @@ pub struct Discretization {
     pub frames: Vec<String>,
     /// Columns that two of these frames share.
     pub shared_columns: Vec<SharedColumn>,
+    /// The space frame that holds the floors.
+    pub space_frame: Option<Arc<CondensedFrame>>,
 }
 
 /// A mat on bearings.
@@ -116,6 +121,7 @@ impl Discretization {
             centres: Vec::new(),
             frames: Vec::new(),
             shared_columns: Vec::new(),
+            space_frame: None,
         }
     }
 
@@ -371,6 +377,7 @@ pub(super) fn discretize_frame(
         centres: Vec::new(),
         frames: Vec::new(),
         shared_columns: Vec::new(),
+        space_frame: None,
     };
     // Hinges come before springs, in the order of the stick model.
     let at_the_base =
@@ -561,6 +568,7 @@ fn discretize_given(given: &Given) -> Discretization {
         centres: Vec::new(),
         frames: Vec::new(),
         shared_columns: Vec::new(),
+        space_frame: None,
         foot: Some(ground),
         mat: None,
         left_face: floors.clone(),
@@ -645,5 +653,6 @@ fn discretize_shear(shear: &Shear, base: &Base, springs: &[Hysteresis]) -> Discr
         centres: Vec::new(),
         frames: Vec::new(),
         shared_columns: Vec::new(),
+        space_frame: None,
     }
 }

@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
-use crate::model::SharedColumn;
+use crate::model::{SharedColumn, SpacePlace};
 use crate::structure::element::{self, ElementStiffness, Part, THETA, X, Y};
-use crate::structure::{AssembledBuilding, Member, MemberEnd, SpringPlace};
+use crate::structure::{AssembledBuilding, CondensedFrame, Member, MemberEnd, SpringPlace};
 
 /// Where a column or a beam of a frame is; all count from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,6 +23,19 @@ pub enum MemberPlace {
         /// Span, from the left.
         span: usize,
     },
+    /// A column or a beam of a space frame, whose place counts from 0.
+    InSpace(SpacePlace),
+}
+
+impl MemberPlace {
+    /// Whether it is a column.
+    #[must_use]
+    pub fn is_column(self) -> bool {
+        matches!(
+            self,
+            Self::Column { .. } | Self::InSpace(SpacePlace::Column { .. })
+        )
+    }
 }
 
 impl std::fmt::Display for MemberPlace {
@@ -30,6 +43,15 @@ impl std::fmt::Display for MemberPlace {
         match self {
             Self::Column { line, storey } => write!(formatter, "column.{line}.{storey}"),
             Self::Beam { floor, span } => write!(formatter, "beam.{floor}.{span}"),
+            Self::InSpace(place) => {
+                let [[x, y], _] = place.crossings();
+                let (x, y, level) = (x + 1, y + 1, place.storey() + 1);
+                match place {
+                    SpacePlace::Column { .. } => write!(formatter, "column.{x}.{y}.{level}"),
+                    SpacePlace::BeamX { .. } => write!(formatter, "beam_x.{level}.{x}.{y}"),
+                    SpacePlace::BeamY { .. } => write!(formatter, "beam_y.{level}.{x}.{y}"),
+                }
+            }
         }
     }
 }
@@ -71,6 +93,17 @@ pub struct MemberSection {
     pub dof: Option<usize>,
     /// Axial force, shear and moment: indices into [`MemberForces::forms`].
     pub forms: [usize; 3],
+    /// Shear and moment in the plane across, and torque, of a member of a space frame.
+    pub across: Option<[usize; 3]>,
+}
+
+impl MemberSection {
+    /// All its forces by their kind: 0 axial, 1 shear, 2 moment or torque.
+    pub(crate) fn by_kind(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
+        let own = self.forms.into_iter().enumerate();
+        let across = self.across.into_iter().flatten();
+        own.chain([1, 2, 2].into_iter().zip(across))
+    }
 }
 
 /// The sections of one member: its two ends, then below and above every struck point, from the lowest up.
@@ -88,7 +121,8 @@ pub struct MemberSections {
 
 impl MemberSections {
     /// Its name within the building: `column.LINE.STOREY` or `beam.FLOOR.SPAN`, with the name of its frame before where frames
-    /// stand in a plan. `frames`: their names.
+    /// stand in a plan; `column.X.Y.STOREY`, `beam_x.FLOOR.X.Y` or `beam_y.FLOOR.X.Y` in a space frame, with the lines at which it
+    /// begins. `frames`: names of frames in plan.
     #[must_use]
     pub fn local_name(&self, frames: &[String]) -> String {
         match self.frame.and_then(|frame| frames.get(frame)) {
@@ -122,6 +156,10 @@ impl std::fmt::Display for JointCore {
 /// horizontal and positive when the building leans to the right, P-Delta included. A moment is positive where it
 /// stretches the bottom of a beam or the right face of a column. At an end with a hinge that yields, it is that of the
 /// hinge.
+///
+/// Members of a space frame have the same forces in the vertical plane along the lines x (columns) or in their own (beams), and in
+/// the plane across, where further across takes the place of right. Their torque is positive where it turns the last end
+/// counter-clockwise against the first, seen from the last end.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MemberForces {
     /// Columns and beams, storey by storey from the ground up, columns first; empty unless asked for.
@@ -223,6 +261,9 @@ impl MemberForces {
         struck: impl Fn(usize) -> bool,
     ) -> Self {
         let mut forces = Self::default();
+        if let Some(frame) = &building.discretization.space_frame {
+            forces.add_space_frame(building, frame);
+        }
         if building.discretization.members.is_empty() {
             return forces;
         }
@@ -255,6 +296,7 @@ impl MemberForces {
                     height: stick_model.nodes[node].y,
                     dof: building.equations.horizontal(node),
                     forms: forms.map(|form| forces.index_of(form)),
+                    across: None,
                 }
             });
             let sections = sections.collect();
@@ -267,6 +309,65 @@ impl MemberForces {
         }
         forces.share_columns(&building.discretization.shared_columns);
         forces
+    }
+
+    /// Adds the members of a space frame: their forces follow from the motions of the floors.
+    fn add_space_frame(&mut self, building: &AssembledBuilding, frame: &CondensedFrame) {
+        let equations = &building.equations;
+        let floors = &building.discretization.floors;
+        let of_floor = |floor: &usize| [X, Y, THETA].map(|component| (*floor, component));
+        let dofs = floors.iter().flat_map(of_floor);
+        let dofs: Vec<Option<usize>> = dofs.map(|place| equations.dof(place)).collect();
+        let nothing = self.index_of(LinearForm::default());
+        for member in &frame.members {
+            // Every row occurs once.
+            let mut add = |row: &[f64]| {
+                let entries = dofs.iter().zip(row);
+                let entries = entries.filter_map(|(dof, share)| Some(((*dof)?, *share)));
+                let mut displacement: Vec<(usize, f64)> = entries.collect();
+                displacement.retain(|(_, share)| *share != 0.0);
+                if displacement.is_empty() {
+                    return nothing;
+                }
+                self.forms.push(LinearForm {
+                    displacement,
+                    ..LinearForm::default()
+                });
+                self.forms.len() - 1
+            };
+            let (axial, torsion) = (add(&member.axial), add(&member.torsion));
+            let shear = add(&member.bending.shear);
+            let shear_across = member.across.as_ref().map(|own| add(&own.shear));
+            let place = MemberPlace::InSpace(member.place);
+            let level = member.place.storey();
+            let sections = [SectionAt::First, SectionAt::Last].into_iter().enumerate();
+            let sections = sections.map(|(side, at)| {
+                let moment = add(&member.bending.moments[side]);
+                let across = member.across.as_ref().map(|own| add(&own.moments[side]));
+                let floor = match (place.is_column(), side) {
+                    (true, 0) => level.checked_sub(1),
+                    _ => Some(level),
+                };
+                MemberSection {
+                    at,
+                    height: member.heights[side],
+                    dof: floor.and_then(|floor| equations.horizontal(floors[floor])),
+                    forms: [axial, shear, moment],
+                    across: Some([
+                        shear_across.unwrap_or(nothing),
+                        across.unwrap_or(nothing),
+                        torsion,
+                    ]),
+                }
+            });
+            let sections = sections.collect();
+            self.members.push(MemberSections {
+                frame: None,
+                place,
+                sections,
+                shared: None,
+            });
+        }
     }
 
     /// Adds up the axial forces that two frames give to one column.
@@ -344,6 +445,7 @@ impl MemberForces {
             height: below.height,
             dof: below.dof,
             forms: forms.map(|form| self.index_of(form)),
+            across: None,
         };
         self.joints.push(JointCore {
             line,
@@ -472,6 +574,7 @@ impl<'a> Cuts<'a> {
                     bay: span,
                     end,
                 },
+                MemberPlace::InSpace(_) => return None,
             };
             let mut places = self.building.discretization.spring_places.iter();
             places.position(|place| *place == hinge)

@@ -9,6 +9,7 @@ mod member_end;
 mod member_forces;
 mod path;
 mod plan_frames;
+mod space_frame;
 mod spring_place;
 mod step_equations;
 mod stick_model;
@@ -26,6 +27,7 @@ pub use member_forces::{
     FrameMember, JointCore, LinearForm, MemberForces, MemberPlace, MemberSection, MemberSections,
     SectionAt,
 };
+pub use space_frame::{Bending, CondensedFrame, CondensedJoint, CondensedMember};
 pub use spring_place::{BaseMotion, MemberEnd, SpringPlace};
 pub use step_equations::{StepEquations, solve_once};
 pub use stick_model::{

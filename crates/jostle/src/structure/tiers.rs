@@ -1,8 +1,11 @@
 //! A shear building in space as lumped masses and entries of its matrix.
 
+use std::sync::Arc;
+
 use super::discretization::Discretization;
 use super::element::{THETA, X, Y};
 use super::plan_frames::add_frames;
+use super::space_frame::condense;
 use super::stick_model::{Coupling, Node, StickModel, Support};
 use crate::model::{Gravity, LumpedFloor, PlanPoint, TierStorey, Tiers};
 
@@ -51,6 +54,11 @@ pub(super) fn discretize_tiers(tiers: &Tiers, gravity: Gravity) -> Discretizatio
             matrix.add_storey(&lumped, index, &softening, Part::Softening);
         }
     }
+    let condensed = tiers.space_frame.as_ref().and_then(|frame| {
+        let (stiffness, own) = condense(frame, &tiers.storey_heights, &lumped)?;
+        matrix.add_stiffness(&stiffness);
+        Some(Arc::new(own))
+    });
     stick_model.couplings = matrix.couplings(ground, &floors);
     let mut discretization = Discretization {
         stick_model,
@@ -64,6 +72,7 @@ pub(super) fn discretize_tiers(tiers: &Tiers, gravity: Gravity) -> Discretizatio
         members: Vec::new(),
         frames: Vec::new(),
         shared_columns: Vec::new(),
+        space_frame: condensed,
     };
     add_frames(tiers, &lumped, &mut discretization);
     discretization
@@ -76,7 +85,7 @@ enum Part {
     Softening,
 }
 
-/// A symmetric matrix over three displacements of every floor, in parts; block tridiagonal.
+/// A symmetric matrix over three displacements of every floor, in parts; block tridiagonal without a space frame.
 struct PlanMatrix {
     rows: Vec<Vec<[f64; 2]>>,
 }
@@ -107,6 +116,15 @@ impl PlanMatrix {
             for (column, b) in &places[..=i] {
                 let value: f64 = (0..3).map(|r| storey.stiffness[r] * a[r] * b[r]).sum();
                 self.rows[*row][*column][part as usize] += value;
+            }
+        }
+    }
+
+    /// Adds a lower triangle of stiffness over all displacements.
+    fn add_stiffness(&mut self, triangle: &[Vec<f64>]) {
+        for (row, own) in self.rows.iter_mut().zip(triangle) {
+            for (entry, value) in row.iter_mut().zip(own) {
+                entry[Part::Stiffness as usize] += value;
             }
         }
     }

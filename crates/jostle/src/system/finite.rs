@@ -1,6 +1,7 @@
 //! Results of assembly that are not finite, with their cause.
 
 use crate::model::{Building, ModelFault, Structure};
+use crate::structure::MemberPlace;
 use crate::system::{BuildingSystem, System};
 
 /// Impact speed at which the duration of an impact is checked \[m/s\].
@@ -93,8 +94,16 @@ fn cause(building: &Building) -> String {
                     (name, 12.0 * section.flexural_rigidity / height.powi(3))
                 })
             });
+            let in_space = tiers.space_frame.iter().flat_map(|own| {
+                own.members.iter().map(|member| {
+                    let length = own.length(member.place, &tiers.storey_heights);
+                    let [first, second] = member.section.flexural_rigidity;
+                    let least = 12.0 * first.min(second) / length.powi(3);
+                    (MemberPlace::InSpace(member.place).to_string(), least)
+                })
+            });
             (
-                storeys.chain(columns).collect(),
+                storeys.chain(columns).chain(in_space).collect(),
                 floors
                     .map(|(i, floor)| (format!("floor {}", i + 1), floor.mass))
                     .collect(),

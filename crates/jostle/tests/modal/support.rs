@@ -89,6 +89,7 @@ pub(crate) fn assembled(stick_model: StickModel, floors: Vec<usize>) -> Building
         centres: Vec::new(),
         frames: Vec::new(),
         shared_columns: Vec::new(),
+        space_frame: None,
         stick_model,
         left_face: floors.clone(),
         right_face: floors.clone(),

@@ -253,6 +253,7 @@ fn clamped_beam(length: f64, mass: f64, moment: f64) -> BuildingSystem {
         centres: Vec::new(),
         frames: Vec::new(),
         shared_columns: Vec::new(),
+        space_frame: None,
     };
     BuildingSystem::new("beam", discretization)
 }

@@ -55,6 +55,7 @@ impl Site {
                 storeys: vec![storey],
                 storey_heights: vec![3.0],
                 frames: Vec::new(),
+                space_frame: None,
             }),
             damping: Damping::Rayleigh {
                 alpha: 0.5,

@@ -45,6 +45,7 @@ fn between_stops(mass: f64, stiffness: f64, stop: Stop) -> System {
         centres: Vec::new(),
         frames: Vec::new(),
         shared_columns: Vec::new(),
+        space_frame: None,
         stick_model,
         floors: vec![1],
         left_face: vec![1],

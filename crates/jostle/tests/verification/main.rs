@@ -28,6 +28,7 @@ mod rows_of_buildings;
 mod same_input_same_bits;
 mod series_stepping;
 mod space;
+mod space_frames;
 mod storey_forces;
 mod support;
 mod total_force_of_a_gap;

@@ -59,6 +59,7 @@ fn in_plan(slab: f64, plan: &[PlanPoint], storeys: usize, frames: Vec<PlanFrame>
         storeys: Vec::new(),
         storey_heights: vec![3.2; storeys],
         frames,
+        space_frame: None,
     })
 }
 
@@ -504,6 +505,7 @@ fn without_symmetry(columns_flexible: bool) -> (Tiers, Vec<PlanFrame>) {
         storeys: vec![core; n],
         storey_heights: vec![3.2; n],
         frames: frames.clone(),
+        space_frame: None,
     };
     (tiers, frames)
 }

@@ -71,6 +71,7 @@ fn tower(
             storeys: vec![storey; storeys],
             storey_heights: vec![3.0; storeys],
             frames: Vec::new(),
+            space_frame: None,
         }),
     )
 }

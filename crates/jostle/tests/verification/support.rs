@@ -313,6 +313,7 @@ pub(crate) fn slider(name: &str, mass: f64, stiffness: Option<f64>) -> BuildingS
         centres: Vec::new(),
         frames: Vec::new(),
         shared_columns: Vec::new(),
+        space_frame: None,
         stick_model,
         floors: vec![1],
         left_face: vec![1],

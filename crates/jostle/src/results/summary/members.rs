@@ -9,7 +9,7 @@ use crate::quantity::{Quantity, Unit};
 #[derive(Clone, Debug, Serialize, PartialEq)]
 pub struct MemberSummary {
     /// `J1.column.LINE.STOREY` or `J1.beam.FLOOR.SPAN`, counted from 1; `J1.FRAME.column.LINE.STOREY` and so on where frames
-    /// stand in a plan.
+    /// stand in a plan; `J1.column.X.Y.STOREY`, `J1.beam_x.FLOOR.X.Y` and `J1.beam_y.FLOOR.X.Y` in a space frame.
     pub name: String,
     /// Name of the column that two frames share, whose axial forces are those of both frames together; absent for others.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -114,6 +114,30 @@ pub struct SectionSummary {
     pub shear_peak_n: f64,
     /// Greatest moment, either sign \[N·m\].
     pub moment_peak_n_m: f64,
+    /// Forces across, of a member of a space frame.
+    #[serde(flatten)]
+    pub across: Option<AcrossSummary>,
+}
+
+/// Greatest forces at a section of a member of a space frame, beside those in its first plane.
+#[derive(Clone, Copy, Debug, Serialize, PartialEq)]
+pub struct AcrossSummary {
+    /// Greatest shear in the plane across, either sign \[N\].
+    pub shear_across_peak_n: f64,
+    /// Greatest moment in the plane across, either sign \[N·m\].
+    pub moment_across_peak_n_m: f64,
+    /// Greatest torque, either sign \[N·m\].
+    pub torque_peak_n_m: f64,
+}
+
+#[rustfmt::skip]
+impl AcrossSummary {
+    /// Its numbers.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::real("shear_across_peak_n", Unit::N, "greatest shear in the plane across", |s| s.shear_across_peak_n),
+        Quantity::<Self>::real("moment_across_peak_n_m", Unit::NM, "greatest moment in the plane across", |s| s.moment_across_peak_n_m),
+        Quantity::<Self>::real("torque_peak_n_m", Unit::NM, "greatest torque", |s| s.torque_peak_n_m),
+    ];
 }
 
 #[rustfmt::skip]

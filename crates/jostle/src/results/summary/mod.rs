@@ -27,7 +27,9 @@ pub use hinges::{HingeSummary, SpringSummary};
 pub use isolation::{Floors, IsolationSummary, WallSummary};
 pub use joints::{JointRatio, JointSummary};
 pub use links::{LinkFloorSummary, LinkSummary};
-pub use members::{ForcesSummary, MemberComparison, MemberSummary, SectionSummary, StruckSummary};
+pub use members::{
+    AcrossSummary, ForcesSummary, MemberComparison, MemberSummary, SectionSummary, StruckSummary,
+};
 
 use serde::Serialize;
 

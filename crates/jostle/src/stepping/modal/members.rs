@@ -13,6 +13,7 @@ use crate::history::MemberHistory;
 use crate::simd;
 use crate::state::ContactPhase;
 use crate::stepping::member_ratios::MemberRatios;
+use crate::structure::MemberSection;
 use crate::system::{BuildingSystem, GroundsAt, System};
 
 /// Axial force, shear, moment.
@@ -128,8 +129,8 @@ impl MemberRows {
         let mut kind_of = vec![0; forms.len()];
         let members = building.members.members.iter();
         for section in members.flat_map(|member| &member.sections) {
-            for (kind, form) in section.forms.iter().enumerate() {
-                kind_of[*form] = kind;
+            for (kind, form) in section.by_kind() {
+                kind_of[form] = kind;
             }
         }
         for joint in &building.members.joints {
@@ -357,7 +358,7 @@ impl MemberPeaks {
         let mut wanted: Vec<Vec<bool>> = sizes().map(|n| vec![false; n]).collect();
         for [building, member] in &system.members_followed {
             let member = &system.buildings[*building].members.members[*member];
-            for form in member.sections.iter().flat_map(|section| section.forms) {
+            for (_, form) in member.sections.iter().flat_map(MemberSection::by_kind) {
                 wanted[*building][form] = true;
             }
         }

@@ -1,0 +1,398 @@
+//! `kind = "space-frame"`: columns at the crossings of grid lines, beams along the lines.
+
+use std::collections::BTreeMap;
+
+use jostle::{PlanPoint, SpaceFrame, SpaceMember, SpacePlace, SpaceSection};
+
+use super::frame::{flexible_members, read_poisson_ratio, stiffness_factors};
+use super::plan::pair;
+use super::section::read_modulus;
+use crate::keys::{AXIAL, Section};
+use crate::quantity::Dimension;
+use crate::reader::{Field, Reader, View};
+
+/// Most lines in one direction.
+const MOST_LINES: usize = 60;
+
+/// Distance from a plan up to which columns and beams belong to it \[m\].
+const BESIDE: f64 = 0.01;
+
+/// The lines of a grid, and how it stands.
+pub(super) struct Grid {
+    pub(super) lines: [Vec<f64>; 2],
+    /// Unit vector of its lines along x on the site.
+    pub(super) direction: PlanPoint,
+}
+
+impl Grid {
+    /// Reads `lines_x`, `lines_y` and `angle`.
+    pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>) -> Self {
+        let lines = ["lines_x", "lines_y"].map(|key| read_lines(reader, view, key));
+        let angle = reader
+            .get(view, "angle")
+            .and_then(|field| reader.quantity(&field, Dimension::Dimensionless));
+        let direction = angle.map_or([1.0, 0.0], |angle| [angle.cos(), angle.sin()]);
+        Self { lines, direction }
+    }
+
+    /// The rectangle of its outer lines.
+    pub(super) fn rectangle(&self) -> Vec<PlanPoint> {
+        let [[x0, x1], [y0, y1]] = self.lines.each_ref().map(|lines| {
+            let first = lines.first().copied().unwrap_or(0.0);
+            [first, lines.last().copied().unwrap_or(first)]
+        });
+        vec![[x0, y0], [x1, y0], [x1, y1], [x0, y1]]
+    }
+
+    /// Turns a point of the plan about its origin as the grid is turned.
+    pub(super) fn turned(&self, [x, y]: PlanPoint) -> PlanPoint {
+        let [c, s] = self.direction;
+        [c * x - s * y, s * x + c * y]
+    }
+}
+
+fn read_lines(reader: &mut Reader<'_>, view: &View<'_>, key: &'static str) -> Vec<f64> {
+    const STAND_IN: [f64; 2] = [0.0, 6.0];
+    let Some(field) = reader.get(view, key) else {
+        let across = if key == "lines_x" { "x" } else { "y" };
+        reader.missing(
+            view,
+            key,
+            format!("add where the grid lines stand along {across}: {key} = [\"0 m\", \"6 m\", \"11 m\"]"),
+        );
+        return STAND_IN.to_vec();
+    };
+    let Some(entries) = field.entries().filter(|list| !list.is_empty()) else {
+        let found = field.node.describe();
+        *reader.bad(
+            &field,
+            format!("expected a list of places of lines, found {found}"),
+        ) = Some(format!("write {key} = [\"0 m\", \"6 m\", \"11 m\"]"));
+        return STAND_IN.to_vec();
+    };
+    if entries.len() > MOST_LINES {
+        let count = entries.len();
+        reader.bad(
+            &field,
+            format!("has {count} lines; at most {MOST_LINES} are possible"),
+        );
+        return STAND_IN.to_vec();
+    }
+    let mut lines = Vec::with_capacity(entries.len());
+    for entry in &entries {
+        let Some(line) = reader.quantity(entry, Dimension::Length) else {
+            return STAND_IN.to_vec();
+        };
+        lines.push(line);
+    }
+    lines
+}
+
+/// Material and flexibility of columns or beams.
+#[derive(Clone, Copy)]
+struct Material {
+    modulus: Option<f64>,
+    /// Whether a fault of the modulus was noted.
+    modulus_is_bad: bool,
+    poisson_ratio: f64,
+    /// Factor on EI, and on GJ.
+    factors: [f64; 2],
+    shears: bool,
+}
+
+/// Columns, beams along x, beams across.
+#[derive(Clone, Copy, PartialEq)]
+enum Sort {
+    Column,
+    BeamX,
+    BeamY,
+}
+
+impl Sort {
+    const ALL: [Self; 3] = [Self::Column, Self::BeamX, Self::BeamY];
+
+    fn key(self) -> &'static str {
+        match self {
+            Self::Column => "column",
+            Self::BeamX => "beam_x",
+            Self::BeamY => "beam_y",
+        }
+    }
+
+    /// The place that begins at a crossing.
+    fn place(self, [x, y]: [usize; 2], storey: usize) -> SpacePlace {
+        match self {
+            Self::Column => SpacePlace::Column {
+                line: [x, y],
+                storey,
+            },
+            Self::BeamX => SpacePlace::BeamX {
+                span: x,
+                line: y,
+                floor: storey,
+            },
+            Self::BeamY => SpacePlace::BeamY {
+                line: x,
+                span: y,
+                floor: storey,
+            },
+        }
+    }
+}
+
+/// Reads columns and beams. `plans`: those of the floors in the axes of the grid; what lies outside of them does not exist.
+pub(super) fn read(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    grid: Grid,
+    plans: &[Vec<PlanPoint>],
+) -> SpaceFrame {
+    let (modulus, modulus_is_bad) = read_modulus(reader, view);
+    let (column_factor, beam_factor) = stiffness_factors(reader, view);
+    let shears = flexible_members(reader, view, "shear", Section::ShearDeformation);
+    let torsion = reader
+        .get(view, "torsion_factor")
+        .and_then(|field| reader.positive(&field, Dimension::Dimensionless));
+    let poisson_ratio = read_poisson_ratio(reader, view);
+    let stretches = reader
+        .get(view, "axial")
+        .is_none_or(|field| reader.choice(&field, AXIAL, &[]) != Some("rigid"));
+    let mut members = Vec::new();
+    for sort in Sort::ALL {
+        let is_column = sort == Sort::Column;
+        let material = Material {
+            modulus,
+            modulus_is_bad,
+            poisson_ratio,
+            factors: [
+                if is_column {
+                    column_factor
+                } else {
+                    beam_factor
+                },
+                torsion.unwrap_or(1.0),
+            ],
+            shears: if is_column { shears.0 } else { shears.1 },
+        };
+        let own = read_sort(reader, view, sort, &grid, plans, material);
+        members.extend(own.into_iter().map(|(place, mut section)| {
+            if is_column && !stretches {
+                section.axial_rigidity = None;
+            }
+            SpaceMember { place, section }
+        }));
+    }
+    let [lines_x, lines_y] = grid.lines;
+    SpaceFrame {
+        at: [0.0, 0.0],
+        direction: grid.direction,
+        lines_x,
+        lines_y,
+        members,
+    }
+}
+
+/// Members of one sort: a table for all places, or a list of tables, each for the places that it names.
+fn read_sort(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    sort: Sort,
+    grid: &Grid,
+    plans: &[Vec<PlanPoint>],
+    material: Material,
+) -> BTreeMap<SpacePlace, SpaceSection> {
+    let mut found = BTreeMap::new();
+    let [nx, ny] = grid.lines.each_ref().map(Vec::len);
+    // Crossings at which a member begins.
+    let counts = match sort {
+        Sort::Column => [nx, ny],
+        Sort::BeamX => [nx - 1, ny],
+        Sort::BeamY => [nx, ny - 1],
+    };
+    let Some(field) = reader.get(view, sort.key()) else {
+        if counts[0] * counts[1] > 0 {
+            let example = match sort {
+                Sort::Column => "size = [\"500 mm\", \"500 mm\"]",
+                _ => "width = \"300 mm\", depth = \"600 mm\"",
+            };
+            reader.missing(
+                view,
+                sort.key(),
+                format!("add {} = {{ {example} }}", sort.key()),
+            );
+        }
+        return found;
+    };
+    let entries = field.entries().unwrap_or_else(|| vec![field.clone()]);
+    for entry in &entries {
+        let sections: &'static [Section] = match sort {
+            Sort::Column => &[Section::SpaceColumn],
+            _ => &[Section::SpaceBeam],
+        };
+        let Some(own) = reader.open(entry, sections) else {
+            continue;
+        };
+        let omit = reader
+            .get(&own, "omit")
+            .is_some_and(|field| reader.flag(&field).unwrap_or(false));
+        let section = if omit {
+            None
+        } else {
+            match read_section(reader, &own, sort, material) {
+                Some(section) => Some(section),
+                None => continue,
+            }
+        };
+        let most = [("x", counts[0]), ("y", counts[1]), ("storeys", plans.len())];
+        let ranges = most.map(|(key, most)| match reader.get(&own, key) {
+            Some(field) => read_range(reader, &field, most),
+            None => Some([1, most]),
+        });
+        let [Some(x), Some(y), Some(storeys)] = ranges else {
+            continue;
+        };
+        let mut matched = false;
+        for storey in storeys[0] - 1..storeys[1] {
+            for y in y[0] - 1..y[1] {
+                for x in x[0] - 1..x[1] {
+                    let place = sort.place([x, y], storey);
+                    if !lies_in(place, grid, &plans[storey]) {
+                        continue;
+                    }
+                    matched = true;
+                    match section {
+                        Some(section) => found.insert(place, section),
+                        None => found.remove(&place),
+                    };
+                }
+            }
+        }
+        if !matched && counts[0] * counts[1] > 0 {
+            *reader.bad(entry, "names no place within the plan") =
+                Some("check x, y and storeys, or plan".into());
+        }
+    }
+    found
+}
+
+/// Whether both ends of a member, and its middle, lie in a plan.
+fn lies_in(place: SpacePlace, grid: &Grid, plan: &[PlanPoint]) -> bool {
+    let at = |[x, y]: [usize; 2]| [grid.lines[0][x], grid.lines[1][y]];
+    let [a, b] = place.crossings().map(at);
+    let middle = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
+    [a, middle, b].iter().all(|point| contains(plan, *point))
+}
+
+/// Whether a point lies in a polygon, or on its edge.
+fn contains(plan: &[PlanPoint], [x, y]: PlanPoint) -> bool {
+    let next = plan.iter().cycle().skip(1);
+    let mut inside = false;
+    for (a, b) in plan.iter().zip(next) {
+        let along = [b[0] - a[0], b[1] - a[1]];
+        let length = along[0].hypot(along[1]);
+        let from = [x - a[0], y - a[1]];
+        let share = (from[0] * along[0] + from[1] * along[1]) / (length * length);
+        let share = share.clamp(0.0, 1.0);
+        let away = (from[0] - share * along[0]).hypot(from[1] - share * along[1]);
+        if away <= BESIDE {
+            return true;
+        }
+        if (a[1] > y) != (b[1] > y) {
+            let crossing = a[0] + (y - a[1]) / (b[1] - a[1]) * along[0];
+            inside ^= x < crossing;
+        }
+    }
+    inside
+}
+
+/// A number, or the first and the last, counted from 1.
+fn read_range(reader: &mut Reader<'_>, field: &Field<'_>, most: usize) -> Option<[usize; 2]> {
+    let range = match field.entries() {
+        None => {
+            let single = reader.count(field)?;
+            [single, single]
+        }
+        Some(entries) => {
+            let [from, to] = &entries[..] else {
+                reader.bad(
+                    field,
+                    "expected a number, or the first and the last, such as [1, 3]",
+                );
+                return None;
+            };
+            [reader.count(from)?, reader.count(to)?]
+        }
+    };
+    if range[0] == 0 || range[1] < range[0] || range[1] > most {
+        *reader.bad(
+            field,
+            format!(
+                "must rise and lie between 1 and {most}, found {} to {}",
+                range[0], range[1]
+            ),
+        ) = Some("count lines, spans and storeys from 1; a beam has the number of the line at which it begins".into());
+        return None;
+    }
+    Some(range)
+}
+
+fn read_section(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    sort: Sort,
+    material: Material,
+) -> Option<SpaceSection> {
+    let size = if sort == Sort::Column {
+        match reader.get(view, "size") {
+            Some(field) => pair(reader, &field).and_then(|size| {
+                if size.iter().all(|side| *side > 0.0) {
+                    return Some(size);
+                }
+                reader.bad(&field, "must be greater than 0 m");
+                None
+            }),
+            None => {
+                reader.missing(
+                    view,
+                    "size",
+                    "add the sizes along x and across: size = [\"500 mm\", \"500 mm\"]; or omit = true",
+                );
+                None
+            }
+        }
+    } else {
+        let [width, depth] = [("width", "300 mm"), ("depth", "600 mm")].map(|(key, example)| {
+            match reader.get(view, key) {
+                Some(field) => reader.positive(&field, Dimension::Length),
+                None => {
+                    reader.missing(
+                        view,
+                        key,
+                        format!("add {key} = \"{example}\"; or omit = true"),
+                    );
+                    None
+                }
+            }
+        });
+        width.zip(depth).map(|(width, depth)| [width, depth])
+    };
+    let (own, own_is_bad) = read_modulus(reader, view);
+    let Some(modulus) = own.or(material.modulus) else {
+        if !material.modulus_is_bad && !own_is_bad {
+            let place = view.span.clone();
+            *reader.fault(&place, view.path.clone(), "needs a modulus of elasticity") = Some(
+                "add elastic_modulus = \"30 GPa\" or concrete = \"C30\" to the building".into(),
+            );
+        }
+        return None;
+    };
+    let (nu, shears) = (material.poisson_ratio, material.shears);
+    let mut section = match sort {
+        Sort::Column => SpaceSection::rectangle(size?, modulus, nu, shears),
+        _ => SpaceSection::beam(size?, modulus, nu, shears),
+    }?;
+    let [bending, torsion] = material.factors;
+    section.flexural_rigidity = section.flexural_rigidity.map(|own| bending * own);
+    section.torsional_rigidity *= torsion;
+    Some(section)
+}

@@ -1,0 +1,186 @@
+//! Faults of space frames.
+
+use std::collections::BTreeSet;
+
+use super::Faults;
+use crate::model::{Building, SpaceFrame, SpacePlace, Tiers};
+
+/// Least distance of two lines \[m\].
+const APART: f64 = 0.01;
+
+/// Most joints: crossings of lines, times floors.
+const MOST_JOINTS: usize = 6000;
+
+pub(super) fn check_space_frame(
+    faults: &mut Faults,
+    path: &str,
+    tiers: &Tiers,
+    building: &Building,
+) {
+    let Some(frame) = &tiers.space_frame else {
+        return;
+    };
+    let before = faults.0.len();
+    check_lines(faults, path, frame, tiers.floors.len());
+    faults.require(!building.gravity.preload, format!("{path}.gravity"), || {
+        "is not possible with a space frame yet: forces of members are those of the motion; leave it out, or take p_delta alone".into()
+    });
+    for member in &frame.members {
+        let section = &member.section;
+        let shear = section.shear_rigidity.into_iter().flatten();
+        let stiff = section.flexural_rigidity.into_iter().chain(shear);
+        let stiff = stiff.chain(section.axial_rigidity);
+        let all = stiff.chain([section.torsional_rigidity]);
+        let mut all = all.chain(section.size);
+        faults.require(
+            all.all(|value| value.is_finite() && value > 0.0),
+            format!("{path}.{}", key(member.place)),
+            || {
+                format!(
+                    "of {} needs sizes and a modulus greater than 0",
+                    name(member.place)
+                )
+            },
+        );
+    }
+    if faults.0.len() > before {
+        return;
+    }
+    check_places(faults, path, frame, tiers.floors.len());
+    if faults.0.len() == before {
+        check_standing(faults, path, frame, tiers.floors.len());
+    }
+}
+
+/// The key of a member in a model file.
+fn key(place: SpacePlace) -> &'static str {
+    match place {
+        SpacePlace::Column { .. } => "column",
+        SpacePlace::BeamX { .. } => "beam_x",
+        SpacePlace::BeamY { .. } => "beam_y",
+    }
+}
+
+/// A place in words, counted from 1.
+fn name(place: SpacePlace) -> String {
+    let [[x, y], _] = place.crossings();
+    let (x, y, level) = (x + 1, y + 1, place.storey() + 1);
+    match place {
+        SpacePlace::Column { .. } => format!("the column at x = {x}, y = {y} in storey {level}"),
+        SpacePlace::BeamX { .. } => {
+            format!("the beam from x = {x} on line y = {y} at floor {level}")
+        }
+        SpacePlace::BeamY { .. } => {
+            format!("the beam from y = {y} on line x = {x} at floor {level}")
+        }
+    }
+}
+
+fn check_lines(faults: &mut Faults, path: &str, frame: &SpaceFrame, floors: usize) {
+    for (key, lines) in [("lines_x", &frame.lines_x), ("lines_y", &frame.lines_y)] {
+        let rising = lines.windows(2).all(|pair| pair[1] - pair[0] >= APART);
+        let finite = lines.iter().all(|line| line.is_finite());
+        faults.require(
+            !lines.is_empty() && finite && rising,
+            format!("{path}.{key}"),
+            || "must rise from line to line, by 10 mm at least, such as [\"0 m\", \"6 m\", \"11 m\"]".into(),
+        );
+    }
+    faults.require(
+        frame.lines_x.len() + frame.lines_y.len() > 2,
+        format!("{path}.lines_x"),
+        || "has a single line, as has lines_y: a space frame needs two columns at least".into(),
+    );
+    let joints = frame
+        .lines_x
+        .len()
+        .saturating_mul(frame.lines_y.len())
+        .saturating_mul(floors);
+    faults.require(joints <= MOST_JOINTS, format!("{path}.lines_x"), || {
+        format!(
+            "gives {joints} joints with lines_y and all floors; at most {MOST_JOINTS} are possible"
+        )
+    });
+    let length = frame.direction[0].hypot(frame.direction[1]);
+    let finite = frame.at.iter().all(|value| value.is_finite());
+    faults.require(
+        finite && (length - 1.0).abs() < 1e-9,
+        format!("{path}.angle"),
+        || "must be the angle from x of the site to the lines along x, counter-clockwise, such as \"30 deg\"".into(),
+    );
+}
+
+/// Places that the grid does not have, or that are taken twice.
+fn check_places(faults: &mut Faults, path: &str, frame: &SpaceFrame, floors: usize) {
+    let mut taken = BTreeSet::new();
+    for member in &frame.members {
+        let place = member.place;
+        let inside = place
+            .crossings()
+            .iter()
+            .all(|[x, y]| *x < frame.lines_x.len() && *y < frame.lines_y.len());
+        faults.require(
+            inside && place.storey() < floors,
+            format!("{path}.{}", key(place)),
+            || format!("has {}, which the grid does not have", name(place)),
+        );
+        faults.require(
+            taken.insert(place),
+            format!("{path}.{}", key(place)),
+            || format!("has {} twice; keep one", name(place)),
+        );
+    }
+}
+
+/// Storeys without columns, and members that nothing joins to the ground.
+fn check_standing(faults: &mut Faults, path: &str, frame: &SpaceFrame, floors: usize) {
+    let is_column = |place: SpacePlace| matches!(place, SpacePlace::Column { .. });
+    for storey in 0..floors {
+        let mut members = frame.members.iter();
+        let held = members.any(|own| is_column(own.place) && own.place.storey() == storey);
+        faults.require(held, format!("{path}.column"), || {
+            format!(
+                "leaves storey {} without columns; keep one at least in every storey",
+                storey + 1
+            )
+        });
+    }
+    // Joint 0 is the ground.
+    let crossings = frame.lines_x.len() * frame.lines_y.len();
+    let joint = |level: usize, [x, y]: [usize; 2]| match level {
+        0 => 0,
+        level => 1 + (level - 1) * crossings + y * frame.lines_x.len() + x,
+    };
+    let ends = |place: SpacePlace| {
+        let [first, last] = place.crossings();
+        let level = place.storey() + 1;
+        let below = if is_column(place) { level - 1 } else { level };
+        [joint(below, first), joint(level, last)]
+    };
+    let mut neighbours = vec![Vec::new(); 1 + crossings * floors];
+    for member in &frame.members {
+        let [a, b] = ends(member.place);
+        neighbours[a].push(b);
+        neighbours[b].push(a);
+    }
+    let mut reached = vec![false; neighbours.len()];
+    reached[0] = true;
+    let mut open = vec![0];
+    while let Some(joint) = open.pop() {
+        for next in &neighbours[joint] {
+            if !std::mem::replace(&mut reached[*next], true) {
+                open.push(*next);
+            }
+        }
+    }
+    let mut members = frame.members.iter();
+    if let Some(loose) = members.find(|own| !reached[ends(own.place)[0]]) {
+        faults.add(
+            format!("{path}.{}", key(loose.place)),
+            format!(
+                "has {}, which no column or beam joins to the ground; remove it with omit = true, or add the column below it",
+                name(loose.place)
+            ),
+        );
+    }
+}

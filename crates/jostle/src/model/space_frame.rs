@@ -1,0 +1,194 @@
+//! Space frames: columns at the crossings of a grid of lines, beams along the lines, rigid floors.
+
+use super::PlanPoint;
+
+/// Columns and beams in space, tied together by rigid floors.
+///
+/// Every crossing of a line of `lines_x` with a line of `lines_y` that a member reaches is a joint at every floor. Joints rise and turn
+/// about both horizontal axes by themselves, and share u_x, u_y and θ of their floor. They carry no mass. Members have 6 degrees of
+/// freedom at each end and run from joint to joint; columns of the lowest storey are fixed at the base.
+///
+/// ```
+/// use jostle::{SpaceFrame, SpaceMember, SpacePlace, SpaceSection};
+///
+/// // One storey, one bay each way.
+/// let column = SpaceSection::rectangle([0.5, 0.5], 30e9, 0.2, false).expect("sizes above zero");
+/// let beam = SpaceSection::beam([0.3, 0.6], 30e9, 0.2, false).expect("sizes above zero");
+/// let corners = [[0, 0], [1, 0], [0, 1], [1, 1]];
+/// let columns = corners.map(|line| (SpacePlace::Column { line, storey: 0 }, column));
+/// let along = [0, 1].map(|y| (SpacePlace::BeamX { span: 0, line: y, floor: 0 }, beam));
+/// let across = [0, 1].map(|x| (SpacePlace::BeamY { line: x, span: 0, floor: 0 }, beam));
+/// let all = columns.into_iter().chain(along).chain(across);
+/// let frame = SpaceFrame {
+///     at: [0.0, 0.0],
+///     direction: [1.0, 0.0],
+///     lines_x: vec![0.0, 6.0],
+///     lines_y: vec![0.0, 5.0],
+///     members: all.map(|(place, section)| SpaceMember { place, section }).collect(),
+/// };
+/// assert_eq!(frame.point([1, 1]), [6.0, 5.0]);
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpaceFrame {
+    /// Where the origin of the lines stands on the site \[m\].
+    pub at: PlanPoint,
+    /// Unit vector of the x axis of the lines on the site \[–\].
+    pub direction: PlanPoint,
+    /// Distances of the lines that run across, from the origin along x, rising \[m\].
+    pub lines_x: Vec<f64>,
+    /// Distances of the lines that run along x, from the origin across, rising \[m\].
+    pub lines_y: Vec<f64>,
+    /// Columns and beams, each place at most once.
+    pub members: Vec<SpaceMember>,
+}
+
+/// A column or a beam of a space frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpaceMember {
+    /// Where it is.
+    pub place: SpacePlace,
+    /// Its section.
+    pub section: SpaceSection,
+}
+
+/// Where a column or a beam is in the grid; all count from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum SpacePlace {
+    /// A column at the crossing of a line of `lines_x` with one of `lines_y`.
+    Column {
+        /// Both lines.
+        line: [usize; 2],
+        /// Storey, from the ground up.
+        storey: usize,
+    },
+    /// A beam along x, from one line of `lines_x` to the next.
+    BeamX {
+        /// The line of `lines_x` at its left end.
+        span: usize,
+        /// Its line of `lines_y`.
+        line: usize,
+        /// Floor, from the ground up.
+        floor: usize,
+    },
+    /// A beam across, from one line of `lines_y` to the next.
+    BeamY {
+        /// Its line of `lines_x`.
+        line: usize,
+        /// The line of `lines_y` at its lower end.
+        span: usize,
+        /// Floor, from the ground up.
+        floor: usize,
+    },
+}
+
+impl SpacePlace {
+    /// Storey of a column; that below the floor of a beam.
+    #[must_use]
+    pub fn storey(self) -> usize {
+        match self {
+            Self::Column { storey, .. } => storey,
+            Self::BeamX { floor, .. } | Self::BeamY { floor, .. } => floor,
+        }
+    }
+
+    /// Crossings at both of its ends: lower and upper of a column, left and right, or lower and upper in plan, of a beam.
+    #[must_use]
+    pub fn crossings(self) -> [[usize; 2]; 2] {
+        match self {
+            Self::Column { line, .. } => [line; 2],
+            Self::BeamX { span, line, .. } => [[span, line], [span + 1, line]],
+            Self::BeamY { line, span, .. } => [[line, span], [line, span + 1]],
+        }
+    }
+}
+
+/// Cross-section of a member of a space frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpaceSection {
+    /// Along x and across of a column; width and depth of a beam. It is drawn; the rigidities decide \[m\].
+    pub size: [f64; 2],
+    /// EI, > 0: of a column for bending along x and across, of a beam for bending in the vertical plane and sideways. Rigid floors
+    /// leave the last without effect \[N·m²\].
+    pub flexural_rigidity: [f64; 2],
+    /// GJ, > 0 \[N·m²\].
+    pub torsional_rigidity: f64,
+    /// EA, > 0; `None` keeps the length. Rigid floors leave that of beams without effect \[N\].
+    pub axial_rigidity: Option<f64>,
+    /// GA_s of the same two planes; `None` neglects shear deformation \[N\].
+    pub shear_rigidity: Option<[f64; 2]>,
+}
+
+/// Share of a rectangle that resists shear \[–\].
+const SHEAR_SHARE: f64 = 5.0 / 6.0;
+
+impl SpaceSection {
+    /// A rectangular column, its sizes along x and across, of a material with modulus E and Poisson's ratio ν; `shears`: whether shear
+    /// deforms it. `None` unless sizes and E are greater than zero.
+    ///
+    /// J = a b³ (1/3 − 0.21 (b/a)(1 − b⁴/(12 a⁴))) with a ≥ b (R. J. Roark, Formulas for Stress and Strain), A_s = 5/6 A.
+    #[must_use]
+    pub fn rectangle(
+        size: [f64; 2],
+        modulus: f64,
+        poisson_ratio: f64,
+        shears: bool,
+    ) -> Option<Self> {
+        let usable = [size[0], size[1], modulus, 1.0 + poisson_ratio];
+        if !usable.iter().all(|value| *value > 0.0) {
+            return None;
+        }
+        let area = size[0] * size[1];
+        let shear_modulus = modulus / (2.0 * (1.0 + poisson_ratio));
+        let (a, b) = (size[0].max(size[1]), size[0].min(size[1]));
+        let ratio = b / a;
+        let torsion = a * b.powi(3) * (1.0 / 3.0 - 0.21 * ratio * (1.0 - ratio.powi(4) / 12.0));
+        Some(Self {
+            size,
+            flexural_rigidity: size.map(|side| modulus * area * side * side / 12.0),
+            torsional_rigidity: shear_modulus * torsion,
+            axial_rigidity: Some(modulus * area),
+            shear_rigidity: shears.then_some([SHEAR_SHARE * shear_modulus * area; 2]),
+        })
+    }
+
+    /// A rectangular beam of some width and depth; see [`SpaceSection::rectangle`].
+    #[must_use]
+    pub fn beam(size: [f64; 2], modulus: f64, poisson_ratio: f64, shears: bool) -> Option<Self> {
+        let [width, depth] = size;
+        let own = Self::rectangle([depth, width], modulus, poisson_ratio, shears)?;
+        Some(Self { size, ..own })
+    }
+}
+
+impl SpaceFrame {
+    /// Where the crossing of two lines stands on the site \[m\].
+    #[must_use]
+    pub fn point(&self, [x, y]: [usize; 2]) -> PlanPoint {
+        self.on_site([self.lines_x[x], self.lines_y[y]])
+    }
+
+    /// A point in the axes of the lines, on the site \[m\].
+    #[must_use]
+    pub fn on_site(&self, [x, y]: PlanPoint) -> PlanPoint {
+        let [c, s] = self.direction;
+        [self.at[0] + c * x - s * y, self.at[1] + s * x + c * y]
+    }
+
+    /// A point of the site in the axes of the lines \[m\].
+    #[must_use]
+    pub fn from_site(&self, [x, y]: PlanPoint) -> PlanPoint {
+        let [c, s] = self.direction;
+        let (x, y) = (x - self.at[0], y - self.at[1]);
+        [c * x + s * y, c * y - s * x]
+    }
+
+    /// Length of a member, in a building with these storey heights \[m\].
+    #[must_use]
+    pub fn length(&self, place: SpacePlace, storey_heights: &[f64]) -> f64 {
+        match place {
+            SpacePlace::Column { storey, .. } => storey_heights[storey],
+            SpacePlace::BeamX { span, .. } => self.lines_x[span + 1] - self.lines_x[span],
+            SpacePlace::BeamY { span, .. } => self.lines_y[span + 1] - self.lines_y[span],
+        }
+    }
+}

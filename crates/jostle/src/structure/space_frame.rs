@@ -1,0 +1,518 @@
+//! Space frames: the displacements of joints eliminated, so that motions of the floors remain.
+//!
+//! Joints carry no mass, so that K_jj u_j + K_jf u_f = 0 at all times: u_j = R u_f, R = −K_jj⁻¹ K_jf. Every deformation d of a member
+//! then follows from u_f alone, d = (B_f + B_j R) u_f = D u_f, and K = Σ Dᵀ k D over all members. D has no rigid motions, and an error
+//! of R counts twice in K, by its square. Forces of members are k D u_f.
+
+use crate::linear::envelope::Envelope;
+use crate::model::{LumpedFloor, PlanPoint, SpaceFrame, SpacePlace, SpaceSection};
+
+/// A space frame over the motions of its floors: u_x, u_y and θ of every floor at its centre of mass, from the ground up.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CondensedFrame {
+    /// Its columns and beams, in the order of the model.
+    pub members: Vec<CondensedMember>,
+    /// Displacements of every joint over those of the floors.
+    pub joints: Vec<CondensedJoint>,
+}
+
+/// How a joint moves by itself with the floors.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CondensedJoint {
+    /// Lines at whose crossing it is, from 0.
+    pub crossing: [usize; 2],
+    /// Floor, from 0.
+    pub floor: usize,
+    /// Rise, and rotations about the axes of the lines along x and across, per motion of every floor \[m, rad\].
+    pub rows: [Vec<f64>; 3],
+}
+
+/// Forces of a member per motion of the floors.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CondensedMember {
+    /// Where it is.
+    pub place: SpacePlace,
+    /// Heights of its ends above the base \[m\].
+    pub heights: [f64; 2],
+    /// Axial force, positive in tension; zero for beams, which rigid floors hold.
+    pub axial: Vec<f64>,
+    /// Torque, positive where it turns the last end counter-clockwise against the first, seen from the last end.
+    pub torsion: Vec<f64>,
+    /// Bending in the vertical plane along x of a column, in that of a beam.
+    pub bending: Bending,
+    /// Bending of a column in the vertical plane across; `None` for beams.
+    pub across: Option<Bending>,
+}
+
+/// Shear and end moments of a member in one plane, per motion of the floors.
+///
+/// Shear is positive where the lower or left part pushes the other one back (column) or up (beam). A moment is positive where it
+/// stretches the bottom of a beam, or the face of a column that looks to greater x, or further across.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bending {
+    /// Shear.
+    pub shear: Vec<f64>,
+    /// Moments at the first and the last end.
+    pub moments: [Vec<f64>; 2],
+}
+
+/// The lower triangle of the condensed stiffness, row by row.
+pub(super) type LowerTriangle = Vec<Vec<f64>>;
+
+/// A displacement on which a deformation depends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Unknown {
+    Joint(usize),
+    Floor(usize),
+}
+
+/// A deformation as a sum of displacements.
+type Deformation = Vec<(Unknown, f64)>;
+
+/// Displacements of one end of a member.
+#[derive(Clone, Debug, Default)]
+struct End {
+    /// Along the lines x and y, and upwards.
+    moved: [Deformation; 3],
+    /// About the same axes.
+    turned: [Deformation; 3],
+}
+
+/// Numbers of the displacements that a joint has by itself: rise and two rotations.
+type JointUnknowns = [Option<usize>; 3];
+
+/// The unknowns of all joints.
+struct Joints {
+    /// By floor, then by crossing; `None` where no member reaches it.
+    unknowns: Vec<Option<JointUnknowns>>,
+    count: usize,
+    /// Crossings of a floor.
+    per_floor: usize,
+    lines_x: usize,
+}
+
+impl Joints {
+    /// Numbers them floor by floor, along the shorter side of the grid, so that what they couple stays close. A joint above a
+    /// column that keeps its length rises with the one below.
+    fn new(frame: &SpaceFrame, floors: usize) -> Self {
+        let (lines_x, lines_y) = (frame.lines_x.len(), frame.lines_y.len());
+        let per_floor = lines_x * lines_y;
+        let place = |[x, y]: [usize; 2]| y * lines_x + x;
+        let mut reached = vec![false; floors * per_floor];
+        let mut rigid = vec![false; floors * per_floor];
+        for member in &frame.members {
+            let storey = member.place.storey();
+            let is_column = matches!(member.place, SpacePlace::Column { .. });
+            for crossing in member.place.crossings() {
+                let own = storey * per_floor + place(crossing);
+                reached[own] = true;
+                if is_column {
+                    if let Some(below) = own.checked_sub(per_floor) {
+                        reached[below] = true;
+                    }
+                    rigid[own] = member.section.axial_rigidity.is_none();
+                }
+            }
+        }
+        let mut order: Vec<usize> = (0..per_floor).collect();
+        if lines_x > lines_y {
+            order.sort_by_key(|own| (own % lines_x, own / lines_x));
+        }
+        let mut unknowns: Vec<Option<JointUnknowns>> = vec![None; floors * per_floor];
+        let mut count = 0;
+        for floor in 0..floors {
+            for crossing in &order {
+                let own = floor * per_floor + crossing;
+                if !reached[own] {
+                    continue;
+                }
+                let mut next = || {
+                    count += 1;
+                    Some(count - 1)
+                };
+                let rise = match (rigid[own], own.checked_sub(per_floor)) {
+                    (false, _) => next(),
+                    (true, Some(below)) => unknowns[below].and_then(|joint| joint[0]),
+                    (true, None) => None,
+                };
+                unknowns[own] = Some([rise, next(), next()]);
+            }
+        }
+        Self {
+            unknowns,
+            count,
+            per_floor,
+            lines_x,
+        }
+    }
+
+    fn at(&self, floor: usize, [x, y]: [usize; 2]) -> JointUnknowns {
+        self.unknowns[floor * self.per_floor + y * self.lines_x + x].unwrap_or_default()
+    }
+}
+
+/// One stiffness of a member, over one deformation or two that bend together.
+enum Spring {
+    Single(f64, Deformation),
+    /// k_11 = k_22, k_12.
+    Bending([f64; 2], [Deformation; 2]),
+}
+
+/// A member as springs.
+struct SpringMember {
+    length: f64,
+    axial: Option<(f64, Deformation)>,
+    torsion: (f64, Deformation),
+    bending: ([f64; 2], [Deformation; 2]),
+    across: Option<([f64; 2], [Deformation; 2])>,
+}
+
+impl SpringMember {
+    fn springs(&self) -> impl Iterator<Item = Spring> + '_ {
+        let single = |(k, d): &(f64, Deformation)| Spring::Single(*k, d.clone());
+        let bending = |(k, d): &([f64; 2], [Deformation; 2])| Spring::Bending(*k, d.clone());
+        let own = self.axial.iter().map(single);
+        own.chain(std::iter::once(single(&self.torsion)))
+            .chain(std::iter::once(bending(&self.bending)))
+            .chain(self.across.iter().map(bending))
+    }
+}
+
+/// (4 + φ) EI/((1 + φ) l) and (2 − φ) EI/((1 + φ) l), φ = 12 EI/(GA_s l²): end moments per rotation of both ends against the chord
+/// (J. S. Przemieniecki, Theory of Matrix Structural Analysis, section 5.6).
+fn bending_stiffness(section: &SpaceSection, plane: usize, length: f64) -> [f64; 2] {
+    let rigidity = section.flexural_rigidity[plane];
+    let phi = section.shear_rigidity.map_or(0.0, |shear| {
+        12.0 * rigidity / (shear[plane] * length * length)
+    });
+    let unit = rigidity / ((1.0 + phi) * length);
+    [(4.0 + phi) * unit, (2.0 - phi) * unit]
+}
+
+/// Adds a share of displacements.
+fn add(to: &mut Deformation, share: f64, of: &Deformation) {
+    to.extend(of.iter().map(|(unknown, value)| (*unknown, share * value)));
+}
+
+/// The difference of two, times a factor.
+fn difference(factor: f64, last: &Deformation, first: &Deformation) -> Deformation {
+    let mut own = Deformation::new();
+    add(&mut own, factor, last);
+    add(&mut own, -factor, first);
+    own
+}
+
+/// Rotation of one end against the chord: `slope` times its rotation, minus the difference of displacements over the length.
+fn chord_rotation(slope: f64, turned: &Deformation, chord: &Deformation) -> Deformation {
+    let mut own = Deformation::new();
+    add(&mut own, slope, turned);
+    add(&mut own, -1.0, chord);
+    own
+}
+
+/// The frame between floors with these centres \[m\].
+struct Assembly<'a> {
+    frame: &'a SpaceFrame,
+    heights: &'a [f64],
+    /// Centres of mass in the axes of the lines.
+    centres: Vec<PlanPoint>,
+    joints: Joints,
+}
+
+impl Assembly<'_> {
+    /// Displacements of a joint; the ground is floor `None`.
+    fn end(&self, floor: Option<usize>, crossing: [usize; 2]) -> End {
+        let Some(floor) = floor else {
+            return End::default();
+        };
+        let of_floor = |component: usize| Unknown::Floor(3 * floor + component);
+        let [x, y] = [
+            self.frame.lines_x[crossing[0]] - self.centres[floor][0],
+            self.frame.lines_y[crossing[1]] - self.centres[floor][1],
+        ];
+        let [rise, about_x, about_y] = self.joints.at(floor, crossing).map(|unknown| {
+            let own = unknown.map(|index| (Unknown::Joint(index), 1.0));
+            own.into_iter().collect::<Deformation>()
+        });
+        End {
+            moved: [
+                vec![(of_floor(0), 1.0), (of_floor(2), -y)],
+                vec![(of_floor(1), 1.0), (of_floor(2), x)],
+                rise,
+            ],
+            turned: [about_x, about_y, vec![(of_floor(2), 1.0)]],
+        }
+    }
+
+    fn springs(&self, place: SpacePlace, section: &SpaceSection) -> SpringMember {
+        let storey = place.storey();
+        let [first, last] = place.crossings();
+        let length = self.frame.length(place, self.heights);
+        // Planes of bending: direction of the deflection, axis of rotation, and sign of the slope that a rotation about it is.
+        let (below, axis, planes): (Option<usize>, usize, &[(usize, usize, f64)]) = match place {
+            SpacePlace::Column { .. } => (storey.checked_sub(1), 2, &[(0, 1, 1.0), (1, 0, -1.0)]),
+            SpacePlace::BeamX { .. } => (Some(storey), 0, &[(2, 1, -1.0)]),
+            SpacePlace::BeamY { .. } => (Some(storey), 1, &[(2, 0, 1.0)]),
+        };
+        let ends = [self.end(below, first), self.end(Some(storey), last)];
+        let [a, b] = &ends;
+        let bend = |plane: usize| {
+            let (towards, about, slope) = planes[plane];
+            let chord = difference(1.0 / length, &b.moved[towards], &a.moved[towards]);
+            let rotations = [a, b].map(|end| chord_rotation(slope, &end.turned[about], &chord));
+            (bending_stiffness(section, plane, length), rotations)
+        };
+        let is_column = planes.len() == 2;
+        let stretch = section.axial_rigidity.filter(|_| is_column);
+        SpringMember {
+            length,
+            axial: stretch.map(|rigidity| {
+                let own = difference(1.0, &b.moved[2], &a.moved[2]);
+                (rigidity / length, own)
+            }),
+            torsion: (
+                section.torsional_rigidity / length,
+                difference(1.0, &b.turned[axis], &a.turned[axis]),
+            ),
+            bending: bend(0),
+            across: is_column.then(|| bend(1)),
+        }
+    }
+
+    /// K_jj, factorised, and columns of −K_jf replaced by those of R. `None` if joints move without resistance.
+    fn joint_motions(&self, members: &[SpringMember], floors: usize) -> Option<Vec<Vec<f64>>> {
+        let n = self.joints.count;
+        let mut firsts: Vec<usize> = (0..n).collect();
+        for_each_pair(members, |a, b, _| {
+            if let (Unknown::Joint(a), Unknown::Joint(b)) = (a, b) {
+                firsts[a] = firsts[a].min(b);
+            }
+        });
+        let mut matrix = Envelope::default();
+        matrix.reset(firsts.into_iter());
+        let mut sides = vec![vec![0.0; n]; 3 * floors];
+        for_each_pair(members, |a, b, value| match (a, b) {
+            (Unknown::Joint(a), Unknown::Joint(b)) if b <= a => {
+                matrix.set(a, b, matrix.get(a, b) + value);
+            }
+            (Unknown::Joint(a), Unknown::Floor(b)) => sides[b][a] -= value,
+            _ => {}
+        });
+        let before: Vec<f64> = (0..n).map(|own| matrix.get(own, own)).collect();
+        matrix.factorize();
+        let holds = |own: usize| matrix.get(own, own) > LEAST_PIVOT * before[own];
+        if !(0..n).all(holds) {
+            return None;
+        }
+        for side in &mut sides {
+            matrix.solve(side);
+        }
+        Some(sides)
+    }
+}
+
+/// Least pivot, relative to the entry on the diagonal, of a joint that is held \[–\].
+const LEAST_PIVOT: f64 = 1e-13;
+
+/// Calls `take` with every pair of displacements that a spring couples and its entry of K, both ways round.
+fn for_each_pair(members: &[SpringMember], mut take: impl FnMut(Unknown, Unknown, f64)) {
+    let mut product = |k: f64, first: &Deformation, second: &Deformation| {
+        for (a, x) in first {
+            for (b, y) in second {
+                take(*a, *b, k * x * y);
+            }
+        }
+    };
+    for spring in members.iter().flat_map(SpringMember::springs) {
+        match spring {
+            Spring::Single(k, own) => product(k, &own, &own),
+            Spring::Bending([near, far], [first, last]) => {
+                product(near, &first, &first);
+                product(near, &last, &last);
+                product(far, &first, &last);
+                product(far, &last, &first);
+            }
+        }
+    }
+}
+
+/// Replaces axes of the lines by those of the site in a row over the motions of the floors.
+fn turn_row(row: &mut [f64], [c, s]: PlanPoint) {
+    for motion in row.chunks_exact_mut(3) {
+        (motion[0], motion[1]) = (c * motion[0] - s * motion[1], s * motion[0] + c * motion[1]);
+    }
+}
+
+/// Condenses a frame to the motions of its floors; `None` if a joint moves without resistance.
+pub(super) fn condense(
+    frame: &SpaceFrame,
+    storey_heights: &[f64],
+    lumped: &[LumpedFloor],
+) -> Option<(LowerTriangle, CondensedFrame)> {
+    let floors = lumped.len();
+    let centres = lumped
+        .iter()
+        .map(|floor| frame.from_site(floor.tier.centre));
+    let assembly = Assembly {
+        frame,
+        heights: storey_heights,
+        centres: centres.collect(),
+        joints: Joints::new(frame, floors),
+    };
+    let springs: Vec<SpringMember> = frame
+        .members
+        .iter()
+        .map(|member| assembly.springs(member.place, &member.section))
+        .collect();
+    let motions = assembly.joint_motions(&springs, floors)?;
+    let order = 3 * floors;
+    // D in the axes of the site.
+    let row = |own: &Deformation| -> Vec<f64> {
+        let mut row = vec![0.0; order];
+        for (unknown, share) in own {
+            match unknown {
+                Unknown::Floor(floor) => row[*floor] += share,
+                Unknown::Joint(joint) => {
+                    for (value, motion) in row.iter_mut().zip(&motions) {
+                        *value += share * motion[*joint];
+                    }
+                }
+            }
+        }
+        turn_row(&mut row, frame.direction);
+        row
+    };
+    let mut stiffness: LowerTriangle = (0..order).map(|row| vec![0.0; row + 1]).collect();
+    let mut add_product = |force: &[f64], deformation: &[f64]| {
+        for (i, to) in stiffness.iter_mut().enumerate() {
+            if force[i] != 0.0 {
+                for (value, other) in to.iter_mut().zip(deformation) {
+                    *value += force[i] * other;
+                }
+            }
+        }
+    };
+    let mut heights = vec![0.0];
+    for storey in storey_heights {
+        heights.push(heights[heights.len() - 1] + storey);
+    }
+    let mut members = Vec::with_capacity(springs.len());
+    for (member, own) in frame.members.iter().zip(&springs) {
+        let mut single = |k: f64, deformation: &Deformation| {
+            let deformation = row(deformation);
+            let force: Vec<f64> = deformation.iter().map(|d| k * d).collect();
+            add_product(&force, &deformation);
+            force
+        };
+        let axial = match &own.axial {
+            Some((k, stretch)) => single(*k, stretch),
+            None => vec![0.0; order],
+        };
+        let torsion = single(own.torsion.0, &own.torsion.1);
+        let is_column = own.across.is_some();
+        // Slopes at both ends against the chord, and the moments that go with them.
+        let mut bend = |([near, far], rotations): &([f64; 2], [Deformation; 2])| {
+            let [a, b] = rotations.each_ref().map(&row);
+            let moment = |own: &[f64], other: &[f64]| -> Vec<f64> {
+                let both = own.iter().zip(other);
+                both.map(|(own, other)| near * own + far * other).collect()
+            };
+            let (first, last) = (moment(&a, &b), moment(&b, &a));
+            add_product(&first, &a);
+            add_product(&last, &b);
+            let sign = if is_column { 1.0 } else { -1.0 };
+            let sum = first.iter().zip(&last);
+            Bending {
+                shear: sum.map(|(a, b)| -sign * (a + b) / own.length).collect(),
+                moments: [
+                    first.iter().map(|value| sign * value).collect(),
+                    last.iter().map(|value| -sign * value).collect(),
+                ],
+            }
+        };
+        let bending = bend(&own.bending);
+        let across = own.across.as_ref().map(&mut bend);
+        let storey = member.place.storey();
+        members.push(CondensedMember {
+            place: member.place,
+            heights: match is_column {
+                true => [heights[storey], heights[storey + 1]],
+                false => [heights[storey + 1]; 2],
+            },
+            axial,
+            torsion,
+            bending,
+            across,
+        });
+    }
+    let own = CondensedFrame {
+        joints: joint_rows(&assembly, &row),
+        members: carried_by_columns(frame, members),
+    };
+    Some((stiffness, own))
+}
+
+fn joint_rows(
+    assembly: &Assembly<'_>,
+    row: &impl Fn(&Deformation) -> Vec<f64>,
+) -> Vec<CondensedJoint> {
+    let joints = &assembly.joints;
+    let all = joints.unknowns.iter().enumerate();
+    let own = all.filter_map(|(at, unknowns)| {
+        let (floor, crossing) = (at / joints.per_floor, at % joints.per_floor);
+        let rows = (*unknowns)?.map(|unknown| {
+            let own = unknown.map(|index| (Unknown::Joint(index), 1.0));
+            row(&own.into_iter().collect())
+        });
+        Some(CondensedJoint {
+            crossing: [crossing % joints.lines_x, crossing / joints.lines_x],
+            floor,
+            rows,
+        })
+    });
+    own.collect()
+}
+
+/// Completes the axial forces of columns that keep their length, by vertical equilibrium of the joints from the top down: a column
+/// carries the one above it and the shears of the beams at its head.
+fn carried_by_columns(
+    frame: &SpaceFrame,
+    mut members: Vec<CondensedMember>,
+) -> Vec<CondensedMember> {
+    let is_column = |member: &CondensedMember| matches!(member.place, SpacePlace::Column { .. });
+    let mut rigid: Vec<usize> = (0..members.len())
+        .filter(|index| is_column(&members[*index]))
+        .filter(|index| frame.members[*index].section.axial_rigidity.is_none())
+        .collect();
+    rigid.sort_by_key(|index| std::cmp::Reverse(members[*index].place.storey()));
+    for column in rigid {
+        let SpacePlace::Column { line, storey } = members[column].place else {
+            continue;
+        };
+        let mut axial = vec![0.0; members[column].axial.len()];
+        for other in &members {
+            let (sign, force) = match other.place {
+                SpacePlace::Column {
+                    line: own,
+                    storey: above,
+                } if own == line && above == storey + 1 => (1.0, &other.axial),
+                SpacePlace::BeamX { .. } | SpacePlace::BeamY { .. }
+                    if other.place.storey() == storey =>
+                {
+                    let [first, last] = other.place.crossings();
+                    match (first == line, last == line) {
+                        (true, _) => (-1.0, &other.bending.shear),
+                        (_, true) => (1.0, &other.bending.shear),
+                        _ => continue,
+                    }
+                }
+                _ => continue,
+            };
+            for (sum, value) in axial.iter_mut().zip(force) {
+                *sum += sign * value;
+            }
+        }
+        members[column].axial = axial;
+    }
+    members
+}
