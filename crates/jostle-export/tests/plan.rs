@@ -214,6 +214,41 @@ fn both_components_and_their_angle_are_written() {
     assert!(text.contains("\nARMS = []"));
 }
 
+/// Joints of a space frame move with the node of their floor; every column and beam joins two of them.
+#[test]
+fn space_frames_are_written_member_by_member() {
+    const FRAME: &str = include_str!("../../jostle-validation/data/space/S8_space_frame.toml");
+    let text = export(&model(FRAME)).expect("it can be exported").text;
+    let joints = table(&text, "JOINTS");
+    assert_eq!(joints.len(), 4 * 9);
+    assert_eq!(joints.iter().filter(|row| row[4] == "None").count(), 9);
+    let members = table(&text, "COLUMNS_AND_BEAMS");
+    assert_eq!(members.len(), 3 * (9 + 6 + 6));
+    let place = |tag: &str| {
+        let own = joints.iter().find(|row| row[0] == tag).expect("a joint");
+        [1, 2, 3].map(|axis| number(&own[axis]))
+    };
+    for row in &members {
+        let (a, b) = (place(&row[1]), place(&row[2]));
+        let way: Vec<f64> = a.iter().zip(b).map(|(a, b)| b - a).collect();
+        // Columns bend along x in their first plane, beams upwards.
+        let towards: Vec<f64> = row[8..11].iter().map(|value| number(value)).collect();
+        let is_column = way[2] > 0.0;
+        assert_eq!(
+            towards,
+            if is_column {
+                [1.0, 0.0, 0.0]
+            } else {
+                [0.0, 0.0, 1.0]
+            }
+        );
+        assert_eq!(way.iter().filter(|part| **part > 0.0).count(), 1);
+    }
+    let rigid = FRAME.replace("shear =", "axial = \"rigid\"\nshear =");
+    let exported = export(&model(&rigid)).expect("it can be exported");
+    assert!(exported.text.contains("EA = 1e4 * 12 EI / l^2"));
+}
+
 #[test]
 fn friction_in_plan_is_refused_by_field() {
     let text = CORNERS.replace("law = \"linear\"", "law = \"linear\"\nfriction = 0.3");

@@ -21,7 +21,9 @@ MOST_PARTS = 10_000  # of such a step
 SETTLED = 1e-10  # displacement in the last iteration [m]
 LONGEST = 1e4  # of a sine [s]: OpenSees integrates it to its end before the first step
 DIRECTIONS = {1: 1, 2: 2, 6: 3}
-IN_PLAN = bool(ARMS)  # nodes are floors seen from above: they move along x, across, and turn
+IN_PLAN = bool(ARMS) or bool(JOINTS)  # nodes are floors seen from above: they move along x, across, and turn
+IN_SPACE = bool(JOINTS)  # columns and beams stand between the floors: x and y are the site, z is up
+TURN = 6 if IN_SPACE else 3  # rotation about the vertical axis, of floors in plan
 NORMALS = {tag: (x, y) for tag, _, _, x, y, *_ in FACES}
 CORNERS = {}  # contacts that end where a corner leaves its edge
 for tag, *end in ENDS:
@@ -31,6 +33,9 @@ for tag, *end in ENDS:
 def build(axial):
     """The model. axial: "ties" (members keep their length exactly) or "stiff" (almost, but without constraints)."""
     ops.wipe()
+    if IN_SPACE:
+        build_in_space()
+        return
     ops.model("basic", "-ndm", 2, "-ndf", 3)
     where = {}
     for tag, x, y, mass, inertia in NODES:
@@ -73,6 +78,11 @@ def build(axial):
                 ops.element("zeroLength", tag, first, last, "-mat", rigid, "-dir", direction)
     for tag, first, last, material in LEANING:
         ops.element("zeroLength", tag, first, last, "-mat", material, "-dir", 1)
+    add_contacts()
+
+
+def add_contacts():
+    """Contacts, links, and Rayleigh damping."""
     for tag, left, right, material, *_ in CONTACTS:
         if tag not in CORNERS:
             ops.element("zeroLength", tag, left, right, "-mat", material, "-dir", 1, *orientation(tag))
@@ -82,6 +92,57 @@ def build(axial):
         first, last = building["nodes"]
         # On the initial stiffness of everything that is not a bare spring.
         ops.region(number, "-node", *range(first, last + 1), "-rayleigh", building["alpha"], 0.0, building["beta"], 0.0)
+
+
+def build_in_space():
+    """Floors that neither rise nor tilt at their centres of mass, joints tied to them, columns and beams.
+
+    Points of floors lie at height zero: floors that do not tilt carry them all the same, and their springs have no length."""
+    ops.model("basic", "-ndm", 3, "-ndf", 6)
+    heights = {floor: z for _, _, _, z, floor in JOINTS if floor is not None}
+    for tag, x, y, mass, inertia in NODES:
+        ops.node(tag, x, y, heights.get(tag, 0.0))
+        if mass or inertia:
+            ops.mass(tag, mass, mass, 0.0, 0.0, 0.0, inertia)
+    where = {}
+    tied = {}
+    for tag, x, y, z, floor in JOINTS:
+        where[tag] = (x, y, z)
+        ops.node(tag, x, y, z)
+        if floor is None:
+            ops.fix(tag, 1, 1, 1, 1, 1, 1)
+        else:
+            tied.setdefault(floor, []).append(tag)
+    for building in BUILDINGS:
+        for floor in building["floors"]:
+            ops.fix(floor, 0, 0, 1, 1, 1, 0)
+    for tag, *_ in SUPPORTS:
+        ops.fix(tag, 1, 1, 1, 1, 1, 1)
+    for floor, joints in tied.items():
+        ops.rigidDiaphragm(3, floor, *joints)
+    for kept, point in ARMS:
+        ops.rigidLink("beam", kept, point)
+    transforms = {}
+    for tag, first, last, bending, sideways, torsion, ea, ga, towards in COLUMNS_AND_BEAMS:
+        length = math.dist(where[first], where[last])
+        if ea is None:
+            ea = STIFF * 12.0 * max(bending, sideways) / length**2
+        if towards not in transforms:
+            transforms[towards] = len(transforms) + 1
+            ops.geomTransf("Linear", transforms[towards], *towards)
+        # The local axis z lies in the plane of bending, so that bending there turns the section about y.
+        if ga is None:
+            ops.element("elasticBeamColumn", tag, first, last, ea, 1.0, 1.0, torsion, bending, sideways, transforms[towards])
+        else:
+            along, across = ga
+            ops.element("ElasticTimoshenkoBeam", tag, first, last, 1.0, 1.0, ea, torsion, bending, sideways, across, along, transforms[towards])
+    for name, tag, *arguments in MATERIALS:
+        ops.uniaxialMaterial(name, tag, *arguments)
+    for tag, first, last, springs, damped in SPRINGS:
+        directions, materials = [pair[0] for pair in springs], [pair[1] for pair in springs]
+        extra = ["-doRayleigh", 1] if damped else []
+        ops.element("zeroLength", tag, first, last, "-mat", *materials, "-dir", *directions, *extra)
+    add_contacts()
 
 
 def orientation(tag):
@@ -343,7 +404,7 @@ def distance_inside(end):
     for sign, side in ((1.0, own), (-1.0, other)):
         if side is not None:
             node, *shares = side
-            inside += sign * sum(share * ops.nodeDisp(node, direction) for direction, share in enumerate(shares, start=1))
+            inside += sign * sum(share * ops.nodeDisp(node, direction) for direction, share in zip((1, 2, TURN), shares))
     return inside
 
 
@@ -430,7 +491,7 @@ def march(args, duration):
 def envelopes(folder):
     """Greatest displacements of floors and forces of contacts, kept by OpenSees itself."""
     floors = [tag for building in BUILDINGS for tag in building["floors"]]
-    directions = [1, 2, 3] if IN_PLAN else [1]
+    directions = [1, 2, TURN] if IN_PLAN else [1]
     ops.recorder("EnvelopeNode", "-file", os.path.join(folder, "floors"), "-precision", 12, "-node", *floors, "-dof", *directions, "disp")
     if CONTACTS and not IN_PLAN:
         elements = [row[0] for row in CONTACTS]

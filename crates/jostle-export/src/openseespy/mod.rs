@@ -7,6 +7,7 @@
 mod materials;
 mod plan;
 mod script;
+mod space_frame;
 mod ties;
 
 use jostle::hysteresis::HysteresisRule;

@@ -4,6 +4,8 @@
 //! rotation is about the vertical axis. A plane model needs no diaphragms and none of the three idle displacements of a
 //! node in space. A node stands at the centre of mass of every floor. Points of a floor are nodes that `rigidLink` ties to it;
 //! springs of storeys join two of them at the centre of stiffness, contacts two of them at the contact point.
+//!
+//! Space frames make it a model in space: their joints are tied to the nodes of floors by `rigidDiaphragm`; see `space_frame`.
 
 use std::fmt::Write;
 
@@ -45,6 +47,8 @@ impl Script<'_> {
             &mut self.supports,
             &mut self.arms,
             &mut self.springs,
+            &mut self.space_joints,
+            &mut self.space_members,
         ] {
             table.push_str(&title);
         }
@@ -68,6 +72,9 @@ impl Script<'_> {
                 springs.stiffness = springs.stiffness.map(|stiffness| -stiffness);
                 self.add_storey_in_plan(index, building, storey, &springs, false);
             }
+        }
+        if let Some(frame) = &tiers.space_frame {
+            self.add_space_frame(index, building, frame, &tiers.storey_heights);
         }
         let tags: Vec<String> = floors
             .iter()

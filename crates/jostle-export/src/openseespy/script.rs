@@ -10,6 +10,7 @@ use jostle::system::BuildingSystem;
 use jostle::{GroundMotion, ModelFault, Wave};
 
 use super::materials::Materials;
+use super::space_frame::joints_of;
 use super::ties::{COMPONENTS, Ties, is_held_by, is_vertical, stiffnesses};
 use crate::Export;
 
@@ -46,17 +47,27 @@ pub(super) struct Script<'a> {
     pub(super) arms: String,
     pub(super) faces: String,
     pub(super) ends: String,
+    /// Joints of space frames, and their columns and beams.
+    pub(super) space_joints: String,
+    pub(super) space_members: String,
 }
 
 impl<'a> Script<'a> {
     pub(super) fn new(export: &'a Export<'a>) -> Result<Self, Vec<ModelFault>> {
         let in_plan = export.system.is_in_space();
-        let largest = export.system.buildings.iter().map(|building| {
-            let nodes = building.discretization.stick_model.nodes.len();
-            // Two points of every storey, twice with P-Delta, and both of every contact.
-            let points = 4 * building.floors.len() + 2 * export.system.contacts.len();
-            nodes + if in_plan { points } else { 0 }
-        });
+        let joints: Vec<usize> = export.model.buildings.iter().map(joints_of).collect();
+        let largest = export
+            .system
+            .buildings
+            .iter()
+            .enumerate()
+            .map(|(index, building)| {
+                let joints = joints.get(index).unwrap_or(&0);
+                let nodes = building.discretization.stick_model.nodes.len() + joints;
+                // Two points of every storey, twice with P-Delta, and both of every contact.
+                let points = 4 * building.floors.len() + 2 * export.system.contacts.len();
+                nodes + if in_plan { points } else { 0 }
+            });
         let mut block = 1000;
         while block <= largest.clone().max().unwrap_or(0) {
             block *= 10;
@@ -83,6 +94,8 @@ impl<'a> Script<'a> {
             arms: String::new(),
             faces: String::new(),
             ends: String::new(),
+            space_joints: String::new(),
+            space_members: String::new(),
         };
         let mut faults = Vec::new();
         let mut place = 0.0;
@@ -706,6 +719,18 @@ impl<'a> Script<'a> {
             "ENDS",
             "element at a corner; node and shares of its motions along the edge, on either side; distance from the end of the edge [m]",
             &self.ends,
+        )?;
+        table(
+            out,
+            "JOINTS",
+            "joint of a space frame, x, y, z [m], node of the floor with which it moves; None is the ground",
+            &self.space_joints,
+        )?;
+        table(
+            out,
+            "COLUMNS_AND_BEAMS",
+            "element, first and last joint, EI in the plane of bending and sideways [N m2], GJ [N m2], EA [N], G As in both planes [N], direction in the plane of bending; None is rigid",
+            &self.space_members,
         )?;
         self.write_motion(out)?;
         writeln!(out, "\n{}", driver.trim_end())
