@@ -35,6 +35,7 @@ class SpaceScene {
   take() {
     this.buildings = page.buildings.map((building, i) => ({
       plans: building.plans,
+      members: building.members ?? [],
       levels: [0, ...building.heights],
       motion: building.plans.map((_, k) => ["u", "v", "r"].map((name) => run.columns.get(`${name}:${i}:${k + 1}`))),
     }));
@@ -256,7 +257,7 @@ class SpaceScene {
     }
   }
 
-  /** Footprint, columns at the corners storey by storey, and floors, each with its distance. */
+  /** Footprint, columns storey by storey, those of a space frame or at the corners, and floors, each with its distance. */
   buildingParts(building, i, state, parts) {
     const colour = this.colours[i];
     const [sx, sy] = this.shifts[i];
@@ -267,7 +268,7 @@ class SpaceScene {
     building.plans.forEach((plan, k) => {
       const own = plan.corners.map((corner) => this.moved(i, k, corner, state[k]));
       const seen = own.map((point) => this.at(point));
-      if (own.length === below.length) {
+      if (building.members.length === 0 && own.length === below.length) {
         own.forEach((point, c) => {
           const ends = [this.at(below[c]), seen[c]];
           parts.push({ near: mean(ends), paint: () => this.line(ends, { stroke: colour, width: 1.6 }) });
@@ -276,6 +277,12 @@ class SpaceScene {
       parts.push({ near: mean(seen), paint: () => this.line(seen, { fill: colour, alpha: 0.22, stroke: colour, width: 1.8, closed: true }) });
       below = own;
     });
+    // Columns and beams of a space frame.
+    for (const { ends, floors } of building.members) {
+      const seen = ends.map((end, side) => this.at(floors[side] === null || floors[side] === undefined ? [sx + end[0], sy + end[1], 0] : this.moved(i, floors[side], end, state[floors[side]])));
+      const isColumn = floors[0] !== floors[1];
+      parts.push({ near: mean(seen), paint: () => this.line(seen, { stroke: colour, width: isColumn ? 1.8 : 1.1 }) });
+    }
     const roof = building.plans.length - 1;
     const [cx, cy] = building.plans[roof].centre;
     const name = this.at(this.moved(i, roof, [cx, cy], state[roof]));

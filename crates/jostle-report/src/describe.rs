@@ -230,6 +230,19 @@ fn tiers_facts(tiers: &jostle::Tiers, facts: &mut Facts) {
         });
         facts.push(("frames (spans)", frames.collect::<Vec<_>>().join(", ")));
     }
+    if let Some(frame) = &tiers.space_frame {
+        let lines = |lines: &[f64]| -> String {
+            let all = lines.iter().map(|line| format::plain(*line, 4));
+            format!("{} m", all.collect::<Vec<_>>().join(", "))
+        };
+        facts.push(("lines at x", lines(&frame.lines_x)));
+        facts.push(("lines at y", lines(&frame.lines_y)));
+        let columns = frame.members.iter();
+        let columns = columns.filter(|own| matches!(own.place, jostle::SpacePlace::Column { .. }));
+        let columns = columns.count();
+        let beams = frame.members.len() - columns;
+        facts.push(("columns and beams", format!("{columns} and {beams}")));
+    }
     if tiers.storeys.is_empty() {
         return;
     }

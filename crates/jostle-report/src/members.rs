@@ -25,6 +25,8 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
     let rule = rated
         .next()
         .and_then(|capacity| ShearRule::from_name(capacity.rule));
+    let members = page.summary.buildings.iter().flat_map(|b| &b.members);
+    let in_space = members.flat_map(sections).any(|own| own.across.is_some());
     asked.then(|| {
         html! {
             section #members {
@@ -53,6 +55,7 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
                     "Greatest forces of every member, by the greatest ratio where capacities are known, otherwise struck columns first, then by shear. Axial forces are positive in tension; "
                     "shear and moment are the greatest of both ends and of both sides of a struck point, either sign. "
                     "Damping forces are no part of shears and moments."
+                    @if in_space { " In a space frame they are the greatest of both planes of bending." }
                 }
             }
         }
@@ -156,7 +159,20 @@ fn greatest(member: &MemberSummary, of: fn(&SectionSummary) -> f64) -> f64 {
 
 fn table(building: &BuildingSummary) -> Markup {
     let hit = |m: &&MemberSummary| m.struck.iter().map(|s| s.peak_force_n).fold(0.0, f64::max);
-    let shear = |m: &MemberSummary| greatest(m, |s| s.shear_peak_n);
+    let shear = |m: &MemberSummary| {
+        greatest(m, |s| {
+            s.across.map_or(s.shear_peak_n, |across| {
+                s.shear_peak_n.max(across.shear_across_peak_n)
+            })
+        })
+    };
+    let moment = |m: &MemberSummary| {
+        greatest(m, |s| {
+            s.across.map_or(s.moment_peak_n_m, |across| {
+                s.moment_peak_n_m.max(across.moment_across_peak_n_m)
+            })
+        })
+    };
     let mut members: Vec<&MemberSummary> = building.members.iter().collect();
     members.sort_by(|a, b| {
         let (x, y) = (hit(a), hit(b));
@@ -220,7 +236,7 @@ fn table(building: &BuildingSummary) -> Markup {
                                 td.number { (kilo(greatest(member, |s| s.axial_max_n).max(0.0))) }
                                 td.number { (kilo(greatest(member, |s| -s.axial_min_n).max(0.0))) }
                                 td.number { (kilo(shear(member))) }
-                                td.number { (kilo(greatest(member, |s| s.moment_peak_n_m))) }
+                                td.number { (kilo(moment(member))) }
                                 @if is_compared {
                                     @let own = member.compared.as_ref();
                                     (amplification(own.and_then(|m| m.shear_amplification)))

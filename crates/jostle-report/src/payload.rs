@@ -4,6 +4,7 @@ use jostle::history::{Column, EnergyTerm, History};
 use jostle::model::{Building, Gap, Model, Structure};
 use jostle::motion::{GroundMotion, Wave};
 use jostle::results::summary::{ContactSummary, SpringSummary, Summary};
+use jostle::{SpaceFrame, SpaceMember, SpacePlace};
 use serde::Serialize;
 
 use crate::Page;
@@ -120,6 +121,9 @@ struct Outline<'a> {
     /// Plans of the floors, of buildings in space.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     plans: Vec<PlanData>,
+    /// Columns and beams of a space frame.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    members: Vec<MemberData>,
     name: &'a str,
     frame: bool,
     /// Heights of the floors \[m\].
@@ -128,6 +132,32 @@ struct Outline<'a> {
     spans: Vec<f64>,
     /// Whether it stands on bearings.
     isolated: bool,
+}
+
+/// A column or a beam of a space frame.
+#[derive(Serialize)]
+struct MemberData {
+    /// Both ends on the site \[m\].
+    ends: [[f64; 2]; 2],
+    /// Floors, from 0, with which they move; `null` is the ground.
+    floors: [Option<usize>; 2],
+}
+
+impl MemberData {
+    fn all_of(frame: &SpaceFrame) -> Vec<Self> {
+        let member = |own: &SpaceMember| {
+            let level = own.place.storey();
+            let lower = match own.place {
+                SpacePlace::Column { .. } => level.checked_sub(1),
+                SpacePlace::BeamX { .. } | SpacePlace::BeamY { .. } => Some(level),
+            };
+            Self {
+                ends: own.place.crossings().map(|crossing| frame.point(crossing)),
+                floors: [lower, Some(level)],
+            }
+        };
+        frame.members.iter().map(member).collect()
+    }
 }
 
 /// A floor from above.
@@ -409,8 +439,13 @@ fn outline(building: &Building) -> Outline<'_> {
         }
         Structure::Frame(_) | Structure::Shear(_) | Structure::Given(_) => Vec::new(),
     };
+    let members = match &building.structure {
+        Structure::Tiers(tiers) => tiers.space_frame.as_ref().map(MemberData::all_of),
+        _ => None,
+    };
     Outline {
         plans,
+        members: members.unwrap_or_default(),
         name: &building.name,
         frame,
         heights: building.floor_heights(),

@@ -1,7 +1,10 @@
 //! The site from above: plans with numbered corners, gaps, the direction of shaking and a scale.
 
 use jostle::interface::PlanContactKind;
-use jostle::{Building, GroundMotion, Model, PlanPoint, Structure, System, Tiers};
+use jostle::{
+    Building, GroundMotion, Model, PlanPoint, SpaceFrame, SpaceMember, SpacePlace, Structure,
+    System, Tiers,
+};
 use maud::{Markup, PreEscaped, html};
 
 use crate::document::colour;
@@ -159,6 +162,7 @@ pub(crate) fn drawing(
                             rect.column x=(format!("{:.1}", x - 2.5)) y=(format!("{:.1}", y - 2.5)) width="5" height="5" {}
                         }
                     }
+                    @if let Some(frame) = &tiers.space_frame { (grid(frame, scale)) }
                     @if let Some(tier) = tiers.floors.first() {
                         @let [x, y] = scale.place(tier.centre);
                         @if let Some(storey) = tiers.storeys.first() {
@@ -180,6 +184,50 @@ pub(crate) fn drawing(
             (marks(scale, places))
             (labels(scale, places, &mut taken))
             (strip(scale, motion))
+        }
+    }
+}
+
+/// Grid lines of a space frame, and columns and beams of its lowest storey.
+fn grid(frame: &SpaceFrame, scale: &Scale) -> Markup {
+    let ends = |lines: &[f64]| [lines[0], lines[lines.len() - 1]];
+    let ([x0, x1], [y0, y1]) = (ends(&frame.lines_x), ends(&frame.lines_y));
+    let of_x = frame
+        .lines_x
+        .iter()
+        .map(|x| ([[*x, y0], [*x, y1]], "x", *x));
+    let of_y = frame
+        .lines_y
+        .iter()
+        .map(|y| ([[x0, *y], [x1, *y]], "y", *y));
+    let numbered = of_x.enumerate().chain(of_y.enumerate());
+    let path = |points: &[PlanPoint]| {
+        let on_site = points.iter().map(|point| frame.on_site(*point));
+        scale.path(on_site)
+    };
+    let lowest = || frame.members.iter().filter(|own| own.place.storey() == 0);
+    let at = |[x, y]: [usize; 2]| [frame.lines_x[x], frame.lines_y[y]];
+    let column = |own: &SpaceMember| {
+        let [x, y] = at(own.place.crossings()[0]);
+        let [a, b] = own.section.size.map(|side| 0.5 * side);
+        path(&[
+            [x - a, y - b],
+            [x + a, y - b],
+            [x + a, y + b],
+            [x - a, y + b],
+        ])
+    };
+    let is_column = |own: &SpaceMember| matches!(own.place, SpacePlace::Column { .. });
+    html! {
+        @for (number, (line, name, place)) in numbered {
+            polyline.axis stroke-dasharray="6 3 1 3" points=(path(&line)) { title { "grid line " (name) " = " (number + 1) ", at " (format::plain(place, 4)) " m" } }
+        }
+        @for own in lowest() {
+            @if is_column(own) {
+                polygon.column points=(column(own)) {}
+            } @else {
+                polyline.frame points=(path(&own.place.crossings().map(at))) {}
+            }
         }
     }
 }
