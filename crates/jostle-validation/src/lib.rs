@@ -26,6 +26,7 @@ pub mod row;
 pub mod shear_buildings;
 pub mod soil;
 pub mod space;
+pub mod space_frames;
 pub mod towers;
 pub mod work_precision;
 pub mod yielding;
@@ -59,7 +60,7 @@ pub struct Family {
 type Make = fn(Extent) -> Vec<Row>;
 
 /// Title, explanation and rows of every family.
-const FAMILIES: [(&str, &str, Make); 20] = [
+const FAMILIES: [(&str, &str, Make); 21] = [
     (
         "Closed forms",
         "Statics, frequencies, damping coefficients and single Newmark steps against formulas and an independent \
@@ -95,6 +96,13 @@ const FAMILIES: [(&str, &str, Make); 20] = [
          offset in plan at 30°, three buildings around a corner. Expected values: modes in free flight, an integrator of \
          eighth order in contact, every touch and opening located; checked by fixed steps of 2 µs.",
         |_| space::rows(),
+    ),
+    (
+        "Space frames",
+        "A frame of three storeys and two by two bays with unequal columns, read from a model file; without and with shear \
+         deformation. Expected values: members of six degrees of freedom assembled by an independent program, whose periods and \
+         displacements agree with OpenSees (elasticBeamColumn, ElasticTimoshenkoBeam, rigidDiaphragm) to 2·10⁻¹⁴.",
+        |_| space_frames::rows(),
     ),
     (
         "Free floors in space",
