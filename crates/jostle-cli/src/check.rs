@@ -31,15 +31,19 @@ pub(crate) fn check(args: &CheckArgs) -> Result<(), Failure> {
     let mut text = String::new();
     // Writing to a string cannot fail.
     let _ = describe(&mut text, &opened.input.model, &opened.system);
-    let of_foundations = jostle::results::foundation_warnings(&opened.system);
-    for warning in opened.input.warnings.iter().chain(&of_foundations) {
+    let mut of_system = jostle::results::foundation_warnings(&opened.system);
+    of_system.extend(jostle::results::friction_warnings(
+        &opened.input.model,
+        &opened.system,
+    ));
+    for warning in opened.input.warnings.iter().chain(&of_system) {
         let _ = writeln!(text, "{} {warning}", styled(LOUD, "warning:"));
     }
     let assumptions = opened.input.assumptions();
     for assumption in &assumptions {
         let _ = writeln!(text, "{} {assumption}", styled(LOUD, "note:"));
     }
-    let warned = !(opened.input.warnings.is_empty() && of_foundations.is_empty());
+    let warned = !(opened.input.warnings.is_empty() && of_system.is_empty());
     if warned || !assumptions.is_empty() {
         text.push('\n');
     }
@@ -96,7 +100,12 @@ fn draw_site(target: &Target, opened: &Opened) -> Result<(), Failure> {
     let motion = opened.input.motion.is_some() && opened.input.records().is_empty();
     let motion = motion.then(|| opened.plan()).transpose()?;
     let motion = motion.as_ref().map(|(motion, _)| motion);
-    let Some(drawing) = site_svg(&opened.input.model, &opened.system, motion) else {
+    let Some(drawing) = site_svg(
+        &opened.input.model,
+        &opened.system,
+        motion,
+        opened.input.north,
+    ) else {
         return Ok(());
     };
     target.write(&drawing)?;

@@ -108,6 +108,8 @@ pub(crate) enum Section {
     Output,
     /// Which floor response spectra.
     FloorSpectra,
+    /// The site in plan.
+    Site,
     /// Inputs of the separation rules of codes.
     Codes,
     /// Those of one building.
@@ -374,6 +376,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Root, "link", Tables(&[S::Link, S::LinkLaw]), "Springs, dampers and sliders that join neighbours, or floors of one building."),
     optional(S::Root, "wall", Tables(&[S::Wall]), "Walls that gaps and links can name, anywhere beside a building."),
     optional(S::Root, "soil", Kind::Table(S::Soil), "Soil under buildings with a foundation."),
+    optional(S::Root, "site", Kind::Table(S::Site), "The site in plan."),
     optional(S::Root, "analysis", Kind::Table(S::Analysis), "Steps, accuracy and solver."),
     optional(S::Root, "output", Kind::Table(S::Output), "What results hold beyond the usual."),
     optional(S::Root, "codes", Kind::Table(S::Codes), "Inputs of the separation rules of codes."),
@@ -776,6 +779,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::FloorSpectra, "periods", Quantities(D::Time), "100 from 0.02 s to 4 s", "Periods of the oscillators; 0 is the rigid one."),
     default(S::FloorSpectra, "low_pass", Quantity(D::Frequency), "\"25 Hz\"", "Corner frequency of the filter of the filtered peak acceleration."),
     default(S::FloorSpectra, "order", Count, "4", "Order of this Butterworth filter, which runs forwards and backwards: 2, 4, 6 or 8."),
+    required(S::Site, "north", Quantity(D::Dimensionless), "Angle from x to north, counter-clockwise, such as \"90 deg\" where y points north; drawn as an arrow, and directions of shaking are also written as compass bearings."),
     default(S::Codes, "show", TextOrTexts, "all codes", "Codes whose rules are listed: ubc97, gb50011, en1998, asce7, tbdy2018, is1893, ntc2018, e030, nsr10, iran2800."),
     default(S::Codes, "motion", Choice(MOTION_LEVELS), "\"full\"", "Whether the motion is the design motion in full, or reduced by q or R."),
     default(S::Codes, "floor_levels", Choice(FLOOR_LEVELS), "\"auto\"", "Whether all floors that face each other lie at equal height; auto follows the model."),

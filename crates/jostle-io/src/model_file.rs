@@ -28,6 +28,7 @@ mod plan_frames;
 mod reinforced;
 mod section;
 mod shear;
+mod site;
 mod soil;
 mod space_frame;
 #[cfg(test)]
@@ -77,6 +78,8 @@ pub struct Input {
     pub governing: Option<GoverningRule>,
     /// Inputs of the separation rules of codes.
     pub codes: CodeInputs,
+    /// Angle from x to north, counter-clockwise; `None` if the file does not say \[rad\].
+    pub north: Option<f64>,
     /// Rules for the capacity of these members.
     pub capacity: CapacityRequest,
     /// Warnings of a valid file.
@@ -190,6 +193,7 @@ pub(crate) fn read_tree(source: Arc<Source>, root: Node, base: &Path) -> Result<
             reinforced,
             capacity,
             codes,
+            north,
             floor_spectra,
             governing,
             dampers: _,
@@ -197,6 +201,7 @@ pub(crate) fn read_tree(source: Arc<Source>, root: Node, base: &Path) -> Result<
             reinforced,
             capacity,
             codes,
+            north,
             floor_spectra,
             governing,
             warnings: {
@@ -462,6 +467,7 @@ struct Parts {
     reinforced: Vec<ReinforcedMember>,
     capacity: CapacityRequest,
     codes: CodeInputs,
+    north: Option<f64>,
     floor_spectra: Option<FloorSpectraRequest>,
     governing: Option<GoverningRule>,
 }
@@ -560,6 +566,8 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Parts>
         gap::for_all_neighbours(reader, &fields, &at, &mut model);
         plan::check_widths(reader, &mut model, &fields);
     }
+    let site = reader.get(&view, "site");
+    let north = site.and_then(|field| site::read(reader, &field, model.is_in_space()));
     capacity::fill(&mut model, &capacity, &reinforced);
     Some(Parts {
         model,
@@ -567,6 +575,7 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Parts>
         reinforced,
         capacity,
         codes,
+        north,
         floor_spectra,
         governing,
         dampers: paths,

@@ -158,6 +158,11 @@ const TABLES: &[(Section, &str, &str)] = &[
         "See [Buildings on soil](how-to/soil.md).",
     ),
     (Section::SoilCoupling, "`soil.coupling`", ""),
+    (
+        Section::Site,
+        "`[site]`",
+        "For buildings with a plan; results do not depend on it.",
+    ),
     (Section::Analysis, "`[analysis]`", ""),
     (
         Section::Output,

@@ -1,10 +1,10 @@
 // Results over one key: a curve that is drawn as its points come, with the present value as a line to drag.
 
 const results = [
-  { name: "Peak force", unit: "kN" },
-  { name: "Number of impacts", unit: "" },
-  { name: "Peak storey drift", unit: "%" },
-  { name: "Peak floor acceleration", unit: "m/s²" },
+  { name: say("peak_force_title"), unit: "kN" },
+  { name: say("number_of_impacts"), unit: "" },
+  { name: say("peak_storey_drift"), unit: "%" },
+  { name: say("peak_floor_acceleration"), unit: "m/s²" },
 ];
 const curvePoints = 120;
 const pointsPerRecord = 60;
@@ -53,8 +53,8 @@ function fillOver() {
   const select = byId("over");
   const usable = knobs.filter(runsOver);
   const gaps = usable.filter((knob) => /^gap\[\d+\]\.width$/.test(knob.path));
-  const entries = gaps.length > 1 ? [["gap[*].width", "all gaps"]] : [];
-  for (const knob of gaps) entries.push([knob.path, `gap ${knob.group}`]);
+  const entries = gaps.length > 1 ? [["gap[*].width", say("all_gaps")]] : [];
+  for (const knob of gaps) entries.push([knob.path, say("gap_of", { name: knob.group })]);
   for (const knob of usable.filter((knob) => !gaps.includes(knob))) {
     entries.push([knob.path, `${knob.group}: ${knob.name.replaceAll("_", " ")}`]);
   }
@@ -123,7 +123,7 @@ function computeCurve() {
   if (!curve.stale || !curve.path) return;
   // The curve before stays, pale, until points of the new one come.
   byId("curve-picture").classList.add("stale");
-  byId("curve-note").textContent = "Computing the curve …";
+  byId("curve-note").textContent = say("computing_the_curve");
   computing = setTimeout(() => {
     curve.stale = false;
     const knob = knobs.find((one) => one.path === curve.path.replace("[*]", "[0]"));
@@ -221,7 +221,7 @@ function drawCurve() {
   const px = (x) => left + ((x - from) / (to - from)) * (width - left - right);
   const py = (y) => height - bottom - (y / high) * (height - top - bottom);
   Object.assign(picture, { width, px });
-  const image = svg("svg", { viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": `${name} over ${curve.path}` });
+  const image = svg("svg", { viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": say("one_over_other", { name, other: curve.path }) });
   const grid = svg("g", { class: "grid" }, image);
   const ys = ticks(0, high, 5);
   for (const value of ys.values) {
@@ -261,12 +261,12 @@ function drawCurve() {
   drawCursor(image);
   host.replaceChildren(image);
   if (focused) picture.handle.focus({ preventScroll: true });
-  const records = curve.records.length > 1 ? `, ${curve.records.length} records: thin lines, mean bold, 16 to 84 % shaded` : "";
-  byId("curve-caption").textContent = `${name}${unit ? ` [${unit}]` : ""} against ${over}${curve.unit ? ` [${curve.unit}]` : ""}${records}`;
+  const records = curve.records.length > 1 ? say("records_of_the_curve", { count: curve.records.length }) : "";
+  byId("curve-caption").textContent = say("one_against_other", { result: withUnit(name, unit), key: withUnit(over, curve.unit), records });
   const needed = knownMarks().find((mark) => mark.needed);
-  const done = all.length ? `${lines.flat().length} of ${curve.of} points. ` : "";
-  const found = needed ? `Smallest gap without pounding: ${fixed(1e3 * needed.width, 1)} mm. ` : "";
-  if (curve.fresh && !curve.stale) byId("curve-note").textContent = curve.problem || `${found}${lines.flat().length < curve.of ? done : ""}Drag the line, or use the arrow keys, to change the value.`;
+  const done = all.length ? say("points_of", { done: lines.flat().length, all: curve.of }) : "";
+  const found = needed ? say("smallest_gap_is", { width: fixed(1e3 * needed.width, 1) }) : "";
+  if (curve.fresh && !curve.stale) byId("curve-note").textContent = curve.problem || found + (lines.flat().length < curve.of ? done : "") + say("drag_the_line_or_use");
 }
 
 const isWidth = () => /^gap\[.*\]\.width$/.test(curve.path ?? "");
@@ -276,7 +276,7 @@ function knownMarks() {
   if (curve.marks.length || !isWidth()) return curve.marks;
   const gap = /^gap\[(\d+)\]/.exec(curve.path)?.[1];
   const width = gap === undefined ? null : latest?.needed[Number(gap)];
-  return width > 0 ? [{ name: "no pounding", source: "greatest closing without contact", width, needed: true }] : [];
+  return width > 0 ? [{ name: say("no_pounding"), source: say("greatest_closing_without_contact"), width, needed: true }] : [];
 }
 
 /** The smallest gap without pounding, and rules, as marks with their names above each other. */
@@ -292,7 +292,7 @@ function drawMarks(image, px, width) {
   for (const mark of seen) {
     const x = px(mark.x);
     const line = svg("g", { class: mark.needed ? "needed" : "" }, group);
-    svg("title", {}, line).textContent = `${mark.name}: ${fixed(1e3 * mark.width, 1)} mm. ${mark.source}`;
+    svg("title", {}, line).textContent = say("mark_of_a_rule", { name: mark.name, width: fixed(1e3 * mark.width, 1), source: mark.source });
     const length = 6.1 * mark.name.length;
     const anchor = x + length > width - picture.right ? "end" : "start";
     const start = anchor === "end" ? x - length : x;
@@ -308,7 +308,7 @@ function drawMarks(image, px, width) {
 /** The present value, as a line that can be dragged and moved with the arrow keys. */
 function drawCursor(image) {
   const x = present();
-  const handle = svg("g", { class: "handle", tabindex: 0, role: "slider", "aria-label": byId("over").selectedOptions[0]?.textContent ?? "value" }, image);
+  const handle = svg("g", { class: "handle", tabindex: 0, role: "slider", "aria-label": byId("over").selectedOptions[0]?.textContent ?? say("value_word") }, image);
   svg("line", { class: "handle-line", y1: picture.top - 14, y2: picture.height - picture.bottom }, handle);
   svg("path", { class: "handle-knob", d: "M-7,-9h14v8l-7,8l-7,-8z" }, handle);
   svg("text", { class: "handle-value", y: picture.top - 18, "text-anchor": "middle" }, handle);
@@ -391,7 +391,7 @@ function bindCurve() {
       const good = event.target.value.trim() !== "" && Number.isFinite(typed) && ends.from < ends.to;
       event.target.setAttribute("aria-invalid", String(!good));
       if (!good) {
-        byId("curve-note").textContent = "The curve needs two numbers, the first smaller than the second.";
+        byId("curve-note").textContent = say("the_curve_needs_two_numbers");
         return;
       }
       Object.assign(curve, ends, { fixed: true });

@@ -35,7 +35,9 @@ function restart() {
   worker.postMessage({ compiled, inside, greet: !greeted });
 }
 
-function take({ data, share, busy: searching, done, failed }) {
+function take({ data, share, busy: searching, done, failed, stopped, unable }) {
+  if (stopped !== undefined) failed = say("the_engine_stopped", { reason: stopped });
+  if (unable !== undefined) failed = say("the_engine_cannot_be_started", { reason: unable });
   if (data !== undefined) receive(data);
   if (share !== undefined && waiting) showProgress({ id: waiting.id, share });
   if (searching) busy += 1;
@@ -50,14 +52,14 @@ function take({ data, share, busy: searching, done, failed }) {
 
 async function connect() {
   if (typeof DecompressionStream === "undefined" || typeof WebAssembly === "undefined") {
-    showConnection("This page needs a browser with WebAssembly and DecompressionStream: Chrome or Edge from 80, Firefox from 113, Safari from 16.4.");
+    showConnection(say("this_page_needs_a_browser"));
     return;
   }
   try {
     const bytes = await through(fromBase64(byId("engine").textContent), new DecompressionStream("gzip"));
     compiled = await WebAssembly.compile(bytes);
   } catch (error) {
-    showConnection(`The engine of this page cannot be started: ${error.message}`);
+    showConnection(say("the_engine_of_this_page_cannot", { reason: error.message }));
     return;
   }
   byId("engine").remove();

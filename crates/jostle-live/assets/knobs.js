@@ -7,9 +7,19 @@ const usual = [
   /^building\[\d+\]\.(storeys|storey_height|stiffness_factor|damping\.ratio|mass|stiffness|beam_mass|floor_mass|column\.depth|beam\.depth)$/,
   /^link\[\d+\]\.(stiffness|damping)$/,
 ];
+/** Those of buildings in space, stated or not. */
+const usualInSpace = /^(motion\.angle|gap\[\d+\]\.friction)$/;
+const isInSpace = () => knobs.some(({ path, value }) => /^building\[\d+\]\.plan/.test(path) && value !== null);
+
+/** With the number that an absent key of space has, so that it has a slider as well. */
+function withStandard(knob) {
+  if (knob.value !== null || !usualInSpace.test(knob.path)) return knob;
+  return { ...knob, number: 0, unit: knob.path === "motion.angle" ? "deg" : "" };
+}
 
 /** Only keys that the file states, and some that scale the motion. */
 const isUsual = (knob) =>
+  (usualInSpace.test(knob.path) && isInSpace()) ||
   usual.some((pattern) => pattern.test(knob.path)) && (knob.value !== null || /\.(pga|stiffness_factor|ratio|reverse)$/.test(knob.path));
 
 /** The ends of a slider around a value: linear for what may vanish, by ratios for stiffnesses and the like. */
@@ -17,6 +27,8 @@ function sliderRange(knob) {
   const x = knob.number;
   if (knob.kind === "count") return { low: 1, high: Math.max(2 * x, 10), step: 1 };
   if (knob.kind !== "quantity" || x === null || !Number.isFinite(x)) return null;
+  if (knob.path === "motion.angle") return knob.unit === "deg" ? { low: -180, high: 180, step: 1 } : { low: -Math.PI, high: Math.PI };
+  if (/^gap.*friction$/.test(knob.path)) return { low: 0, high: 0.9, step: 0.01 };
   if (/restitution$/.test(knob.path)) return { low: 0.05, high: 1, step: 0.01 };
   if (/ratio$/.test(knob.path)) return { low: 0, high: Math.max(0.2, 2 * x) };
   if (/width$/.test(knob.path) && knob.path.startsWith("gap")) return { low: 0, high: x > 0 ? 4 * x : 100 };
@@ -29,7 +41,7 @@ function sliderRange(knob) {
 const written = (x) => String(Number(x.toPrecision(4)));
 
 /** What names that only the files of jostle know mean. */
-const meanings = { pga: "peak acceleration (pga)", EI: "flexural rigidity EI", EA: "axial rigidity EA" };
+const meanings = { pga: say("peak_acceleration_pga"), EI: say("flexural_rigidity_ei"), EA: say("axial_rigidity_ea") };
 const nameOfKnob = ({ name }) => {
   const last = name.split(".").pop();
   const plain = name.replaceAll("_", " ").replaceAll(".", " · ");
@@ -52,7 +64,7 @@ class KnobRow {
     if (this.range) {
       this.slider = html("input", "knob-slider", undefined, this.row);
       Object.assign(this.slider, { type: "range", min: 0, max: 1, step: this.range.step ? this.range.step / (this.range.high - this.range.low) : 0.002 });
-      this.slider.setAttribute("aria-label", `${knob.name} of ${knob.group}`);
+      this.slider.setAttribute("aria-label", say("key_of_group", { key: knob.name, group: knob.group }));
       this.slider.addEventListener("input", () => this.slide());
     }
     this.fault = html("p", "fault", undefined, this.row);
@@ -154,13 +166,13 @@ function showKnobs() {
       if (knob.group !== group) {
         group = knob.group;
         host = html("fieldset", "", undefined, list);
-        html("legend", "", knob.path.startsWith("gap") ? `gap ${group}` : group, host);
+        html("legend", "", knob.path.startsWith("gap") ? say("gap_of", { name: group }) : group, host);
       }
       const row = new KnobRow(knob);
       rows.set(knob.path, row);
       host.append(row.row);
     }
-    if (!wanted.length) html("p", "quiet", words.length ? "No key of the model file matches." : "", list);
+    if (!wanted.length) html("p", "quiet", words.length ? say("no_key_matches") : "", list);
     const kept = focused && rows.get(focused[0]);
     if (kept) (onSlider && kept.slider ? kept.slider : kept.field).focus();
   } else {
@@ -170,7 +182,7 @@ function showKnobs() {
 
 /** Takes over the knobs of an answer. */
 function takeKnobs(taken) {
-  knobs = taken;
+  knobs = taken.map(withStandard);
   showKnobs();
   const editor = byId("text");
   if (document.activeElement !== editor) editor.value = state.text;
@@ -191,11 +203,11 @@ function showFaults({ faults, knobs: taken }) {
   const host = byId("faults");
   host.hidden = !others.length;
   for (const fault of others) {
-    const place = fault.line ? `line ${fault.line}: ` : "";
+    const place = fault.line ? say("line_of_the_model", { line: fault.line }) : "";
     html("p", "", `${place}${[fault.path, fault.problem].filter(Boolean).join(": ")}`, host);
     if (fault.remedy) html("p", "quiet", fault.remedy, host);
   }
-  byId("headline").textContent = "The model has a fault. The results below are for the previous values.";
+  byId("headline").textContent = say("the_model_has_a_fault");
 }
 
 function clearFaults() {

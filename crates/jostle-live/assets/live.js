@@ -41,7 +41,7 @@ function showFrame(head, data, numbers) {
 /** Accuracy and notes of the latest run; they come again once it is known whether its results are sensitive. */
 function showAccuracy({ id, text, notes }) {
   if (latest?.id !== id) return;
-  byId("accuracy").replaceChildren(html("b", "", "Accuracy: "), `${text.replace(/^accuracy: /, "")}.`);
+  byId("accuracy").replaceChildren(html("b", "", `${say("accuracy")} `), `${text.replace(/^accuracy: /, "")}.`);
   const host = byId("notes");
   host.hidden = !notes.length;
   host.replaceChildren(...notes.map((note) => html("p", "", note)));
@@ -67,7 +67,7 @@ function showProgress({ id, share }) {
 }
 
 function showStopped() {
-  byId("headline").textContent = "Stopped. The results below are for the previous values.";
+  byId("headline").textContent = say("stopped");
 }
 
 // --- Compare -------------------------------------------------------------------------------------------
@@ -81,7 +81,7 @@ function showComparison() {
   const table = byId("comparison");
   table.replaceChildren();
   const head = html("tr", "", undefined, html("thead", "", undefined, table));
-  for (const name of ["", "pinned", "now", "change"]) html("th", name ? "number" : "", name, head).scope = "col";
+  for (const name of ["", say("pinned"), say("now"), say("change")]) html("th", name ? "number" : "", name, head).scope = "col";
   const body = html("tbody", "", undefined, table);
   const names = [...new Set([...pinned.numbers, ...latest.numbers].map(({ name }) => name))];
   for (const name of names) {
@@ -99,7 +99,7 @@ function togglePin() {
   scene?.pin(Boolean(pinned));
   const button = byId("pin");
   button.setAttribute("aria-pressed", String(Boolean(pinned)));
-  button.textContent = pinned ? "Unpin" : "Pin";
+  button.textContent = pinned ? say("unpin") : say("pin");
   showComparison();
 }
 

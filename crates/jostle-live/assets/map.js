@@ -41,7 +41,7 @@ function fillAcross() {
   const described = options.map((option) => option.value).join();
   if (select.dataset.entries !== described) {
     select.dataset.entries = described;
-    select.replaceChildren(new Option("no second value", ""), ...options.map((option) => new Option(option.textContent, option.value)));
+    select.replaceChildren(new Option(say("no_second_value"), ""), ...options.map((option) => new Option(option.textContent, option.value)));
   }
   // A key that is gone, or that has another unit now, leaves the curve.
   if (curve.across && knobOf(curve.across.path)?.unit !== curve.across.unit) curve.across = null;
@@ -68,7 +68,7 @@ function drawMap() {
   const values = known.filter((point) => point.y).map((point) => point.y[measure]);
   const high = Math.max(...values, 0) || 1;
   Object.assign(map, { width, cell, columns, lines, px, py });
-  const image = svg("svg", { viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": `${name} over ${nameOf(curve.path)} and ${nameOf(across.path)}` });
+  const image = svg("svg", { viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": say("one_over_two", { name, other: nameOf(curve.path), another: nameOf(across.path) }) });
   const cells = svg("g", { class: "cells" }, image);
   for (const point of known) {
     const box = svg("rect", {
@@ -79,7 +79,7 @@ function drawMap() {
       class: point.y ? "" : "failed",
       fill: point.y ? colourOf(point.y[measure] / high) : "var(--rule)",
     }, cells);
-    const result = point.y ? counted(point.y[measure], unit) : "the run failed";
+    const result = point.y ? counted(point.y[measure], unit) : say("the_run_failed");
     svg("title", {}, box).textContent = `${written(point.x)} ${curve.unit}, ${written(point.z)} ${across.unit}: ${result}`;
   }
   const grid = svg("g", { class: "grid" }, image);
@@ -95,9 +95,9 @@ function drawMap() {
   drawCross(image);
   host.replaceChildren(image);
   if (focused) map.cross.focus({ preventScroll: true });
-  byId("curve-caption").textContent = `${withUnit(name, unit)} over ${nameOf(curve.path)} and ${nameOf(across.path)}`;
-  const done = curve.fresh && known.length < columns * lines ? `${known.length} of ${columns * lines} cells. ` : "";
-  if (curve.fresh && !curve.stale) byId("curve-note").textContent = curve.problem || `${done}Click a cell, or use the arrow keys, to set both values.`;
+  byId("curve-caption").textContent = say("one_over_two", { name: withUnit(name, unit), other: nameOf(curve.path), another: nameOf(across.path) });
+  const done = curve.fresh && known.length < columns * lines ? say("cells_of", { done: known.length, all: columns * lines }) : "";
+  if (curve.fresh && !curve.stale) byId("curve-note").textContent = curve.problem || done + say("click_a_cell");
 }
 
 /** The colour bar. */
@@ -120,7 +120,7 @@ function drawScale(image, high, unit) {
 
 /** The present values, as a cross that moves with the arrow keys. */
 function drawCross(image) {
-  const cross = svg("g", { class: "cross", tabindex: 0, role: "application", "aria-roledescription": "cursor of the map" }, image);
+  const cross = svg("g", { class: "cross", tabindex: 0, role: "application", "aria-roledescription": say("cursor_of_the_map") }, image);
   // White under black shows on every colour.
   for (const kind of ["under", "over"]) svg("path", { class: kind }, cross);
   map.cross = cross;

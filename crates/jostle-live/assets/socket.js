@@ -19,7 +19,7 @@ function connect() {
     waiting = null;
     byId("working").hidden = true;
     showWaiting();
-    showConnection("No connection to jostle. If it has ended, start it again. Reconnecting …");
+    showConnection(say("no_connection_to_jostle"));
     tries += 1;
     setTimeout(connect, Math.min(250 * 2 ** tries, 5000));
   };

@@ -105,7 +105,7 @@ function guarded(step) {
   try {
     step();
   } catch (error) {
-    postMessage({ failed: `The engine stopped: ${error.message}. The model may need more memory than a page has; jostle run has no such limit.` });
+    postMessage({ stopped: error.message });
   }
 }
 
@@ -114,7 +114,7 @@ turns.port1.onmessage = () => guarded(compute);
 
 let ready = null;
 onmessage = async ({ data }) => {
-  if (data.compiled) ready = begin(data).catch((error) => postMessage({ failed: `The engine cannot be started: ${error.message}` }));
+  if (data.compiled) ready = begin(data).catch((error) => postMessage({ unable: error.message }));
   else {
     await ready;
     if (wasm) guarded(() => answer(data.request));

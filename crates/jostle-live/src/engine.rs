@@ -13,6 +13,7 @@ use jostle_run::{CaseCache, CaseError, Prepared, Results};
 use serde::Serialize;
 
 use crate::message::{Fault, Run, fault, faults};
+use jostle_report::message;
 
 /// Most files of the model's folder that are offered as records.
 const MOST_FILES: usize = 60;
@@ -497,15 +498,19 @@ fn numbers(summary: &Summary) -> Vec<Number> {
         } else {
             String::new()
         };
-        add(format!("Gap{pair}"), "mm", 1e3 * gap.width_m);
-        add(format!("Peak force{pair}"), "kN", 1e-3 * gap.peak_force_n);
-        add(format!("Impacts{pair}"), "", gap.impact_count as f64);
+        add(message::gap_pair(&pair), "mm", 1e3 * gap.width_m);
+        add(
+            message::peak_force_of_pair(&pair),
+            "kN",
+            1e-3 * gap.peak_force_n,
+        );
+        add(message::impacts_pair(&pair), "", gap.impact_count as f64);
         if let Some(first) = gap.first_impact_s {
-            add(format!("First impact{pair}"), "s", first);
+            add(message::first_impact(&pair), "s", first);
         }
         if let Some(closing) = gap.closing_without_contact_m {
             add(
-                format!("Smallest gap without pounding{pair}"),
+                message::smallest_gap_without_pounding_title(&pair),
                 "mm",
                 1e3 * closing,
             );
@@ -516,25 +521,25 @@ fn numbers(summary: &Summary) -> Vec<Number> {
         let floors = building.floors.iter();
         let sway = floors.map(|f| f.response.displacement_peak_m());
         let sway = sway.fold(0.0, f64::max);
-        add(format!("Displacement of {name}"), "mm", 1e3 * sway);
+        add(message::displacement_of(&name), "mm", 1e3 * sway);
         add(
-            format!("Storey drift of {name}"),
+            message::storey_drift_of(&name),
             "%",
             100.0 * building.response.drift_peak,
         );
         add(
-            format!("Floor acceleration of {name}"),
+            message::floor_acceleration(&name),
             "m/s²",
             building.response.total_acceleration_peak_m_s2,
         );
         add(
-            format!("Base shear of {name}"),
+            message::base_shear_title(&name),
             "kN",
             1e-3 * building.response.base_shear_peak_n,
         );
     }
     add(
-        "Peak ground acceleration".into(),
+        message::peak_ground_acceleration().into(),
         "m/s²",
         summary.motion.pga_m_s2,
     );

@@ -1,6 +1,7 @@
 //! The page: the viewer of the report, with input fields around it.
 
 use jostle_report::Viewer;
+use jostle_report::message;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 const STYLE: &str = include_str!("../assets/live.css");
@@ -45,7 +46,7 @@ pub(crate) fn page(name: &str, port: u16, token: &str) -> (String, String) {
         policy: None,
         nonce: Some(token),
         inside: html! {},
-        footer: "runs on this machine. This page uses no network.",
+        footer: message::runs_on_this_machine(),
     });
     (page, policy)
 }
@@ -61,7 +62,7 @@ pub(crate) fn page_with_engine(name: &str, inside: Markup) -> String {
         ),
         nonce: None,
         inside,
-        footer: "runs inside this page, without a network.",
+        footer: message::runs_inside_this_page_without(),
     })
 }
 
@@ -76,7 +77,7 @@ pub fn widget_page(name: &str) -> String {
         ),
         nonce: None,
         inside: html! {},
-        footer: "runs in this notebook. This page uses no network.",
+        footer: message::runs_in_this_notebook(),
     })
 }
 
@@ -89,40 +90,40 @@ fn document(around: &Around) -> String {
     let script = [&viewer.script, "\n", &SCRIPTS.concat(), around.link, START].concat();
     let markup = html! {
         (DOCTYPE)
-        html lang="en" {
+        html lang=(message::language_code()) {
             head {
                 meta charset="utf-8";
                 @if let Some(policy) = around.policy { meta http-equiv="Content-Security-Policy" content=(policy); }
                 meta name="viewport" content="width=device-width, initial-scale=1";
-                title { (name) " – jostle live" }
+                title { (message::title_jostle_live(&name)) }
                 link rel="icon" href="data:,";
-                style { (PreEscaped(viewer.style)) (PreEscaped(STYLE)) }
+                style { (PreEscaped(&viewer.style)) (PreEscaped(STYLE)) }
             }
             body.live {
-                a.skip href="#headline" { "Skip to the results" }
+                a.skip href="#headline" { (message::skip_to_the_results()) }
                 header.topbar {
-                    h1 { "jostle live " span #model-name.quiet { (name) } }
-                    div.buttons role="group" aria-label="This model" {
-                        button #undo type="button" title="Undo (Ctrl+Z)" disabled { "Undo" }
-                        button #redo type="button" title="Redo (Ctrl+Shift+Z)" disabled { "Redo" }
-                        button #pin type="button" aria-pressed="false" title="Keep this run for comparison" { "Pin" }
-                        button #save-model type="button" { "Save model" }
-                        button #save-report type="button" { "Save report" }
-                        button #theme.quiet-button type="button" title="Switch between light and dark" aria-label="Switch between light and dark" { "◐" }
+                    h1 { (message::jostle_live()) " " span #model-name.quiet { (name) } }
+                    div.buttons role="group" aria-label=(message::this_model()) {
+                        button #undo type="button" title=(message::undo_ctrl_z()) disabled { (message::undo()) }
+                        button #redo type="button" title=(message::redo_ctrl_shift_z()) disabled { (message::redo()) }
+                        button #pin type="button" aria-pressed="false" title=(message::keep_this_run_for_comparison()) { (message::pin()) }
+                        button #save-model type="button" { (message::save_model()) }
+                        button #save-report type="button" { (message::save_report()) }
+                        button #theme.quiet-button type="button" title=(message::switch_between_light_and_dark()) aria-label=(message::switch_between_light_and_dark()) { "◐" }
                     }
                 }
                 p #connection.connection role="status" hidden {}
                 div.columns-of-page {
                     (knobs())
                     main {
-                        div #working.working hidden { progress #progress max="1" value="0" aria-label="Share of the run that is done" {} button #stop type="button" { "Stop" } }
-                        p #headline.verdict tabindex="-1" aria-live="polite" { "Running the model …" }
+                        div #working.working hidden { progress #progress max="1" value="0" aria-label=(message::share_of_the_run()) {} button #stop type="button" { (message::stop()) } }
+                        p #headline.verdict tabindex="-1" aria-live="polite" { (message::running_the_model()) }
                         div #part-warnings {}
                         div.pair {
                             (curve())
                             div #animation { (PreEscaped(viewer.motion)) }
                         }
-                        section #compare hidden { h2 { "Compared with the pinned run" } div.scroll { table #comparison {} } }
+                        section #compare hidden { h2 { (message::compared_with_the_pinned_run()) } div.scroll { table #comparison {} } }
                         div #result {
                             (PreEscaped(viewer.sections))
                             div #notes.note hidden {}
@@ -132,7 +133,8 @@ fn document(around: &Around) -> String {
                 footer { "jostle " (env!("CARGO_PKG_VERSION")) " " (around.footer) }
                 (around.inside)
                 (PreEscaped(viewer.player))
-                noscript { p.note { "This page needs JavaScript." } }
+                noscript { p.note { (message::this_page_needs_javascript()) } }
+                (message::for_scripts(&script))
                 script type="module" nonce=[around.nonce] { (PreEscaped(script)) }
             }
         }
@@ -142,17 +144,17 @@ fn document(around: &Around) -> String {
 
 fn knobs() -> Markup {
     html! {
-        aside.knobs aria-label="The model" {
-            label.search-label { span.wordy-label { "Find any value" }
-                input #search type="search" placeholder="damping, stiffness, column …" autocomplete="off" spellcheck="false";
+        aside.knobs aria-label=(message::the_model()) {
+            label.search-label { span.wordy-label { (message::find_any_value()) }
+                input #search type="search" placeholder=(message::damping_stiffness_column()) autocomplete="off" spellcheck="false";
             }
-            label #record-choice hidden { "Record of the list " select #several {} }
+            label #record-choice hidden { (message::record_of_the_list()) " " select #several {} }
             div #faults.faults role="alert" hidden {}
             div #knob-list {}
             datalist #record-names {}
             details #editor {
-                summary { "Model file" }
-                textarea #text rows="24" spellcheck="false" autocomplete="off" aria-label="Text of the model file" {}
+                summary { (message::model_file()) }
+                textarea #text rows="24" spellcheck="false" autocomplete="off" aria-label=(message::text_of_the_model_file()) {}
             }
         }
     }
@@ -160,24 +162,24 @@ fn knobs() -> Markup {
 
 fn curve() -> Markup {
     html! {
-        section #curve aria-label="Curve" {
+        section #curve aria-label=(message::curve()) {
             div.controls {
-                label { select #measure aria-label="Result" {
-                    option value="0" { "Peak force" }
-                    option value="1" { "Number of impacts" }
-                    option value="2" { "Peak storey drift" }
-                    option value="3" { "Peak floor acceleration" }
+                label { select #measure aria-label=(message::result_title()) {
+                    option value="0" { (message::peak_force_title()) }
+                    option value="1" { (message::number_of_impacts()) }
+                    option value="2" { (message::peak_storey_drift()) }
+                    option value="3" { (message::peak_floor_acceleration()) }
                 } }
-                label { "over " select #over {} }
-                label { "and " select #across {} }
-                label { "from " input #from size="7" inputmode="decimal"; }
-                label { "to " input #to size="7" inputmode="decimal"; }
+                label { (message::over()) " " select #over {} }
+                label { (message::and_word()) " " select #across {} }
+                label { (message::from()) " " input #from size="7" inputmode="decimal"; }
+                label { (message::to()) " " input #to size="7" inputmode="decimal"; }
                 output #unit.quiet {}
-                details.records-of-curve { summary { "Records" } div #curve-records {} }
-                button #save-study type="button" { "Save study" }
+                details.records-of-curve { summary { (message::records()) } div #curve-records {} }
+                button #save-study type="button" { (message::save_study()) }
             }
             figure.chart { figcaption #curve-caption {} div #curve-picture {} }
-            p #curve-note.quiet { "Drag the line, or use the arrow keys, to change the value." }
+            p #curve-note.quiet { (message::drag_the_line_or_use()) }
         }
     }
 }

@@ -108,7 +108,7 @@ class TimeChart {
     html("span", "unit", ` [${this.unit}]`, html("span", "chart-title", this.title, this.caption));
     this.readouts = this.makeLegend(this.caption);
     this.instant = html("output", "hover-time", "", this.caption);
-    this.svg.setAttribute("aria-label", `${this.title} over time`);
+    this.svg.setAttribute("aria-label", say("over_time_of", { title: this.title }));
     this.layers.lines.replaceChildren();
     this.paths = this.series.map((s) =>
       svg("path", { class: `line${s.dashed ? " dashed" : ""}${s.area ? " area" : ""}`, style: `--c:${s.colour}` }, this.layers.lines),
@@ -321,7 +321,7 @@ class TimeChart {
     place(this.cursorLine, this.view.cursor);
     place(this.pointerLine, this.view.pointer);
     const t = this.view.pointer ?? this.view.cursor;
-    this.instant.textContent = this.view.pointer === null ? "" : `at ${fixed(t, 3)} s`;
+    this.instant.textContent = this.view.pointer === null ? "" : say("at_instant", { instant: fixed(t, 3) });
     this.series.forEach((s, i) => {
       const values = s.read ?? s.values;
       this.readouts[i].textContent = values.length ? readable(interpolate(s.time, values, t)) : "";

@@ -22,7 +22,7 @@ const grades = [1, 2, 4, 6, 8];
 /** Place of a ductility among them. */
 const gradeOf = (ductility) => Math.max(grades.findLastIndex((low) => ductility >= low), 0);
 
-const stageNames = ["not cracked", "cracked", "yielded"];
+const stageNames = [say("not_cracked"), say("cracked"), say("yielded")];
 
 /** 0 not cracked, 1 cracked, 2 yielded. */
 function stageAt(hinge, t) {
@@ -58,11 +58,11 @@ class HingeLegend {
       return counts;
     });
     if (!hinges.some((hinge) => hinge.yielded < Infinity)) return;
-    const scale = html("span", "key", "yielded, greatest ductility:", host);
+    const scale = html("span", "key", say("yielded_greatest_ductility"), host);
     grades.forEach((low, grade) => {
       const mark = svg("svg", { class: "mark", viewBox: "0 0 14 14", "aria-hidden": "true" }, scale);
       svg("path", { class: `hinge-2 grade-${grade}`, d: markOutline(2, 7, 7, 4.2) }, mark);
-      html("span", "", grade + 1 < grades.length ? `${low}–${grades[grade + 1]}` : `over ${low}`, scale);
+      html("span", "", grade + 1 < grades.length ? `${low}–${grades[grade + 1]}` : say("over_value", { value: low }), scale);
     });
   }
 

@@ -49,7 +49,7 @@ class ImpactPanels {
     this.said = html("output", "impact-name", "", bar);
     if (this.byForce.length > 1) {
       const buttons = html("span", "buttons", undefined, bar);
-      for (const [name, step] of [["Earlier", -1], ["Later", 1], ["Hardest", 0]]) {
+      for (const [name, step] of [[say("earlier"), -1], [say("later"), 1], [say("hardest"), 0]]) {
         const button = html("button", "", name, buttons);
         button.type = "button";
         button.addEventListener("click", () => this.move(step));
@@ -84,7 +84,7 @@ class ImpactPanels {
       this.buttons.set(i, button);
     }
     if (!this.all && this.byForce.length > firstPanels) {
-      const more = html("button", "", `Show ${this.byForce.length > mostPanels ? `the ${mostPanels} hardest` : `all ${this.byForce.length}`}`, this.strip);
+      const more = html("button", "", this.byForce.length > mostPanels ? say("show_the_hardest", { count: mostPanels }) : say("show_all", { count: this.byForce.length }), this.strip);
       more.type = "button";
       more.addEventListener("click", () => {
         this.all = true;
@@ -112,16 +112,16 @@ class ImpactPanels {
     const impact = page.impacts[i];
     const rank = this.byForce.indexOf(i) + 1;
     const place = contactName(contacts[impact.contact]);
-    const order = this.byForce.length > 1 ? `, ${rank === 1 ? "the hardest" : `no. ${rank} by force`} of ${this.byForce.length}` : "";
-    this.said.textContent = `Impact at ${fixed(impact.start, 3)} s, ${place}: peak force ${readable(impact.peak / 1e3)} kN${order}`;
+    const order = this.byForce.length > 1 ? (rank === 1 ? say("the_hardest_of", { all: this.byForce.length }) : say("rank_by_force", { rank, all: this.byForce.length })) : "";
+    this.said.textContent = say("impact_at", { instant: fixed(impact.start, 3), place, force: readable(impact.peak / 1e3), order });
     for (const [other, button] of this.buttons) button.setAttribute("aria-pressed", String(other === i));
     const points = this.shapes[i];
     this.pictures.replaceChildren();
-    this.dots = [this.picture("Contact force over time", "ms from first contact", points, "time")];
+    this.dots = [this.picture(say("contact_force_over_time"), say("ms_from_first_contact"), points, "time")];
     // A force that acts at once has no indentation.
     const deep = points.filter(({ depth, force }) => depth !== null && (depth > 0 || force === 0));
-    if (deep.some(({ depth }) => depth > 0)) this.dots.push(this.picture("Contact force over indentation", "mm", deep, "depth"));
-    else html("p", "quiet", "No loop: this force acts at one instant.", this.pictures);
+    if (deep.some(({ depth }) => depth > 0)) this.dots.push(this.picture(say("contact_force_over_indentation"), "mm", deep, "depth"));
+    else html("p", "quiet", say("no_loop_at_one_instant"), this.pictures);
     this.draw(player?.time ?? 0);
   }
 

@@ -46,10 +46,10 @@ class LoopChart {
     const figure = html("figure", "multiple loop", undefined, host);
     const caption = html("figcaption", "", undefined, figure);
     html("span", "", data.name, caption);
-    const numbers = data.note ?? `ductility ${readable(data.ductility)}, ${readable(data.dissipated / 1e3)} kJ`;
+    const numbers = data.note ?? say("loop_numbers", { ductility: readable(data.ductility), dissipated: readable(data.dissipated / 1e3) });
     html("span", "unit", numbers, caption);
     this.svg = svg("svg", { viewBox: `0 0 ${LoopChart.width} ${LoopChart.height}`, role: "img" }, figure);
-    this.svg.setAttribute("aria-label", `${fUnit} over ${dUnit}, ${data.name}`);
+    this.svg.setAttribute("aria-label", say("loop_of", { force: fUnit, deformation: dUnit, name: data.name }));
     this.svg.style.setProperty("--c", `var(--c${data.building % 7})`);
     this.frame(dUnit, fUnit);
     this.layout();

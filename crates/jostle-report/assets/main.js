@@ -10,9 +10,7 @@ function start() {
   loadHinges();
   view = new TimeView(page.duration);
   scene = new Scene(byId("scene"));
-  // Only reports of buildings in space have these parts and their scripts.
-  if (byId("space")) space = new SpaceScene(byId("space"));
-  if (byId("orbits")) orbits = page.buildings.flatMap((building, i) => (building.plans ? [new Orbit(byId("orbits"), i)] : []));
+  showSpace();
   player = new Player(page.duration, showInstant);
   const charts = byId("time-charts");
   above = new ChartList(html("div", "", undefined, charts), view, seek);
@@ -27,6 +25,21 @@ function start() {
   player.seek(tellingInstant());
 }
 
+/** The scene and the paths of buildings in space. Only pages that may show them have these parts and their scripts. */
+function showSpace() {
+  const inSpace = page.buildings.every((building) => building.plans);
+  const host = byId("space");
+  if (host) {
+    byId("in-space").hidden = !inSpace;
+    if (inSpace && space) space.refresh();
+    else if (inSpace) space = new SpaceScene(host);
+    else if (space) space = space.remove();
+  }
+  const paths = inSpace && byId("orbits");
+  paths?.replaceChildren?.();
+  orbits = paths ? page.buildings.map((_, i) => new Orbit(paths, i)) : [];
+}
+
 /** Shows the run that is loaded in the page that is there, at the same instant. */
 function refresh() {
   loadHinges();
@@ -37,6 +50,7 @@ function refresh() {
   }
   for (const loop of loopCharts) view.charts.delete(loop);
   scene.refresh();
+  showSpace();
   show();
   player.seek(player.time);
 }
@@ -77,7 +91,7 @@ function showInstant(t, following) {
   view.setCursor(t, following);
   byId("clock").textContent = `${fixed(t, 3)} s`;
   byId("scrub").value = t;
-  byId("scrub").setAttribute("aria-valuetext", `${fixed(t, 2)} seconds`);
+  byId("scrub").setAttribute("aria-valuetext", say("seconds", { seconds: fixed(t, 2) }));
   const force = forces.reduce((sum, f) => sum + (f.time.length ? Math.max(0, interpolate(f.time, f.values, t)) : 0), 0);
   byId("force-now").lastChild.textContent = force > 1 ? `${fixed(force / 1e3, 0)} kN` : "";
   byId("force-now").firstChild.hidden = !(force > 1);
@@ -130,8 +144,8 @@ function bind() {
   byId("space-play")?.addEventListener("click", () => player.toggle());
   player.onState = (playing) => {
     byId("play").classList.toggle("playing", playing);
-    byId("play").setAttribute("aria-label", playing ? "Pause" : "Play");
-    if (space) byId("space-play").textContent = playing ? "Pause" : "Play";
+    byId("play").setAttribute("aria-label", playing ? say("pause") : say("play"));
+    if (space) byId("space-play").textContent = playing ? say("pause") : say("play");
   };
   speed.addEventListener("change", setSpeed);
   byId("next")?.addEventListener("click", () => jump(1));

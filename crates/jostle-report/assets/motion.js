@@ -19,10 +19,10 @@ if (timeHost) {
       series: [{ label: "", colour: "var(--c0)", time, values: scaled(values, factor) }],
       ...more,
     });
-  chart("Acceleration", "m/s²", ground.values, 1);
-  chart("Velocity", "m/s", unpack(page.velocity), 1);
-  chart("Displacement", "mm", unpack(page.displacement), 1e3);
-  chart("Arias intensity", "% of the whole", unpack(page.husid), 100, {
+  chart(say("acceleration_title"), "m/s²", ground.values, 1);
+  chart(say("velocity_title"), "m/s", unpack(page.velocity), 1);
+  chart(say("displacement_title"), "mm", unpack(page.displacement), 1e3);
+  chart(say("arias_intensity"), say("of_the_whole"), unpack(page.husid), 100, {
     levels: page.levels.map((level) => ({ value: 100 * level, label: `${100 * level} %` })),
   });
   element("zoom-in").addEventListener("click", () => view.zoom(0.5));
@@ -42,10 +42,10 @@ if (timeHost) {
 // --- Spectra -------------------------------------------------------------------------------------------
 
 const quantities = {
-  psa: ["Pseudo-acceleration", "m/s²", 1],
-  sa: ["Total acceleration", "m/s²", 1],
-  psv: ["Pseudo-velocity", "m/s", 1],
-  sd: ["Displacement", "mm", 1e3],
+  psa: [say("pseudo_acceleration_title"), "m/s²", 1],
+  sa: [say("total_acceleration_title"), "m/s²", 1],
+  psv: [say("pseudo_velocity_title"), "m/s", 1],
+  sd: [say("displacement_title"), "mm", 1e3],
 };
 const axesOf = { semilog: { x: "log", y: "linear" }, linear: { x: "linear", y: "linear" }, log: { x: "log", y: "log" } };
 
@@ -79,7 +79,7 @@ axes.addEventListener("change", () => spectra.setAxes(axesOf[axes.value]));
 const fourier = element("fourier");
 if (fourier) {
   new SpectrumChart(fourier, {
-    title: "Fourier amplitude",
+    title: say("fourier_amplitude"),
     unit: "m/s",
     xUnit: "Hz",
     xName: "f",

@@ -16,11 +16,11 @@ class Orbit {
     this.host = html("figure", "multiple orbit", undefined, host);
     const caption = html("figcaption", "", undefined, this.host);
     this.select = html("select", "", undefined, caption);
-    this.select.setAttribute("aria-label", "Corner");
+    this.select.setAttribute("aria-label", say("corner_title"));
     this.host.style.setProperty("--c", `var(--c${building % 7})`);
     const { name, plans } = page.buildings[building];
     for (let floor = plans.length; floor > 0; floor--) {
-      plans[floor - 1].corners.forEach((_, corner) => this.select.append(new Option(`${name}, floor ${floor}, corner ${corner + 1}`, `${floor} ${corner}`)));
+      plans[floor - 1].corners.forEach((_, corner) => this.select.append(new Option(say("corner_of_floor", { name, floor, corner: corner + 1 }), `${floor} ${corner}`)));
     }
     this.select.value = this.busiest(plans.length);
     this.select.addEventListener("change", () => this.build());
@@ -45,7 +45,7 @@ class Orbit {
     const free = without && page.gaps.length ? cornerPath(without, this.building, floor, corner) : null;
     this.svg.replaceChildren();
     if (!this.path) return;
-    this.svg.setAttribute("aria-label", `${this.select.selectedOptions[0].text}: displacement across over displacement along x`);
+    this.svg.setAttribute("aria-label", say("orbit_of", { name: this.select.selectedOptions[0].text }));
     const reach = 1.08 * Math.max(...[this.path, free].filter(Boolean).flatMap(({ x, y }) => [greatest(x), greatest(y)]), 1e-6);
     const margin = { left: 44, right: 12, top: 14, bottom: 30 };
     // Both axes to the same scale.

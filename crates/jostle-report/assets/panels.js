@@ -11,7 +11,7 @@ const wallOf = (gap, side) => page.walls[gap.walls[side] ?? -1];
 /** Name of a side of a gap. */
 function sideName(gap, side) {
   const building = gap.between[side];
-  return building === null ? wallOf(gap, side)?.name || "wall" : page.buildings[building].name;
+  return building === null ? wallOf(gap, side)?.name || say("wall") : page.buildings[building].name;
 }
 
 function contactName(contact) {
@@ -20,8 +20,8 @@ function contactName(contact) {
 }
 
 function groundChart() {
-  const series = [{ label: "ground", colour: "var(--ink-2)", ...ground }];
-  return { title: "Ground acceleration", unit: "m/s²", series, height: 150 };
+  const series = [{ label: say("ground"), colour: "var(--ink-2)", ...ground }];
+  return { title: say("ground_acceleration_title"), unit: "m/s²", series, height: 150 };
 }
 
 /** The contacts of the chart of forces, at most as many as there are colours, the highest first. */
@@ -38,7 +38,7 @@ function forceChart() {
     time: forces[contact.index].time,
     values: scaled(forces[contact.index].values, 1e-3),
   }));
-  const title = struck.length > shown.length ? `Contact force, ${shown.length} largest of ${struck.length} contacts` : "Contact force";
+  const title = struck.length > shown.length ? say("contact_force_of_some", { shown: shown.length, struck: struck.length }) : say("contact_force_title");
   return { title, unit: "kN", series };
 }
 
@@ -53,19 +53,27 @@ function heightChart() {
       value: contact.height,
       size: Number((1.5 + 8.5 * Math.sqrt(impact.peak / hardest)).toFixed(1)),
       colour: coloured.get(contact.index) ?? "var(--ink-2)",
-      title: `${fixed(impact.at, 3)} s, ${contactName(contact)}: ${readable(impact.peak / 1e3)} kN`,
+      title: say("impact_in_words", { instant: fixed(impact.at, 3), contact: contactName(contact), force: readable(impact.peak / 1e3) }),
       pick: () => showImpact(impact),
     };
   });
   const roofs = new Map();
   for (const { name, heights } of page.buildings) roofs.set(heights.at(-1), [...(roofs.get(heights.at(-1)) ?? []), name]);
-  const levels = [...roofs].map(([value, names]) => ({ value, label: `roof of ${names.join(", ")}`, quiet: true }));
-  return { title: "Height of impacts (area: peak force)", unit: "m", series: [], levels, dots };
+  const levels = [...roofs].map(([value, names]) => ({ value, label: say("roof_of_names", { names: names.join(", ") }), quiet: true }));
+  return { title: say("height_of_impacts"), unit: "m", series: [], levels, dots };
 }
+
+const energyNames = {
+  contact: say("contact"),
+  hysteretic: say("hysteretic"),
+  damped: say("damped"),
+  strain: say("strain"),
+  kinetic: say("kinetic"),
+};
 
 /** Energies, stacked: their sum meets the input. */
 function energyChart() {
-  const terms = ["contact", "hysteretic", "damped", "strain", "kinetic"].filter(
+  const terms = Object.keys(energyNames).filter(
     (term) => run.columns.has(`e:${term}`) && (term !== "hysteretic" || page.hysteretic),
   );
   const input = run.columns.get("e:input");
@@ -76,11 +84,11 @@ function energyChart() {
   const series = terms.map((term) => {
     const own = scaled(run.columns.get(`e:${term}`), factor);
     pile = pile.map((sum, i) => sum + own[i]);
-    return { label: term, colour: `var(--e-${term})`, time: run.time, values: pile, read: own, area: true };
+    return { label: energyNames[term], colour: `var(--e-${term})`, time: run.time, values: pile, read: own, area: true };
   });
   series.reverse();
-  series.push({ label: "input", colour: "var(--ink)", time: run.time, values: scaled(input, factor) });
-  return { title: "Energy balance (stacked)", unit, series };
+  series.push({ label: say("input"), colour: "var(--ink)", time: run.time, values: scaled(input, factor) });
+  return { title: say("energy_balance_stacked"), unit, series };
 }
 
 /** Displacement of a side of a face or corner in plan along its normal, at its middle. */
@@ -114,32 +122,32 @@ function contactCharts(contact) {
   }
   for (const side of moving.filter((s) => s.without)) {
     const values = scaled(side.without, 1e3);
-    series.push({ label: `${side.name} without`, colour: colours(side.building), time: without.time, values, dashed: true });
+    series.push({ label: say("name_without", { name: side.name }), colour: colours(side.building), time: without.time, values, dashed: true });
   }
   // Between floors columns bend, so the run itself says how far they close.
   const closing = (table, [left, right]) => scaled(table.columns.get(`c:${contact.index}`) ?? left.map((u, i) => u - right[i]), 1e3);
   const closings = [
-    { label: "closing", colour: "var(--ink)", time: run.time, values: closing(run, sides.map((s) => s.run)) },
+    { label: say("closing"), colour: "var(--ink)", time: run.time, values: closing(run, sides.map((s) => s.run)) },
   ];
   if (sides.every((side) => side.without)) {
     const values = closing(without, sides.map((s) => s.without));
-    closings.push({ label: "without", colour: "var(--ink-2)", time: without.time, values, dashed: true });
+    closings.push({ label: say("without"), colour: "var(--ink-2)", time: without.time, values, dashed: true });
   }
   const width = contact.width * 1e3;
-  const levels = [{ value: width, label: `gap ${readableLength(contact.width)}` }];
+  const levels = [{ value: width, label: say("gap_width", { width: readableLength(contact.width) }) }];
   const name = contactName(contact);
   const bent = moving.some((side) => contact.floors[sides.indexOf(side)] === null);
   return [
-    { title: `${contact.plan ? "Displacement along the normal" : "Displacement"}, ${name}${bent ? " (straight lines between floors)" : ""}`, unit: "mm", series },
-    { title: `Closing, ${name}`, unit: "mm", series: closings, levels, zone: width },
+    { title: (contact.plan ? say("displacement_along_the_normal_of", { name }) : say("displacement_of_contact", { name })) + (bent ? say("straight_lines_between_floors") : ""), unit: "mm", series },
+    { title: say("closing_of", { name }), unit: "mm", series: closings, levels, zone: width },
   ];
 }
 
 /** What a floor does over time: displacements, and of floors with a plan rotation. */
 const FLOOR_CHARTS = [
-  ["u", "Displacement", "mm"],
-  ["v", "Displacement across", "mm"],
-  ["r", "Rotation", "mrad"],
+  ["u", say("displacement_title"), "mm"],
+  ["v", say("displacement_across_title"), "mm"],
+  ["r", say("rotation_title"), "mrad"],
 ];
 
 const floorCharts = (building, floor) => FLOOR_CHARTS.flatMap((chart) => floorChart(building, floor, chart));
@@ -149,11 +157,11 @@ function floorChart(building, floor, [letter, quantity, unit]) {
   const values = run.columns.get(column);
   if (!values) return [];
   const { name } = page.buildings[building];
-  const where = floor ? `floor ${floor}` : "mat";
+  const where = floor ? say("floor_one", { one: floor }) : say("mat");
   const series = [{ label: name, colour: colours(building), time: run.time, values: scaled(values, 1e3) }];
   if (without && page.gaps.length) {
     const free = scaled(without.columns.get(column) ?? new Float64Array(), 1e3);
-    if (free.length) series.push({ label: "without", colour: colours(building), time: without.time, values: free, dashed: true });
+    if (free.length) series.push({ label: say("without"), colour: colours(building), time: without.time, values: free, dashed: true });
   }
   return [{ title: `${quantity}, ${name}, ${where}`, unit, series }];
 }
@@ -185,11 +193,11 @@ function fillPlaces(select) {
     select.append(group);
   };
   const byHeight = [...contacts].sort((a, b) => b.height - a.height);
-  addGroup("Contacts", byHeight.map((contact) => [`contact ${contact.index}`, contactName(contact)]));
+  addGroup(say("contacts"), byHeight.map((contact) => [`contact ${contact.index}`, contactName(contact)]));
   page.buildings.forEach((building, i) => {
     const floors = building.heights.map((_, k) => building.heights.length - k);
     if (building.isolated) floors.push(0);
-    addGroup(building.name, floors.map((floor) => [`floor ${i} ${floor}`, `${building.name}, ${floor ? `floor ${floor}` : "mat"}`]));
+    addGroup(building.name, floors.map((floor) => [`floor ${i} ${floor}`, `${building.name}, ${floor ? say("floor_one", { one: floor }) : say("mat")}`]));
   });
   const start = struckContacts()[0] ?? byHeight[0];
   const wanted = kept || (start && `contact ${start.index}`);

@@ -79,7 +79,7 @@ class PushView {
     const top = frame.top + frame.height - building.height * scale;
     this.x = (value) => frame.left + 0.5 * (frame.width - building.width * scale) + value * scale;
     this.y = (value) => top + (building.height - value) * scale;
-    const drawing = svg("svg", { viewBox: `0 0 720 ${frame.top + frame.height + 50}`, role: "img", "aria-label": `Deformed shape of ${building.name}` }, this.host);
+    const drawing = svg("svg", { viewBox: `0 0 720 ${frame.top + frame.height + 50}`, role: "img", "aria-label": say("deformed_shape_of", { name: building.name }) }, this.host);
     const ground = this.y(0);
     svg("path", { class: "ground", d: `M${frame.left - 20} ${ground}H${frame.left + frame.width + 20}` }, drawing);
     svg("path", { class: "straight", d: this.lines(null) }, drawing);
@@ -93,7 +93,7 @@ class PushView {
     const peak = Math.max(...this.curves.map((curve) => curve.drifts.reduce((most, drift) => Math.max(most, Math.abs(drift)), 0)), 1e-9);
     this.drift = (value) => side.left + (value / peak) * side.width;
     svg("path", { class: "axis-line", d: `M${side.left} ${ground}V${this.y(building.height)}M${side.left} ${ground}H${side.left + side.width}` }, drawing);
-    svg("text", { x: side.left, y: ground + 36 }, drawing).textContent = "storey drift";
+    svg("text", { x: side.left, y: ground + 36 }, drawing).textContent = say("storey_drift");
     svg("text", { x: side.left + side.width, y: ground + 18, "text-anchor": "end" }, drawing).textContent = `${fixed(100 * peak, 2)} %`;
     svg("text", { x: side.left, y: ground + 18 }, drawing).textContent = "0";
     this.profile = svg("path", { class: "profile" }, drawing);
@@ -168,7 +168,7 @@ class PushView {
       below = height;
     });
     this.profile.setAttribute("d", path);
-    this.said.textContent = building.hinges.length ? `${cracked - yielded} hinges cracked, ${yielded} yielded, of ${building.hinges.length}` : "no hinges";
+    this.said.textContent = building.hinges.length ? say("hinges_so_far", { cracked: cracked - yielded, yielded, all: building.hinges.length }) : say("no_hinges");
     this.find("now").textContent = `${fixed(1000 * roof, 1)} mm (${fixed((100 * roof) / building.height, 3)} %), ${fixed(shear / 1e3, 0)} kN`;
     this.find("factor").textContent = `${factor}×`;
     const chart = building.chart;

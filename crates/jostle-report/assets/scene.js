@@ -4,7 +4,7 @@
 class Scene {
   constructor(host) {
     this.host = host;
-    this.svg = svg("svg", { role: "img", "aria-label": "The buildings at the current instant" }, host);
+    this.svg = svg("svg", { role: "img", "aria-label": say("the_buildings_at_the_current_instant") }, host);
     this.ghost = false;
     this.marked = true;
     this.time = 0;
@@ -175,11 +175,11 @@ class Scene {
       const [left, right] = [0, 1].map((side) => this.faceAtRest(gap, side));
       const x = this.px((left + right) / 2);
       const near = Math.min(...gap.between.filter((b) => b !== null).map((b) => this.widths[b])) * this.scale;
-      const label = near > 70 ? `gap ${readableLength(gap.width)}` : readableLength(gap.width);
+      const label = near > 70 ? say("gap_width", { width: readableLength(gap.width) }) : readableLength(gap.width);
       svg("text", { class: "gap-name", x, y: row + 17, "text-anchor": "middle" }, back).textContent = label;
     }
     const arrow = { class: "ground-name", x: this.width / 2 - this.reach - 10, y: this.base + 62 + this.below, "text-anchor": "end" };
-    svg("text", arrow, back).textContent = this.width < 600 ? "ground" : "ground acceleration";
+    svg("text", arrow, back).textContent = this.width < 600 ? say("ground") : say("ground_acceleration");
     page.buildings.forEach((building, i) => this.drawDimensions(building, i));
   }
 
@@ -222,7 +222,7 @@ class Scene {
     const equal = storeys.every((storey) => Math.abs(storey - storeys[0]) < 1e-6);
     if (equal) write(storeys.length > 1 ? `${storeys.length} × ${metres(storeys[0])} m = ${metres(roof)} m` : `${metres(roof)} m`, roof / 2);
     else if (storeys.every((storey) => storey * this.scale > 24)) storeys.forEach((storey, k) => write(`${metres(storey)}`, heights[k] + storey / 2));
-    else write(`${metres(roof)} m, ${storeys.length} storeys`, roof / 2);
+    else write(say("roof_and_storeys", { height: metres(roof), storeys: storeys.length }), roof / 2);
   }
 
   /** Where the left (0) or the right (1) side of a gap or a link is at rest [m]. */

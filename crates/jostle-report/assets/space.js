@@ -16,7 +16,7 @@ class SpaceScene {
     this.canvas = html("canvas", "", undefined, host);
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute("role", "img");
-    this.canvas.setAttribute("aria-label", "The buildings in space at the current instant; arrow keys turn the view");
+    this.canvas.setAttribute("aria-label", say("the_buildings_in_space"));
     this.time = 0;
     this.turn = -0.9;
     this.tilt = 0.5;
@@ -24,12 +24,32 @@ class SpaceScene {
     this.shown = true;
     this.lettered = true;
     this.take();
+    this.exaggeration = this.suited();
+    this.spread();
+    this.ended = new AbortController();
     this.bind();
-    new ResizeObserver(() => this.layout()).observe(host);
-    new IntersectionObserver(([entry]) => {
-      this.shown = entry.isIntersecting;
-      this.draw(this.time);
-    }).observe(host);
+    this.watchers = [
+      new ResizeObserver(() => this.layout()),
+      new IntersectionObserver(([entry]) => {
+        this.shown = entry.isIntersecting;
+        this.draw(this.time);
+      }),
+    ];
+    for (const watcher of this.watchers) watcher.observe(host);
+  }
+
+  /** Shows another run, seen from the same side. */
+  refresh() {
+    this.take();
+    this.spread();
+    this.layout();
+  }
+
+  /** Leaves the page, with what listens for it. */
+  remove() {
+    this.ended.abort();
+    for (const watcher of this.watchers) watcher.disconnect();
+    this.canvas.remove();
   }
 
   take() {
@@ -49,11 +69,15 @@ class SpaceScene {
     this.size = Math.hypot(this.x[1] - this.x[0], this.y[1] - this.y[0]);
     const moves = this.buildings.flatMap((building) => building.motion.flatMap(([u, v]) => [u, v].filter(Boolean).map(greatest)));
     this.peak = Math.max(1e-9, ...moves);
-    const wanted = (0.05 * this.size) / this.peak;
-    this.exaggeration = [1, 2, 5, 10, 20, 50, 100, 200].findLast((f) => f <= wanted) ?? 1;
     this.across = page.bearing?.across && { time: unpack(page.bearing.across.time), values: unpack(page.bearing.across.values) };
     this.groundPeak = Math.hypot(greatest(ground.values), this.across ? greatest(this.across.values) : 0) || 1;
-    this.spread();
+    this.theme = null;
+  }
+
+  /** A round exaggeration that makes motions easy to see. */
+  suited() {
+    const wanted = (0.05 * this.size) / this.peak;
+    return [1, 2, 5, 10, 20, 50, 100, 200].findLast((f) => f <= wanted) ?? 1;
   }
 
   /** Moves buildings apart, so that gaps are as exaggerated as displacements: along the gaps, from the first building on. */
@@ -116,8 +140,9 @@ class SpaceScene {
         this.rotate(...step);
       } else if (event.key === "+" || event.key === "-") this.scaleBy(event.key === "+" ? 1.15 : 1 / 1.15);
     });
-    byId("space-above").addEventListener("click", () => this.look(0, Math.PI / 2));
-    byId("space-oblique").addEventListener("click", () => this.look(-0.9, 0.5));
+    const own = { signal: this.ended.signal };
+    byId("space-above").addEventListener("click", () => this.look(0, Math.PI / 2), own);
+    byId("space-oblique").addEventListener("click", () => this.look(-0.9, 0.5), own);
     const slider = byId("space-exaggeration");
     const tell = () => (byId("space-exaggeration-value").textContent = `${this.exaggeration < 10 ? Number(this.exaggeration.toFixed(1)) : Math.round(this.exaggeration)}×`);
     slider.value = Math.log10(this.exaggeration);
@@ -127,11 +152,11 @@ class SpaceScene {
       tell();
       this.spread();
       this.layout();
-    });
+    }, own);
     byId("space-names").addEventListener("change", (event) => {
       this.lettered = event.target.checked;
       this.draw(this.time);
-    });
+    }, own);
   }
 
   rotate(turn, tilt) {

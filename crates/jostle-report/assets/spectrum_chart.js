@@ -149,7 +149,7 @@ class SpectrumChart {
     const share = (this.pointer - margin.left) / (this.width - margin.left - margin.right);
     const [low, high] = this.xs;
     const x = this.axes.x === "log" ? low * (high / low) ** share : low + share * (high - low);
-    this.place.textContent = `at ${this.xName} = ${short(x)} ${this.xUnit}`;
+    this.place.textContent = say("at_value_of", { name: this.xName, value: short(x), unit: this.xUnit });
     this.series.forEach((s, i) => {
       this.readouts[i].textContent = x < s.x[0] || x > s.x[s.x.length - 1] ? "–" : short(interpolate(s.x, s.y, x));
     });

@@ -6,6 +6,7 @@ use maud::{Markup, html};
 
 use crate::format;
 use crate::hinges::outline;
+use crate::message;
 
 const WIDTH: f64 = 300.0;
 const HEIGHT: f64 = 170.0;
@@ -28,15 +29,23 @@ pub(crate) fn curves(index: usize, building: &Building) -> Markup {
     let flat = |rows: &[Vec<Hysteresis>]| bend(&rows.concat());
     let mut sets = match &building.hinges {
         Some(Hinges::Frame(hinges)) => vec![
-            ("Hinges of columns", flat(&hinges.columns), false),
-            ("Hinges of beams", flat(&hinges.beams), false),
+            (message::hinges_of_columns(), flat(&hinges.columns), false),
+            (message::hinges_of_beams(), flat(&hinges.beams), false),
         ],
-        Some(Hinges::Storeys(springs)) => vec![("Storeys", bend(springs), true)],
+        Some(Hinges::Storeys(springs)) => vec![(message::storeys_title(), bend(springs), true)],
         None => Vec::new(),
     };
     for (name, hinge, slides) in [
-        ("Base, rocking", building.base.rotational_hinge, false),
-        ("Base, sliding", building.base.horizontal_hinge, true),
+        (
+            message::base_rocking(),
+            building.base.rotational_hinge,
+            false,
+        ),
+        (
+            message::base_sliding(),
+            building.base.horizontal_hinge,
+            true,
+        ),
     ] {
         sets.push((name, bend(hinge.as_slice()), slides));
     }
@@ -79,7 +88,7 @@ fn words(springs: &[Hysteresis], storeys: bool) -> String {
                 if low == high {
                     low
                 } else {
-                    format!("{low} to {high}")
+                    message::low_to_high(&low, &high)
                 }
             };
             let sign = match (differ, side) {
@@ -87,11 +96,7 @@ fn words(springs: &[Hysteresis], storeys: bool) -> String {
                 (true, Side::Positive) => " (+)",
                 (true, Side::Negative) => " (−)",
             };
-            format!(
-                "cracks at {}, yields at {} {unit}{sign}",
-                of(false),
-                of(true)
-            )
+            message::cracks_at_yields(of(false), of(true), &unit, &sign)
         })
         .collect();
     format!("{}: {}", rules.join(", "), sides.join("; "))
@@ -133,7 +138,7 @@ fn picture(building: usize, name: &str, springs: &[Hysteresis], storeys: bool) -
     let (xs, x_decimals) = crate::envelope::ticks(-reach * 1e3, reach * 1e3, 5.0);
     let (ys, y_decimals) = crate::envelope::ticks(-high * 1e-3, high * 1e-3, 4.0);
     html! {
-        svg viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) role="img" aria-label=(format!("{name}: {force} over {deformation}")) {
+        svg viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) role="img" aria-label=(message::name_force_over_deformation(&name, &force, &deformation)) {
             g.grid {
                 @for value in &xs {
                     line x1=(px(x(value * 1e-3))) x2=(px(x(value * 1e-3))) y1=(px(TOP)) y2=(px(HEIGHT - BOTTOM)) class=[(*value == 0.0).then_some("zero")] {}

@@ -6,6 +6,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::document::{POLICY, STYLE, theme_button, theme_script};
 use crate::format;
+use crate::message;
 
 /// A law and its collision.
 #[derive(Clone, Debug)]
@@ -48,8 +49,8 @@ impl Across {
 
     fn label(self) -> &'static str {
         match self {
-            Self::Time => "time [ms]",
-            Self::Indentation => "indentation [mm]",
+            Self::Time => message::time_ms(),
+            Self::Indentation => message::indentation_mm(),
         }
     }
 }
@@ -72,15 +73,14 @@ const FAR: f64 = 1.8;
 #[must_use]
 pub fn render_collisions(collisions: &Collisions) -> String {
     let [m1, m2] = collisions.masses;
-    let title = format!(
-        "{} against {} at {} m/s",
+    let title = message::against_at_m_s(
         format::tonnes(m1),
         format::tonnes(m2),
-        format::plain(collisions.speed, 3)
+        format::plain(collisions.speed, 3),
     );
     let page = html! {
         (DOCTYPE)
-        html lang="en" {
+        html lang=(message::language_code()) {
             head {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
@@ -90,24 +90,23 @@ pub fn render_collisions(collisions: &Collisions) -> String {
             }
             body {
                 header.head { div {
-                    p.kicker { "Collision of two free masses" }
+                    p.kicker { (message::collision_of_two_free_masses()) }
                     h1 { (title) }
-                    p { "Input restitution: " (format::plain(collisions.restitution, 3)) ". " (collisions.stiffnesses) }
+                    p { (message::input_restitution(format::plain(collisions.restitution, 3), &collisions.stiffnesses)) }
                 } (theme_button()) }
                 main {
-                    section { h2 { "Numbers" } (table(collisions)) }
-                    @for (across, heading) in [(Across::Time, "Force over time"), (Across::Indentation, "Force over indentation")] {
+                    section { h2 { (message::numbers()) } (table(collisions)) }
+                    @for (across, heading) in [(Across::Time, message::force_over_time()), (Across::Indentation, message::force_over_indentation())] {
                         section {
                             h2 { (heading) }
                             (panels(collisions, across))
                         }
                     }
                     p.quiet {
-                        "Dashed: the elastic law of the same family. Curves come from an adaptive integration of high order, not from the steps of an analysis; "
-                        "the restitution law changes velocities instantly and has no curve."
+                        (message::dashed_the_elastic_law())
                     }
                 }
-                footer { "Made by jostle. One file; nothing is loaded from a network." }
+                footer { (message::made_by_jostle()) }
                 (theme_script())
             }
         }
@@ -117,18 +116,18 @@ pub fn render_collisions(collisions: &Collisions) -> String {
 
 fn table(collisions: &Collisions) -> Markup {
     let columns = [
-        ("realised e", "–"),
-        ("peak force", "kN"),
-        ("indentation", "mm"),
-        ("duration", "ms"),
-        ("dissipated", "kJ"),
-        ("impulse", "kN·s"),
-        ("separation speed", "m/s"),
+        (message::realised_e(), "–"),
+        (message::peak_force(), "kN"),
+        (message::indentation(), "mm"),
+        (message::duration(), "ms"),
+        (message::dissipated(), "kJ"),
+        (message::impulse(), "kN·s"),
+        (message::separation_speed(), "m/s"),
     ];
     html! {
         div.scroll { table {
             thead { tr {
-                th scope="col" { "law" }
+                th scope="col" { (message::law()) }
                 @for (name, unit) in columns { th.number scope="col" { (name) @if unit != "–" { br; span.unit { "[" (unit) "]" } } } }
             } }
             tbody {
@@ -159,9 +158,9 @@ fn panels(collisions: &Collisions, across: Across) -> Markup {
                 figure.multiple {
                     figcaption {
                         (law.law.kind.full_name())
-                        @if extent.across != common.across { span.unit { " · own axes" } }
+                        @if extent.across != common.across { span.unit { " " (message::own_axes()) } }
                     }
-                    svg viewBox={ "0 0 " (PANEL[0]) " " (PANEL[1]) } role="img" aria-label={ (law.law.kind.full_name()) ": force over " (across.label()) } {
+                    svg viewBox={ "0 0 " (PANEL[0]) " " (PANEL[1]) } role="img" aria-label={ (message::force_over(law.law.kind.full_name(), across.label())) } {
                         (panel(law, elastic(&collisions.laws, law), across, extent))
                     }
                 }
@@ -325,7 +324,7 @@ pub fn loops_svg(collisions: &Collisions) -> String {
     );
     let picture = html! {
         svg xmlns="http://www.w3.org/2000/svg" viewBox={ "0 0 " (width) " " (height) } font-family="system-ui, sans-serif" font-size="11.5" {
-            title { "Force over indentation under every contact law" }
+            title { (message::force_over_indentation_under_every()) }
             style { (PreEscaped(PICTURE_STYLE)) }
             rect.paper width=(width) height=(height) {}
             @for (i, law) in laws.iter().enumerate() {
@@ -333,7 +332,7 @@ pub fn loops_svg(collisions: &Collisions) -> String {
                 g transform={ "translate(" ((i % COLUMNS) as f64 * PANEL[0]) " " ((i / COLUMNS) as f64 * (PANEL[1] + HEADING) + HEADING) ")" } {
                     text.name x=(MARGIN[0]) y="-20" { (law.law.kind.full_name()) }
                     text x=(MARGIN[0]) y="-6" {
-                        "realised e = " (format::fixed(law.collision.realised_restitution(), 3)) @if extent.across != common.across { ", own axes" }
+                        (message::realised_e_is(format::fixed(law.collision.realised_restitution(), 3))) @if extent.across != common.across { (message::and_own_axes()) }
                     }
                     (panel(law, elastic(&collisions.laws, law), Across::Indentation, extent))
                 }

@@ -5,6 +5,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::document::{CALCULATION_STYLE, POLICY, STYLE, theme_button, theme_script};
 use crate::format;
+use crate::message;
 use crate::static_plot::{Line, Plot};
 
 const OWN_STYLE: &str = include_str!("../assets/study.css");
@@ -77,24 +78,24 @@ pub struct ComparedImpactTimes<'a> {
 pub fn render_comparison(page: &ComparisonPage) -> String {
     let markup = html! {
         (DOCTYPE)
-        html lang="en" {
+        html lang=(message::language_code()) {
             head {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta http-equiv="Content-Security-Policy" content=(POLICY);
                 meta name="description" content=(page.headline.join(" "));
-                title { (page.title) " – comparison" }
+                title { (message::title_comparison(&page.title)) }
                 link rel="icon" href="data:,";
                 style { (PreEscaped(STYLE)) (PreEscaped(OWN_STYLE)) (PreEscaped(CALCULATION_STYLE)) }
             }
             body {
                 @if !page.warnings.is_empty() {
                     aside.warnings role="alert" {
-                        @for warning in page.warnings { p { b { "Warning: " } (warning) } }
+                        @for warning in page.warnings { p { b { (message::warning()) " " } (warning) } }
                     }
                 }
                 header.head {
-                    div { p.kicker { "Comparison with measurements" } h1 { (page.title) } }
+                    div { p.kicker { (message::comparison_with_measurements()) } h1 { (page.title) } }
                     (theme_button())
                 }
                 main {
@@ -107,12 +108,12 @@ pub fn render_comparison(page: &ComparisonPage) -> String {
                     @if !page.histories.is_empty() { (scores(page)) (histories(page)) }
                     @for impacts in page.impacts { (impact_times(page, impacts)) }
                     @if !page.notes.is_empty() {
-                        section #notes { h2 { "Notes" } ul { @for note in page.notes { li { (note) } } } }
+                        section #notes { h2 { (message::notes()) } ul { @for note in page.notes { li { (note) } } } }
                     }
                     (files())
                 }
                 footer {
-                    "Made by jostle " (env!("CARGO_PKG_VERSION")) ". One file; nothing is loaded from a network."
+                    (message::made_by_jostle_version(env!("CARGO_PKG_VERSION")))
                 }
                 (theme_script())
             }
@@ -137,15 +138,15 @@ fn number(value: Option<f64>, digits: usize) -> String {
 fn scores(page: &ComparisonPage) -> Markup {
     html! {
         section #scores {
-            h2 { "Scores" }
-            p.quiet { "Peaks are greatest magnitudes. Difference: root mean square of computed less measured values over that of the measured values." }
+            h2 { (message::scores()) }
+            p.quiet { (message::peaks_are_greatest_magnitudes_difference()) }
             div.scroll {
                 table {
                     thead { tr {
-                        th scope="col" { "measured" } th scope="col" { "computed" }
-                        th.number scope="col" { "measured peak" } th.number scope="col" { "at " span.unit { "[s]" } }
-                        th.number scope="col" { "computed peak" } th.number scope="col" { "at " span.unit { "[s]" } }
-                        th.number scope="col" { "ratio" } th.number scope="col" { "correlation" } th.number scope="col" { "difference " span.unit { "[%]" } }
+                        th scope="col" { (message::measured()) } th scope="col" { (message::computed()) }
+                        th.number scope="col" { (message::measured_peak()) } th.number scope="col" { (message::at()) " " span.unit { "[s]" } }
+                        th.number scope="col" { (message::computed_peak()) } th.number scope="col" { (message::at()) " " span.unit { "[s]" } }
+                        th.number scope="col" { (message::ratio()) } th.number scope="col" { (message::correlation()) } th.number scope="col" { (message::difference()) " " span.unit { "[%]" } }
                     } }
                     tbody {
                         @for history in page.histories {
@@ -168,8 +169,8 @@ fn scores(page: &ComparisonPage) -> Markup {
 fn histories(page: &ComparisonPage) -> Markup {
     html! {
         section #histories {
-            h2 { "Histories" }
-            p.quiet { "Left: the whole run. Right: around the measured peak." }
+            h2 { (message::histories()) }
+            p.quiet { (message::left_the_whole_run_right()) }
             @for history in page.histories {
                 h3 { (history.computed_name) }
                 div.static-plots { (plot(page.time, history, None).figure()) (plot(page.time, history, Some(history.score.peak_measured_at_s)).figure()) }
@@ -194,20 +195,20 @@ fn plot(time: &[f64], history: &ComparedHistory<'_>, around: Option<f64>) -> Plo
     };
     Plot {
         title: match around {
-            None => "whole run".into(),
-            Some(centre) => format!("around {centre:.2} s"),
+            None => message::whole_run().into(),
+            Some(centre) => message::around_s(format_args!("{:.2}", centre)),
         },
-        x_label: "time [s]".into(),
-        y_label: format!("value [{unit}]"),
+        x_label: message::time_s().into(),
+        y_label: message::value_unit(&unit),
         logarithmic: false,
         aspect: 0.5,
         lines: vec![
             line(
                 history.measured,
-                format!("measured, {}", history.measured_name),
+                message::measured_measured_name(&history.measured_name),
                 0,
             ),
-            line(history.computed, "computed".into(), 1),
+            line(history.computed, message::computed().into(), 1),
         ],
     }
 }
@@ -229,31 +230,29 @@ fn impact_times(page: &ComparisonPage, impacts: &ComparedImpactTimes<'_>) -> Mar
         dashed: false,
     };
     let plot = Plot {
-        title: "instants of impacts".into(),
-        x_label: "time [s]".into(),
-        y_label: "up: measured, down: computed".into(),
+        title: message::instants_of_impacts().into(),
+        x_label: message::time_s().into(),
+        y_label: message::up_measured_down_computed().into(),
         logarithmic: false,
         aspect: 0.22,
         lines: vec![
-            comb(impacts.measured, 1.0, "measured", 0),
-            comb(impacts.computed, -1.0, "computed", 1),
+            comb(impacts.measured, 1.0, message::measured(), 0),
+            comb(impacts.computed, -1.0, message::computed(), 1),
         ],
     };
     html! {
         section {
-            h2 { "Impacts" }
+            h2 { (message::impacts_title()) }
             p {
-                "Measured: " (impacts.sign) ". Computed: " (impacts.contacts.join(", ")) ". "
-                (score.measured_count) " measured, " (score.computed_count) " computed, " (score.matched_count) " matched within "
-                (format::unit(format::fixed(1e3 * impacts.window, 1), "ms")) "."
+                (message::measured_computed_measured_computed_matched(&impacts.sign, impacts.contacts.join(", "), &score.measured_count, &score.computed_count, &score.matched_count, format::unit(format::fixed(1e3 * impacts.window, 1), "ms")))
             }
             div style="max-width:640px" { (plot.figure()) }
             @if !impacts.pairs.is_empty() {
                 div.scroll {
                     table {
                         thead { tr {
-                            th.number scope="col" { "measured " span.unit { "[s]" } } th.number scope="col" { "computed " span.unit { "[s]" } }
-                            th.number scope="col" { "difference " span.unit { "[ms]" } }
+                            th.number scope="col" { (message::measured()) " " span.unit { "[s]" } } th.number scope="col" { (message::computed()) " " span.unit { "[s]" } }
+                            th.number scope="col" { (message::difference()) " " span.unit { "[ms]" } }
                         } }
                         tbody {
                             @for [i, j] in impacts.pairs.iter().take(MOST_PAIRS) {
@@ -265,7 +264,7 @@ fn impact_times(page: &ComparisonPage, impacts: &ComparedImpactTimes<'_>) -> Mar
                         }
                     }
                 }
-                @if impacts.pairs.len() > MOST_PAIRS { p.quiet { "… and " (impacts.pairs.len() - MOST_PAIRS) " more pairs in " code { "compare.json" } "." } }
+                @if impacts.pairs.len() > MOST_PAIRS { p.quiet { (message::and_more_pairs(impacts.pairs.len() - MOST_PAIRS)) " " code { "compare.json" } "." } }
             }
         }
     }
@@ -273,18 +272,15 @@ fn impact_times(page: &ComparisonPage, impacts: &ComparedImpactTimes<'_>) -> Mar
 
 fn files() -> Markup {
     let files = [
-        (
-            "compare.json",
-            "all scores, and the instants of all impacts",
-        ),
+        ("compare.json", message::all_scores_and_the_instants()),
         (
             "compare.parquet",
-            "measured and computed histories at the measured instants",
+            message::measured_and_computed_histories(),
         ),
     ];
     html! {
         section #files {
-            h2 { "Files" }
+            h2 { (message::files()) }
             table { tbody { @for (name, what) in files { tr { td { code { (name) } } td.study-wrap { (what) } } } } }
         }
     }

@@ -2,6 +2,7 @@
 
 use maud::{Markup, html};
 
+use crate::message;
 use crate::{Page, format};
 
 /// Contact data of a gap and the values that masses and impact speeds suggest.
@@ -33,19 +34,19 @@ pub(crate) fn contact_boxes(page: &Page) -> Markup {
     html! {
         @if !boxes.is_empty() {
             details.contact-advice {
-                summary { "Contact stiffness and restitution: values used, and how far they are known" }
+                summary { (message::contact_stiffness_and_restitution_values()) }
                 div.scroll {
                     table {
                         thead { tr {
-                            th scope="col" { "gap" }
-                            th scope="col" { "law" }
-                            th.number scope="col" { "stiffness used" br; span.unit { "[N/m^1.5 or N/m]" } }
-                            th.number scope="col" { "Hertz, effective radius" br; span.unit { "[N/m^1.5]" } }
-                            th.number scope="col" { "plausible range" br; span.unit { "[N/m^1.5]" } }
-                            th.number scope="col" { "restitution used" }
-                            th.number scope="col" { "plausible range" }
-                            th.number scope="col" { "masses" br; span.unit { "[t]" } }
-                            th.number scope="col" { "greatest impact speed" br; span.unit { "[m/s]" } }
+                            th scope="col" { (message::gap()) }
+                            th scope="col" { (message::law()) }
+                            th.number scope="col" { (message::stiffness_used()) br; span.unit { (message::stiffness_units()) } }
+                            th.number scope="col" { (message::hertz_effective_radius()) br; span.unit { "[N/m^1.5]" } }
+                            th.number scope="col" { (message::plausible_range()) br; span.unit { "[N/m^1.5]" } }
+                            th.number scope="col" { (message::restitution_used()) }
+                            th.number scope="col" { (message::plausible_range()) }
+                            th.number scope="col" { (message::masses()) br; span.unit { "[t]" } }
+                            th.number scope="col" { (message::greatest_impact_speed()) br; span.unit { "[m/s]" } }
                         } }
                         tbody {
                             @for row in boxes {
@@ -60,7 +61,7 @@ pub(crate) fn contact_boxes(page: &Page) -> Markup {
                                     td.number {
                                         @for (side, mass) in row.masses.iter().enumerate() {
                                             @if side > 0 { " / " }
-                                            (mass.map_or("wall".into(), |mass| format::significant(1e-3 * mass, 3)))
+                                            (mass.map_or(message::wall().into(), |mass| format::significant(1e-3 * mass, 3)))
                                         }
                                     }
                                     td.number { (row.impact_speed.map_or(format::NOTHING.into(), |speed| format::significant(speed, 3))) }
@@ -70,12 +71,11 @@ pub(crate) fn contact_boxes(page: &Page) -> Markup {
                     }
                 }
                 p.quiet {
-                    "Hertz: k = 4/[3π (h₁ + h₂)] √[R₁R₂/(R₁ + R₂)] with spheres of the masses of the floors (Goldsmith 1960; Muthukumar and DesRoches 2006), concrete of 30 GPa. "
-                    "The peak force of free masses grows with k^0.4, under linear laws with k^0.5: "
-                    code { "jostle run --sensitivity" } " repeats the run with half and twice the stiffness and restitution ± 0.15. "
-                    code { "jostle contact-advice" } " adds the axial stiffness and the waves of slabs whose size is given."
+                    (message::hertz_k_4_3_h()) " "
+                    code { "jostle run --sensitivity" } " " (message::repeats_the_run_with_half()) " "
+                    code { "jostle contact-advice" } " " (message::adds_the_axial_stiffness())
                     @if boxes.iter().any(|row| !row.is_hertzian) {
-                        " Stiffnesses in N/m and N/m^1.5 cannot be compared directly."
+                        " " (message::stiffnesses_in_n_m())
                     }
                 }
             }

@@ -9,6 +9,7 @@ use jostle::results::summary::{BuildingSummary, GapSummary, LinkSummary};
 use maud::{Markup, html};
 
 use crate::facts::{Facts, grouped};
+use crate::message;
 use crate::{Page, backbones, format, special};
 
 /// Periods listed for each building.
@@ -27,19 +28,19 @@ pub(crate) fn model(page: &Page) -> Markup {
             }
             @for (summary, gap) in page.gaps() {
                 div.card {
-                    h3 { "Gap " (summary.between[0]) "–" (summary.between[1]) }
+                    h3 { (message::gap_between(&summary.between[0], &summary.between[1])) }
                     (list(&contact(gap, summary)))
                 }
             }
             @for (summary, described) in page.links() {
                 div.card {
-                    h3 { "Links " (summary.between[0]) "–" (summary.between[1]) }
+                    h3 { (message::links_between(&summary.between[0], &summary.between[1])) }
                     (list(&link(described, summary)))
                 }
             }
-            div.card { h3 { "Ground motion" } (list(&motion(page))) }
-            div.card { h3 { "Analysis" } (list(&analysis(page))) }
-            div.card { h3 { "Energy at the end" } (list(&energy(page))) }
+            div.card { h3 { (message::ground_motion()) } (list(&motion(page))) }
+            div.card { h3 { (message::analysis()) } (list(&analysis(page))) }
+            div.card { h3 { (message::energy_at_the_end()) } (list(&energy(page))) }
         }
     }
 }
@@ -52,12 +53,11 @@ fn building(
 ) -> Markup {
     let heights = building.floor_heights();
     let mut facts: Facts = vec![(
-        "storeys",
-        format!(
-            "{} of {} m, {} m high",
+        message::storeys(),
+        message::of_m_m_high(
             building.floors(),
             grouped(building.storey_heights(), |h| format::plain(h, 3)),
-            format::plain(heights.last().copied().unwrap_or(0.0), 4)
+            format::plain(heights.last().copied().unwrap_or(0.0), 4),
         ),
     )];
     match &building.structure {
@@ -67,56 +67,56 @@ fn building(
         Structure::Given(given) => {
             let floors = given.floors.iter().map(|dof| given.mass[*dof]);
             let floors: Vec<f64> = floors.collect();
-            facts.push(("mass at the floors", grouped(&floors, format::tonnes)));
+            facts.push((
+                message::mass_at_the_floors(),
+                grouped(&floors, format::tonnes),
+            ));
             let size = given.len();
-            facts.push(("stiffness", format!("given as a matrix of {size} rows")));
+            facts.push((message::stiffness(), message::given_as_a_matrix(&size)));
         }
     }
     let rayleigh = summary.map(|s| (s.rayleigh_alpha_per_s, s.rayleigh_beta_s));
     let mut said = damping(&building.damping, rayleigh);
     if building.base.foundation.is_some() {
-        said += ", of motion relative to the foundation";
+        said += message::of_motion_relative();
     }
     if building.base.isolation.is_some() {
         said = said.replace(
-            "the first and third lateral modes, as far as they exist",
-            "the first lateral mode of the building fixed on its mat",
+            message::the_first_and_third_lateral(),
+            message::the_first_lateral_mode(),
         );
     }
-    facts.push(("damping", said));
+    facts.push((message::damping(), said));
     if let Some(summary) = summary {
-        facts.push(("vibrating mass", format::tonnes(summary.mass_kg)));
+        facts.push((message::vibrating_mass(), format::tonnes(summary.mass_kg)));
         facts.push((
-            "peak base shear",
+            message::peak_base_shear(),
             format::force(summary.response.base_shear_peak_n),
         ));
         facts.push((
-            "roof displacement at the end",
+            message::roof_displacement_at_the_end(),
             format::millimetres(summary.response.residual_roof_displacement_m),
         ));
         if let Some(own) = &summary.foundation {
             facts.push((
-                "foundation",
-                format!(
-                    "sways {}, rocks {}",
+                message::foundation(),
+                message::sways_rocks(
                     format::millimetres(own.sway_peak_m),
-                    format::unit(format::plain(own.rocking_peak_rad * 1e3, 3), "mrad")
+                    format::unit(format::plain(own.rocking_peak_rad * 1e3, 3), "mrad"),
                 ),
             ));
             facts.push((
-                "first period on the soil",
-                format!(
-                    "{}, {} times that on rigid ground",
+                message::first_period_on_the_soil(),
+                message::times_that_on_rigid_ground(
                     format::unit(format::plain(own.period_s, 3), "s"),
-                    format::plain(own.period_ratio, 4)
+                    format::plain(own.period_ratio, 4),
                 ),
             ));
             facts.push((
-                "damping of that mode",
-                format!(
-                    "{} %, on rigid ground {} %",
+                message::damping_of_that_mode(),
+                message::on_rigid_ground(
                     format::plain(100.0 * own.damping_ratio, 3),
-                    format::plain(100.0 * own.damping_ratio_fixed, 3)
+                    format::plain(100.0 * own.damping_ratio_fixed, 3),
                 ),
             ));
             let parts = [
@@ -126,15 +126,12 @@ fn building(
                 (own.rocking_damping_n_m_s_rad, "N·m·s/rad"),
             ];
             let parts = parts.map(|(value, unit)| format::unit(format::plain(value, 4), unit));
-            facts.push(("springs and dashpots of the soil", parts.join(", ")));
+            facts.push((message::springs_and_dashpots(), parts.join(", ")));
         }
         if summary.hinges.cracked + summary.hinges.yielded > 0 {
             facts.push((
-                "hinges",
-                format!(
-                    "{} cracked, {} yielded",
-                    summary.hinges.cracked, summary.hinges.yielded
-                ),
+                message::hinges(),
+                message::cracked_yielded(&summary.hinges.cracked, &summary.hinges.yielded),
             ));
         }
     }
@@ -148,7 +145,7 @@ fn building(
             @if let Some(summary) = summary {
                 @if !summary.periods_s.is_empty() {
                     table.periods {
-                        thead { tr { th scope="col" { "lateral mode" } th.number scope="col" { "period [s]" } } }
+                        thead { tr { th scope="col" { (message::lateral_mode()) } th.number scope="col" { (message::period_s()) } } }
                         tbody {
                             @for (i, period) in summary.periods_s.iter().take(PERIODS).enumerate() {
                                 tr { td { (i + 1) } td.number { (format::fixed(*period, 4)) } }
@@ -167,57 +164,60 @@ fn frame_facts(frame: &Frame, facts: &mut Facts) {
         .iter()
         .map(|span| format::plain(*span, 3))
         .collect();
-    facts.push(("spans", format!("{} m", spans.join(" + "))));
+    facts.push((message::spans(), format!("{} m", spans.join(" + "))));
     let rigidities = |sections: &[jostle::Section]| {
         let values: Vec<f64> = sections.iter().map(|s| s.flexural_rigidity).collect();
         grouped(&values, format::rigidity)
     };
-    facts.push(("columns, EI", rigidities(&frame.columns)));
-    facts.push(("beams, EI", rigidities(&frame.beams)));
+    facts.push((message::columns_ei(), rigidities(&frame.columns)));
+    facts.push((message::beams_ei(), rigidities(&frame.beams)));
     let columns: Vec<f64> = frame.columns.iter().map(|s| s.line_mass).collect();
     facts.push((
-        "line mass",
-        format!(
-            "columns {}, beams {} kg/m",
+        message::line_mass(),
+        message::columns_beams_kg_m(
             grouped(&columns, |m| format::plain(m, 4)),
-            grouped(&frame.beam_mass, |m| format::plain(m, 4))
+            grouped(&frame.beam_mass, |m| format::plain(m, 4)),
         ),
     ));
     if frame.floor_mass.iter().any(|mass| *mass > 0.0) {
-        facts.push(("floor mass", grouped(&frame.floor_mass, format::tonnes)));
+        facts.push((
+            message::floor_mass(),
+            grouped(&frame.floor_mass, format::tonnes),
+        ));
     }
     let segments: Vec<String> = frame.beam_segments.iter().map(usize::to_string).collect();
     facts.push((
-        "segments",
-        format!(
-            "{} per column storey, {} per span",
-            frame.column_segments,
-            segments.join(" + ")
-        ),
+        message::segments(),
+        message::per_column_storey_per_span(&frame.column_segments, segments.join(" + ")),
     ));
-    let lengthwise = |flexible| if flexible { "flexible" } else { "rigid" };
+    let lengthwise = |flexible| {
+        if flexible {
+            message::flexible()
+        } else {
+            message::rigid()
+        }
+    };
     facts.push((
-        "axially",
-        format!(
-            "columns {}, beams {}",
+        message::axially(),
+        message::columns_beams(
             lengthwise(frame.axial.columns_flexible),
-            lengthwise(frame.axial.beams_flexible)
+            lengthwise(frame.axial.beams_flexible),
         ),
     ));
-    facts.push(("beam ends", special::joint(&frame.joint)));
+    facts.push((message::beam_ends(), special::joint(&frame.joint)));
 }
 
 fn shear_facts(shear: &Shear, facts: &mut Facts) {
-    facts.push(("floor mass", grouped(&shear.mass, format::tonnes)));
+    facts.push((message::floor_mass(), grouped(&shear.mass, format::tonnes)));
     facts.push((
-        "storey stiffness",
+        message::storey_stiffness(),
         grouped(&shear.stiffness, format::stiffness),
     ));
 }
 
 fn tiers_facts(tiers: &jostle::Tiers, facts: &mut Facts) {
     let masses: Vec<f64> = tiers.floors.iter().map(|floor| floor.mass).collect();
-    facts.push(("floor mass", grouped(&masses, format::tonnes)));
+    facts.push((message::floor_mass(), grouped(&masses, format::tonnes)));
     if !tiers.frames.is_empty() {
         let frames = tiers.frames.iter().map(|frame| {
             let spans: Vec<String> = frame
@@ -228,27 +228,30 @@ fn tiers_facts(tiers: &jostle::Tiers, facts: &mut Facts) {
                 .collect();
             format!("{} ({} m)", frame.name, spans.join(" + "))
         });
-        facts.push(("frames (spans)", frames.collect::<Vec<_>>().join(", ")));
+        facts.push((
+            message::frames_spans(),
+            frames.collect::<Vec<_>>().join(", "),
+        ));
     }
     if let Some(frame) = &tiers.space_frame {
         let lines = |lines: &[f64]| -> String {
             let all = lines.iter().map(|line| format::plain(*line, 4));
             format!("{} m", all.collect::<Vec<_>>().join(", "))
         };
-        facts.push(("lines at x", lines(&frame.lines_x)));
-        facts.push(("lines at y", lines(&frame.lines_y)));
+        facts.push((message::grid_lines_at_x(), lines(&frame.lines_x)));
+        facts.push((message::grid_lines_at_y(), lines(&frame.lines_y)));
         let columns = frame.members.iter();
         let columns = columns.filter(|own| matches!(own.place, jostle::SpacePlace::Column { .. }));
         let columns = columns.count();
         let beams = frame.members.len() - columns;
-        facts.push(("columns and beams", format!("{columns} and {beams}")));
+        facts.push((message::columns_and_beams(), message::columns_and_beams_count(columns, beams)));
     }
     if tiers.storeys.is_empty() {
         return;
     }
     for (label, axis) in [
-        ("storey stiffness along x", 0),
-        ("storey stiffness across", 1),
+        (message::storey_stiffness_along_x(), 0),
+        (message::storey_stiffness_across(), 1),
     ] {
         let values = tiers.storeys.iter().map(|storey| storey.stiffness[axis]);
         facts.push((
@@ -259,7 +262,7 @@ fn tiers_facts(tiers: &jostle::Tiers, facts: &mut Facts) {
     let torsion = tiers.storeys.iter().map(|storey| storey.stiffness[2]);
     let torsion: Vec<f64> = torsion.collect();
     let unit = |value: f64| format!("{}\u{a0}MN·m/rad", format::plain(value / 1e6, 4));
-    facts.push(("torsional stiffness", grouped(&torsion, unit)));
+    facts.push((message::torsional_stiffness(), grouped(&torsion, unit)));
 }
 
 fn damping(damping: &Damping, rayleigh: Option<(f64, f64)>) -> String {
@@ -271,28 +274,22 @@ fn damping(damping: &Damping, rayleigh: Option<(f64, f64)>) -> String {
         )
     };
     match damping {
-        Damping::AllModes { ratio } => {
-            format!("{}\u{a0}% in all modes", format::plain(ratio * 100.0, 3))
-        }
-        Damping::Rayleigh { alpha, beta } => format!("Rayleigh, {}", coefficients(*alpha, *beta)),
+        Damping::AllModes { ratio } => message::in_all_modes(format::plain(ratio * 100.0, 3)),
+        Damping::Rayleigh { alpha, beta } => message::rayleigh_beta(coefficients(*alpha, *beta)),
         Damping::Ratio { ratio, modes } => {
             let modes: Vec<String> = modes.iter().map(usize::to_string).collect();
             if modes.is_empty() {
                 let used = rayleigh
                     .map_or_else(String::new, |(a, b)| format!(" ({})", coefficients(a, b)));
-                return format!(
-                    "{}\u{a0}% at the first and third lateral modes, as far as they exist{used}",
-                    format::plain(ratio * 100.0, 3)
-                );
+                return message::at_the_first_and_third(format::plain(ratio * 100.0, 3), &used);
             }
             let used =
                 rayleigh.map_or_else(String::new, |(a, b)| format!(" ({})", coefficients(a, b)));
-            format!(
-                "{}\u{a0}% at lateral mode{} {}{used}",
-                format::plain(ratio * 100.0, 3),
-                if modes.len() > 1 { "s" } else { "" },
-                modes.join(" and ")
-            )
+            let ratio = format::plain(ratio * 100.0, 3);
+            match &modes[..] {
+                [only] => message::at_lateral_mode(ratio, only, used),
+                several => message::at_lateral_modes(ratio, several.join(message::and()), used),
+            }
         }
     }
 }
@@ -300,22 +297,22 @@ fn damping(damping: &Damping, rayleigh: Option<(f64, f64)>) -> String {
 /// Where neighbours can touch or are joined.
 fn places(floors: &FloorPairs) -> String {
     match floors {
-        FloorPairs::Common => "floors of equal height".into(),
-        FloorPairs::All => "all floors, against floors or columns".into(),
-        FloorPairs::Listed(pairs) => format!("{} listed pairs of points", pairs.len()),
-        FloorPairs::Heights(heights) => format!("{} listed heights", heights.len()),
+        FloorPairs::Common => message::floors_of_equal_height().into(),
+        FloorPairs::All => message::all_floors_against_floors().into(),
+        FloorPairs::Listed(pairs) => message::listed_pairs_of_points(pairs.len()),
+        FloorPairs::Heights(heights) => message::listed_heights(heights.len()),
     }
 }
 
 fn link(link: &Link, summary: &LinkSummary) -> Facts {
     let stroke = summary.floors.iter().map(|floor| floor.peak_stroke_m);
-    let mut facts: Facts = vec![("joins", places(&link.floors))];
+    let mut facts: Facts = vec![(message::joins(), places(&link.floors))];
     if link.law != LinkLaw::Linear {
-        facts.push(("law", summary.law.clone()));
+        facts.push((message::law(), summary.law.clone()));
     }
     if link.stiffness > 0.0 {
         facts.push((
-            "stiffness of each",
+            message::stiffness_of_each(),
             format!("{} N/m", format::plain(link.stiffness, 3)),
         ));
     }
@@ -326,14 +323,17 @@ fn link(link: &Link, summary: &LinkSummary) -> Facts {
             format!("N·(s/m)^{}", summary.exponent)
         };
         facts.push((
-            "damping of each",
+            message::damping_of_each(),
             format!("{} {unit}", format::plain(link.damping, 3)),
         ));
     }
-    facts.push(("peak force", format::force(summary.peak_force_n)));
-    facts.push(("stroke", format::millimetres(stroke.fold(0.0, f64::max))));
+    facts.push((message::peak_force(), format::force(summary.peak_force_n)));
     facts.push((
-        "dissipated",
+        message::stroke(),
+        format::millimetres(stroke.fold(0.0, f64::max)),
+    ));
+    facts.push((
+        message::dissipated(),
         format!(
             "{}\u{a0}kJ",
             format::significant(summary.dissipated_j / 1e3, 3)
@@ -351,31 +351,31 @@ fn contact(gap: &Gap, summary: &GapSummary) -> Facts {
     };
     let mut facts: Facts = vec![
         (
-            "width",
+            message::width(),
             match gap.widths.len() {
                 0 | 1 => format::millimetres(gap.width()),
-                n => format!("{} and more, {n} widths", format::millimetres(gap.width())),
+                n => message::and_more_widths(format::millimetres(gap.width()), &n),
             },
         ),
-        ("can touch at", places(&gap.floors)),
-        ("contact law", law.kind.name().into()),
+        (message::can_touch(), places(&gap.floors)),
+        (message::contact_law(), law.kind.name().into()),
         (
-            "stiffness",
+            message::stiffness(),
             format!("{} {unit}", format::plain(law.stiffness, 3)),
         ),
     ];
     if law.kind.is_dissipative() {
         let meaning = match law.restitution_is {
-            RestitutionIs::Input => "put into the formula",
-            RestitutionIs::Realised => "realised by free masses",
+            RestitutionIs::Input => message::put_into_the_formula(),
+            RestitutionIs::Realised => message::realised_by_free_masses(),
         };
         facts.push((
-            "restitution",
+            message::restitution(),
             format!("{} ({meaning})", format::plain(law.restitution, 3)),
         ));
     }
     facts.push((
-        "free masses rebound with",
+        message::free_masses_rebound(),
         format::fixed(summary.free_restitution, 3),
     ));
     facts
@@ -384,51 +384,56 @@ fn contact(gap: &Gap, summary: &GapSummary) -> Facts {
 fn motion(page: &Page) -> Facts {
     let motion = page.motion;
     let mut facts: Facts = vec![
-        ("name", motion.name.clone()),
-        ("peak", format::acceleration(motion.peak())),
-        ("scale", {
+        (message::name(), motion.name.clone()),
+        (message::peak(), format::acceleration(motion.peak())),
+        (message::scale(), {
             let reversed = if motion.scale < 0.0 {
-                " (reversed)"
+                message::reversed()
             } else {
                 ""
             };
             format!("{}{reversed}", format::plain(motion.scale, 4))
         }),
         (
-            "length",
+            message::length(),
             format::unit(format::plain(motion.duration, 4), "s"),
         ),
     ];
     match &motion.wave {
         Wave::Sampled { step, acceleration } => facts.push((
-            "record",
-            format!(
-                "{} points, {} apart",
+            message::record(),
+            message::points_apart(
                 format::fixed(acceleration.len() as f64, 0),
-                format::milliseconds(*step)
+                format::milliseconds(*step),
             ),
         )),
-        Wave::Sine { period, .. } => facts.push(("wave", sine(*period))),
+        Wave::Sine { period, .. } => facts.push((message::wave(), sine(*period))),
         Wave::Ricker { period, .. } => facts.push((
-            "wave",
-            format!("Ricker pulse, period {} s", format::plain(*period, 3)),
+            message::wave(),
+            message::ricker_pulse_period_s(format::plain(*period, 3)),
         )),
     }
     facts
 }
 
 fn sine(period: f64) -> String {
-    format!("sine, period {} s", format::plain(period, 3))
+    message::sine_period_s(format::plain(period, 3))
 }
 
 fn analysis(page: &Page) -> Facts {
     let work = &page.summary.work;
     let count = |n: u64| format::fixed(n as f64, 0);
-    let chosen = |given: bool| if given { "given" } else { "automatic" };
+    let chosen = |given: bool| {
+        if given {
+            message::given()
+        } else {
+            message::automatic()
+        }
+    };
     let settings = &page.model.analysis;
     let mut facts: Facts = vec![
         (
-            "solver",
+            message::solver(),
             format!(
                 "{} ({})",
                 equations(work.solver),
@@ -436,7 +441,7 @@ fn analysis(page: &Page) -> Facts {
             ),
         ),
         (
-            "step of free vibration",
+            message::step_of_free_vibration(),
             format!(
                 "{} ({})",
                 format::milliseconds(work.step_s),
@@ -446,11 +451,11 @@ fn analysis(page: &Page) -> Facts {
     ];
     let exact = [Solver::Modal, Solver::Series].map(Solver::name);
     if !exact.contains(&work.solver) {
-        facts.insert(1, ("integrator", settings.integrator.to_string()));
+        facts.insert(1, (message::integrator(), settings.integrator.to_string()));
     }
     if let Some(step) = work.contact_step_s {
         facts.push((
-            "step in contact",
+            message::step_in_contact(),
             format!(
                 "{} ({})",
                 format::milliseconds(step),
@@ -459,37 +464,34 @@ fn analysis(page: &Page) -> Facts {
         ));
     }
     facts.extend([
-        ("tolerance", format::plain(settings.tolerance, 1)),
+        (message::tolerance(), format::plain(settings.tolerance, 1)),
         (
-            "steps",
-            format!(
-                "{}, {} of them in contact, {} repeated at events",
+            message::steps(),
+            message::of_them_in_contact_repeated(
                 count(work.steps),
                 count(work.contact_steps),
-                count(work.repeated_steps)
+                count(work.repeated_steps),
             ),
         ),
         (
-            "work",
-            format!(
-                "{} factorisations, {} solutions, {} iterations",
+            message::work(),
+            message::factorisations_solutions_iterations(
                 count(work.factorizations),
                 count(work.solves),
-                count(work.iterations)
+                count(work.iterations),
             ),
         ),
         (
-            "wall time",
+            message::wall_time(),
             format::unit(format::plain(work.wall_s, 3), "s"),
         ),
     ]);
     if work.outer_iterations > 0 {
         facts.push((
-            "yielding",
-            format!(
-                "{} iterations for yielding springs, {} steps halved",
+            message::yielding(),
+            message::iterations_for_yielding_springs_steps(
                 count(work.outer_iterations),
-                count(work.halved_steps)
+                count(work.halved_steps),
             ),
         ));
     }
@@ -507,27 +509,30 @@ fn equations(solver: &str) -> &str {
 fn energy(page: &Page) -> Facts {
     let energy = &page.summary.energy;
     let mut facts: Facts = vec![
-        ("input", format::energy(energy.input_j)),
-        ("kinetic", format::energy(energy.kinetic_j)),
-        ("strain", format::energy(energy.strain_j)),
-        ("damped", format::energy(energy.damped_j)),
+        (message::input(), format::energy(energy.input_j)),
+        (message::kinetic(), format::energy(energy.kinetic_j)),
+        (message::strain(), format::energy(energy.strain_j)),
+        (message::damped(), format::energy(energy.damped_j)),
     ];
     if energy.links_j != 0.0 {
-        facts.push(("of that by links", format::energy(energy.links_j)));
+        facts.push((message::of_that_by_links(), format::energy(energy.links_j)));
     }
     if let Some(soil) = energy.soil_j {
-        facts.push(("of that by the soil", format::energy(soil)));
+        facts.push((message::of_that_by_the_soil(), format::energy(soil)));
     }
     if energy.hysteretic_j != 0.0 {
-        facts.push(("hysteretic", format::energy(energy.hysteretic_j)));
+        facts.push((message::hysteretic(), format::energy(energy.hysteretic_j)));
     }
-    facts.extend([("contact", format::energy(energy.contact_j))]);
+    facts.extend([(message::contact(), format::energy(energy.contact_j))]);
     if let Some(friction) = energy.friction_j {
-        facts.push(("friction", format::energy(friction)));
+        facts.push((message::friction(), format::energy(friction)));
     }
     facts.extend([
-        ("imbalance", format::plain(energy.imbalance, 2)),
-        ("worst imbalance", format::plain(energy.worst_imbalance, 2)),
+        (message::imbalance(), format::plain(energy.imbalance, 2)),
+        (
+            message::worst_imbalance(),
+            format::plain(energy.worst_imbalance, 2),
+        ),
     ]);
     facts
 }

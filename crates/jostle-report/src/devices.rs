@@ -7,6 +7,7 @@ use jostle::results::summary::{IsolationSummary, LinkFloorSummary, LinkSummary};
 use maud::{Markup, html};
 
 use crate::hinges::outline;
+use crate::message;
 use crate::{Page, format};
 
 /// Loops shown.
@@ -109,10 +110,7 @@ pub(crate) fn devices<'a>(page: &Page<'a>) -> Vec<Device<'a>> {
     let mut devices = Vec::new();
     for (index, isolation, result) in isolated(page) {
         devices.push(Device {
-            name: format!(
-                "{}, {} bearings",
-                page.summary.buildings[index].name, result.kind
-            ),
+            name: message::name_kind_bearings(&page.summary.buildings[index].name, &result.kind),
             building: index,
             note: note(
                 result.displacement_peak_m(),
@@ -187,10 +185,9 @@ fn isolated<'a>(
 }
 
 fn note(moved: f64, dissipated: f64) -> String {
-    format!(
-        "{}, {} dissipated",
+    message::moved_dissipated_dissipated(
         format::millimetres(moved),
-        format::energy(without_rounding(dissipated))
+        format::energy(without_rounding(dissipated)),
     )
 }
 
@@ -211,8 +208,8 @@ fn name(summary: &LinkSummary, floor: &LinkFloorSummary) -> String {
         format!("{left}–{right}")
     };
     let place = match floor.floors {
-        [Some(left), Some(right)] => format!("floors {left}–{right}"),
-        [Some(one), None] | [None, Some(one)] => format!("floor {one}"),
+        [Some(left), Some(right)] => message::floors_left_right(&left, &right),
+        [Some(one), None] | [None, Some(one)] => message::floor_one(&one),
         [None, None] => format!("{} m", format::plain(floor.height_m, 3)),
     };
     format!("{pair}, {place}, {}", summary.law)
@@ -267,15 +264,15 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
             }
             @if loops {
                 p.quiet {
-                    "Force over displacement; bearings with their dashpots, without stops. Links: positive where they are shorter and push. Dashed: first loading; dotted: stops and limits. Cables and stoppers: force over time."
+                    (message::force_over_displacement_bearings())
                 }
                 div #device-loops.multiples {}
             }
             div.scroll {
                 table {
                     thead { tr {
-                        th scope="col" { "where" }
-                        @for (name, unit) in COLUMNS {
+                        th scope="col" { (message::where_word()) }
+                        @for (name, unit) in columns() {
                             th.number scope="col" { (name) @if !unit.is_empty() { br; span.unit { "[" (unit) "]" } } }
                         }
                     } }
@@ -287,32 +284,34 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
                 }
             }
             @if all > MOST_ROWS {
-                p.quiet { "The " (MOST_ROWS) " that dissipate most, of " (all) "; summary.json has all of them." }
+                p.quiet { (message::the_that_dissipate_most(MOST_ROWS, &all)) }
             }
         }
     })
 }
 
-const COLUMNS: [(&str, &str); 7] = [
-    ("peak force", "kN"),
-    ("stroke", "mm"),
-    ("capacity", "mm"),
-    ("used", "%"),
-    ("peak speed", "m/s"),
-    ("residual", "mm"),
-    ("dissipated", "kJ"),
-];
+fn columns() -> [(&'static str, &'static str); 7] {
+    [
+        (message::peak_force(), "kN"),
+        (message::stroke(), "mm"),
+        (message::capacity(), "mm"),
+        (message::used(), "%"),
+        (message::peak_speed(), "m/s"),
+        (message::residual(), "mm"),
+        (message::dissipated(), "kJ"),
+    ]
+}
 
 fn title(page: &Page) -> String {
     let mut parts = Vec::new();
     if isolated(page).next().is_some() {
-        parts.push("bearings");
+        parts.push(message::bearings());
     }
     if !page.summary.links.is_empty() {
-        parts.push("links and dampers");
+        parts.push(message::links_and_dampers());
     }
     if !page.summary.walls.is_empty() {
-        parts.push("walls");
+        parts.push(message::walls());
     }
     let text = parts.join(", ");
     let mut letters = text.chars();
@@ -323,24 +322,17 @@ fn title(page: &Page) -> String {
 
 fn sentence(name: &str, isolation: &Isolation, result: &IsolationSummary) -> String {
     let moved = result.displacement_peak_m();
-    let mut text = format!(
-        "{name} moves {} on its bearings",
-        format::millimetres(moved)
-    );
+    let mut text = message::moves_on_its_bearings(&name, format::millimetres(moved));
     if let Some(limit) = isolation.limit {
         let used = format::fixed(100.0 * moved / limit, 0);
-        text.push_str(&format!(
-            ", {used} % of their limit of {}",
-            format::millimetres(limit)
-        ));
+        text.push_str(&message::share_of_limit(&used, format::millimetres(limit)));
     }
-    text.push_str(&format!(
-        ". They dissipate {}. Residual displacement: {}.",
+    text.push_str(&message::they_dissipate_residual_displacement(
         format::energy(result.hysteretic_j + result.damped_j),
-        format::millimetres(result.residual_m.abs())
+        format::millimetres(result.residual_m.abs()),
     ));
     if let Some(force) = result.stop_force_peak_n.filter(|force| *force > 0.0) {
-        text.push_str(&format!(" A stop is hit with {}.", format::force(force)));
+        text.push_str(&message::a_stop_is_hit(format::force(force)));
     }
     text
 }
@@ -356,10 +348,7 @@ fn rows(page: &Page) -> (Vec<Row>, usize) {
     for (index, isolation, result) in isolated(page) {
         let moved = result.displacement_peak_m();
         rows.push((
-            format!(
-                "{}, {} bearings",
-                page.summary.buildings[index].name, result.kind
-            ),
+            message::name_kind_bearings(&page.summary.buildings[index].name, &result.kind),
             [
                 kilo(result.force_peak_n),
                 milli(moved),

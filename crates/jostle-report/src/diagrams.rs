@@ -4,6 +4,7 @@ use jostle::model::{Building, Frame, Structure};
 use jostle::results::summary::{BuildingSummary, MemberSummary};
 use maud::{Markup, html};
 
+use crate::message;
 use crate::{Page, format};
 
 /// Most members that are drawn.
@@ -24,11 +25,13 @@ enum Force {
 }
 
 impl Force {
-    const ALL: [(Self, &'static str, &'static str); 3] = [
-        (Self::Axial, "Axial force", "kN"),
-        (Self::Shear, "Shear", "kN"),
-        (Self::Moment, "Moment", "kN·m"),
-    ];
+    fn all() -> [(Self, &'static str, &'static str); 3] {
+        [
+            (Self::Axial, message::axial_force(), "kN"),
+            (Self::Shear, message::shear_title(), "kN"),
+            (Self::Moment, message::moment_title(), "kN·m"),
+        ]
+    }
 }
 
 /// Values along a member, from its foot or left end on: share of its length, and least and greatest value.
@@ -46,9 +49,15 @@ pub(crate) fn of_building(page: &Page, index: usize) -> Option<Markup> {
     if summary.members.is_empty() || summary.members.len() > MOST_MEMBERS {
         return None;
     }
-    let envelopes = Force::ALL.map(|(force, title, unit)| {
+    let envelopes = Force::all().map(|(force, title, unit)| {
         let courses = courses(building, frame, summary, |member| envelope(member, force));
-        picture(frame, index, &format!("{title}, envelope"), unit, &courses)
+        picture(
+            frame,
+            index,
+            &message::title_envelope(&title),
+            unit,
+            &courses,
+        )
     });
     let at = summary
         .capacity
@@ -56,12 +65,12 @@ pub(crate) fn of_building(page: &Page, index: usize) -> Option<Markup> {
         .map(|capacity| capacity.worst.at_s);
     let worst = at.filter(|_| summary.members.iter().any(|m| !m.at_worst.is_empty()));
     let worst = worst.map(|at| {
-        Force::ALL.map(|(force, title, unit)| {
+        Force::all().map(|(force, title, unit)| {
             let courses = courses(building, frame, summary, |member| at_worst(member, force));
             picture(
                 frame,
                 index,
-                &format!("{title} at {}", format::instant(at)),
+                &message::title_at(&title, format::instant(at)),
                 unit,
                 &courses,
             )
@@ -69,15 +78,14 @@ pub(crate) fn of_building(page: &Page, index: usize) -> Option<Markup> {
     });
     Some(html! {
         details.peaks open {
-            summary { "Force diagrams of " (summary.name) }
+            summary { (message::force_diagrams(&summary.name)) }
             div.multiples {
                 @for picture in &envelopes { (picture) }
                 @for picture in worst.iter().flatten() { (picture) }
             }
             p.quiet {
-                "Moments are drawn on the side in tension. Axial forces: tension to the right of a column and below a beam. "
-                "Envelopes: both signs of the greatest shear and moment, greatest tension and compression. "
-                @if worst.is_some() { "The instant is that of the greatest ratio of demand to capacity." }
+                (message::moments_are_drawn()) " "
+                @if worst.is_some() { (message::the_instant()) }
             }
         }
     })
@@ -224,7 +232,7 @@ fn picture(frame: &Frame, index: usize, title: &str, unit: &str, members: &[Draw
     };
     html! {
         figure.multiple.diagram {
-            figcaption { (title) " " span.unit { "[greatest " (format::significant(greatest / 1e3, 3)) " " (unit) "]" } }
+            figcaption { (title) " " span.unit { (message::greatest_in_unit(format::significant(greatest / 1e3, 3), &unit)) } }
             svg viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) role="img" aria-label=(title) style=(crate::document::colour(index)) {
                 @for member in members {
                     @for side in 0..2 {

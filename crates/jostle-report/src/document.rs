@@ -1,5 +1,6 @@
 //! What all pages share: style sheet, security policy, colours of buildings, and the button for light and dark.
 
+use crate::message;
 use maud::{Markup, PreEscaped, html};
 
 /// The style sheet.
@@ -17,7 +18,7 @@ const THEME_SCRIPT: &str = include_str!("../assets/theme.js");
 /// The button that switches between light and dark.
 pub(crate) fn theme_button() -> Markup {
     html! {
-        button #theme.quiet-button type="button" title="Switch between light and dark" aria-label="Switch between light and dark" { "◐" }
+        button #theme.quiet-button type="button" title=(message::switch_between_light_and_dark()) aria-label=(message::switch_between_light_and_dark()) { "◐" }
     }
 }
 

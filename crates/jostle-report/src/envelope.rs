@@ -4,6 +4,7 @@ use jostle::history::{Column, History};
 use jostle::model::Model;
 use maud::{Markup, html};
 
+use crate::message;
 use crate::{Page, format};
 
 /// Peaks of one building: values from the lowest floor up.
@@ -164,8 +165,8 @@ pub(crate) fn envelopes(page: &Page, run: &[Envelope], without: Option<&[Envelop
                 meaning,
             };
             let both = [
-                (&envelope.greatest, 0, "to the right"),
-                (&envelope.least, 1, "to the left"),
+                (&envelope.greatest, 0, message::to_the_right()),
+                (&envelope.least, 1, message::to_the_left()),
             ];
             for (values, side, meaning) in both {
                 let base = envelope.mat.map_or(0.0, |mat| mat[side]);
@@ -173,16 +174,19 @@ pub(crate) fn envelopes(page: &Page, run: &[Envelope], without: Option<&[Envelop
             }
             drift.push(line(
                 steps(&envelope.drift, heights, 100.0),
-                "drift of the storey",
+                message::drift_of_the_storey(),
             ));
-            shear.push(line(steps(&envelope.shear, heights, 1e-3), "storey shear"));
+            shear.push(line(
+                steps(&envelope.shear, heights, 1e-3),
+                message::storey_shear(),
+            ));
             moment.push(line(
                 at_bases(&envelope.moment, heights, 1e-6),
-                "overturning moment",
+                message::overturning_moment(),
             ));
             residual.push(line(
                 steps(&envelope.residual, heights, 100.0),
-                "drift at the end",
+                message::drift_at_the_end(),
             ));
             let floors = envelope
                 .acceleration
@@ -194,7 +198,7 @@ pub(crate) fn envelopes(page: &Page, run: &[Envelope], without: Option<&[Envelop
                 let base = envelope.mat.map_or(page.motion.peak(), |mat| mat[2]);
                 points.insert(0, (base, 0.0));
             }
-            acceleration.push(line(points, "either sign"));
+            acceleration.push(line(points, message::either_sign()));
         }
     }
     let top = heights
@@ -205,12 +209,12 @@ pub(crate) fn envelopes(page: &Page, run: &[Envelope], without: Option<&[Envelop
         .max(1e-3);
     html! {
         div.multiples {
-            (picture("Displacement", "mm", top, &displacement, page))
-            (picture("Storey drift", "%", top, &drift, page))
-            (picture("Total acceleration", "m/s²", top, &acceleration, page))
-            (picture("Storey shear", "kN", top, &shear, page))
-            (picture("Overturning moment", "MN·m", top, &moment, page))
-            @if yields { (picture("Residual drift", "%", top, &residual, page)) }
+            (picture(message::displacement_title(), "mm", top, &displacement, page))
+            (picture(message::storey_drift_title(), "%", top, &drift, page))
+            (picture(message::total_acceleration_title(), "m/s²", top, &acceleration, page))
+            (picture(message::storey_shear_title(), "kN", top, &shear, page))
+            (picture(message::overturning_moment_title(), "MN·m", top, &moment, page))
+            @if yields { (picture(message::residual_drift(), "%", top, &residual, page)) }
         }
     }
 }
@@ -274,7 +278,7 @@ fn picture(title: &str, unit: &str, top: f64, lines: &[Line], page: &Page) -> Ma
     html! {
         figure.multiple {
             figcaption { (title) " " span.unit { "[" (unit) "]" } }
-            svg viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) role="img" aria-label=(format!("{title} over the height")) {
+            svg viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) role="img" aria-label=(message::over_the_height(&title)) {
                 g.grid {
                     @for value in &x_ticks {
                         line x1=(px(x(*value))) x2=(px(x(*value))) y1=(px(TOP)) y2=(px(HEIGHT - BOTTOM)) class=[(*value == 0.0).then_some("zero")] {}

@@ -3,6 +3,7 @@
 use jostle::results::summary::ContactSummary;
 use maud::{Markup, html};
 
+use crate::message;
 use crate::site_places::part_of;
 use crate::{Page, format};
 
@@ -33,8 +34,8 @@ pub(crate) fn figures(page: &Page) -> Markup {
     faces.sort_by(|a, b| b.2.peak_force_n.total_cmp(&a.2.peak_force_n));
     html! {
         @if !faces.is_empty() { div.pressures {
-            h3 { "Force along the faces at their largest impacts" }
-            p.quiet { "Force per length of the face, from the forces of its points; dashed: the same force spread evenly. The triangle marks the centre of pressure." }
+            h3 { (message::force_along_the_faces()) }
+            p.quiet { (message::force_per_length()) }
             div.static-plots {
                 @for (summary, gap, contact) in faces.iter().take(MOST) {
                     @let names = &summary.between;
@@ -42,7 +43,7 @@ pub(crate) fn figures(page: &Page) -> Markup {
                     (figure(contact, names, &sides))
                 }
             }
-            @if faces.len() > MOST { p.quiet { "The " (MOST) " faces with the greatest forces of " (faces.len()) "." } }
+            @if faces.len() > MOST { p.quiet { (message::the_faces_with_the_greatest(MOST, faces.len())) } }
         } }
     }
 }
@@ -59,7 +60,7 @@ fn side_in_words(
     };
     let part = part_of(page.model, building, contact.floors[side], plan.parts[side]);
     match contact.floors[side] {
-        Some(floor) => format!("floor {floor}, {part}"),
+        Some(floor) => message::floor_floor_part(&floor, &part),
         None => part,
     }
 }
@@ -111,11 +112,11 @@ fn figure(contact: &ContactSummary, names: &[String; 2], sides: &[String; 2]) ->
                 br;
                 span.quiet {
                     (format::force(total))
-                    @if let Some(at) = plan.points.at { " at " (format::instant(at)) }
-                    @if let Some(centre) = centre { ", centre of pressure " (format::fixed(centre - 0.5 * length, 2)) " m from the middle" }
+                    @if let Some(at) = plan.points.at { " " (message::at_at(format::instant(at))) }
+                    @if let Some(centre) = centre { (message::centre_of_pressure_m(format::fixed(centre - 0.5 * length, 2))) }
                 }
             }
-            svg viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) role="img" aria-label="Force per length along the face" {
+            svg viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) role="img" aria-label=(message::force_per_length_along()) {
                 g.grid {
                     @for mark in &marks {
                         @let y = format!("{:.1}", py(*mark));
@@ -132,7 +133,7 @@ fn figure(contact: &ContactSummary, names: &[String; 2], sides: &[String; 2]) ->
                 @for ([s, p], point) in pressures.iter().zip(plan.points.iter()) {
                     @let share = 100.0 * point.force / total.max(1e-9);
                     circle.pressed-point cx=(format!("{:.1}", px(*s))) cy=(format!("{:.1}", py(*p))) r="3.2" {
-                        title { (format::force(point.force)) ", " (format::fixed(share, 1)) " % of the force; share of the stiffness " (format::fixed(100.0 * point.share, 1)) " %" }
+                        title { (message::of_the_force_share(format::force(point.force), format::fixed(share, 1), format::fixed(100.0 * point.share, 1))) }
                     }
                     @let anchor = if *s < 0.08 * length { "start" } else if *s > 0.92 * length { "end" } else { "middle" };
                     text.share x=(format!("{:.1}", px(*s))) y=(format!("{:.1}", py(*p) - 7.0)) text-anchor=(anchor) { (format::fixed(share, 0)) " %" }
@@ -142,8 +143,8 @@ fn figure(contact: &ContactSummary, names: &[String; 2], sides: &[String; 2]) ->
                     polygon.centre points=(format!("{:.1},{:.1} {:.1},{:.1} {:.1},{:.1}", x, py(0.0) - 1.0, x - 6.0, py(0.0) - 12.0, x + 6.0, py(0.0) - 12.0)) {}
                 }
                 line.base-line x1=(LEFT) x2=(WIDTH - RIGHT) y1=(py(0.0)) y2=(py(0.0)) {}
-                text x=(0.5 * (LEFT + WIDTH - RIGHT)) y=(HEIGHT - 6.0) text-anchor="middle" { "along the face [m]" }
-                text x="4" y="12" { "force per length [kN/m]; shares of the force in %" }
+                text x=(0.5 * (LEFT + WIDTH - RIGHT)) y=(HEIGHT - 6.0) text-anchor="middle" { (message::along_the_face_m()) }
+                text x="4" y="12" { (message::force_per_length_kn_m()) }
             }
         }
     }

@@ -1,5 +1,7 @@
 //! Facts as names and values, and lists of values in words.
 
+use crate::message;
+
 /// Names and values of a description list.
 pub(crate) type Facts = Vec<(&'static str, String)>;
 
@@ -17,7 +19,7 @@ pub(crate) fn grouped(values: &[f64], text: impl Fn(f64) -> String) -> String {
         groups if groups.len() > 8 => {
             let low = values.iter().copied().fold(f64::INFINITY, f64::min);
             let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-            format!("{} to {}", text(low), text(high))
+            message::low_to_high(text(low), text(high))
         }
         groups => {
             let texts: Vec<String> = groups

@@ -3,6 +3,7 @@
 use jostle::results::floor_spectra::{FloorSpectra, FloorSpectrum};
 use maud::{Markup, html};
 
+use crate::message;
 use crate::static_plot::{Line, Plot};
 use crate::{Page, format};
 
@@ -20,24 +21,20 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
     let filter = &found.filter;
     Some(html! {
         section #floor-spectra {
-            h2 { "Floor response spectra" }
+            h2 { (message::floor_response_spectra()) }
             p.quiet {
-                "Peak pseudo-acceleration of elastic oscillators, such as equipment, that stand on a floor and do not act back on it."
-                @if compared { " Dashed: the run without contact." }
+                (message::peak_pseudo_acceleration_of_elastic())
+                @if compared { " " (message::dashed_the_run_without_contact()) }
             }
             div.static-plots {
                 @for floor in found.floors.iter().rev().take(PLOTS) { (plot(found, floor, &names)) }
             }
             @if found.floors.len() > PLOTS {
-                p.quiet { "The plots show " (PLOTS) " of " (found.floors.len()) " floors; floor_spectra.parquet contains all of them." }
+                p.quiet { (message::the_plots_show_of_floors(PLOTS, found.floors.len())) }
             }
             (table(found, compared))
             p.quiet {
-                "Peak accelerations beside impacts depend on the contact stiffness. Filtered: " (filter.name) " of order " (filter.order)
-                ", run forwards and backwards, with a gain of one half at " (format::plain(filter.corner_hz, 3)) "\u{a0}Hz."
-                " Instants of the floor motion are at most " (format::milliseconds(found.row_interval_s))
-                " apart in free vibration, and every step in contact is one; the estimated error of the spectra from their distance is "
-                (format::significant(100.0 * found.resolution, 2)) "\u{a0}%."
+                (message::peak_accelerations_beside_impacts_depend(&filter.name, &filter.order, format::plain(filter.corner_hz, 3), format::milliseconds(found.row_interval_s), format::significant(100.0 * found.resolution, 2)))
             }
         }
     })
@@ -68,13 +65,13 @@ fn plot(found: &FloorSpectra, floor: &FloorSpectrum, names: &[&str]) -> Markup {
         }
     }
     let damping = match &floor.response.spectra[..] {
-        [only] => format!(", damping {} %", format::plain(100.0 * only.damping, 3)),
+        [only] => message::damping_damping(format::plain(100.0 * only.damping, 3)),
         _ => String::new(),
     };
     let plot = Plot {
-        title: format!("{}, floor {}{damping}", floor.building, floor.floor),
-        x_label: "period [s]".into(),
-        y_label: "pseudo-acceleration [m/s²]".into(),
+        title: message::building_floor_floor_damping(&floor.building, &floor.floor, &damping),
+        x_label: message::period_s().into(),
+        y_label: message::pseudo_acceleration_m_s().into(),
         logarithmic: true,
         aspect: 0.56,
         lines,
@@ -88,20 +85,20 @@ fn table(found: &FloorSpectra, compared: bool) -> Markup {
         div.scroll {
             table {
                 thead { tr {
-                    th scope="col" { "floor" }
-                    th.number scope="col" { "peak acceleration" br; span.unit { "[m/s²]" } }
-                    th.number scope="col" { "filtered" br; span.unit { "[m/s²]" } }
+                    th scope="col" { (message::floor()) }
+                    th.number scope="col" { (message::peak_acceleration()) br; span.unit { "[m/s²]" } }
+                    th.number scope="col" { (message::filtered()) br; span.unit { "[m/s²]" } }
                     @if compared {
-                        th.number scope="col" { "without contact" br; span.unit { "[m/s²]" } }
-                        th.number scope="col" { "filtered" br; span.unit { "[m/s²]" } }
+                        th.number scope="col" { (message::without_contact()) br; span.unit { "[m/s²]" } }
+                        th.number scope="col" { (message::filtered()) br; span.unit { "[m/s²]" } }
                     }
-                    th.number scope="col" { "damping" br; span.unit { "[%]" } }
-                    th.number scope="col" { "peak of the spectrum" br; span.unit { "[m/s²]" } }
-                    th.number scope="col" { "at period" br; span.unit { "[s]" } }
+                    th.number scope="col" { (message::damping()) br; span.unit { "[%]" } }
+                    th.number scope="col" { (message::peak_of_the_spectrum()) br; span.unit { "[m/s²]" } }
+                    th.number scope="col" { (message::at_period()) br; span.unit { "[s]" } }
                     @if compared {
-                        th.number scope="col" { "without contact" br; span.unit { "[m/s²]" } }
-                        th.number scope="col" { "greatest ratio" }
-                        th.number scope="col" { "at period" br; span.unit { "[s]" } }
+                        th.number scope="col" { (message::without_contact()) br; span.unit { "[m/s²]" } }
+                        th.number scope="col" { (message::greatest_ratio()) }
+                        th.number scope="col" { (message::at_period()) br; span.unit { "[s]" } }
                     }
                 } }
                 tbody {

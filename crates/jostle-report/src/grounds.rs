@@ -2,6 +2,7 @@
 
 use maud::{Markup, html};
 
+use crate::message;
 use crate::static_plot::{Line, Plot};
 use crate::{Page, format};
 
@@ -56,37 +57,36 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
     });
     let plot = |title: &str, y_label: &str, lines: Vec<Line>| Plot {
         title: title.to_owned(),
-        x_label: "time [s]".to_owned(),
+        x_label: message::time_s().to_owned(),
         y_label: y_label.to_owned(),
         logarithmic: false,
         aspect: 0.45,
         lines,
     };
     let first = plot(
-        "Displacement of the grounds",
-        "displacement [mm]",
+        message::displacement_of_the_grounds(),
+        message::displacement_mm(),
         grounds.collect(),
     );
     let second = plot(
-        "Part of the closing of neighbours that the grounds contribute",
-        "d left − d right [mm]",
+        message::part_of_the_closing(),
+        message::d_left_d_right_mm(),
         pairs.collect(),
     );
     let of_buildings = page.summary.buildings.iter();
     let of_buildings = of_buildings.filter_map(|building| Some((building, building.ground?)));
     Some(html! {
         section #grounds {
-            h2 { "Ground under the buildings" }
+            h2 { (message::ground_under_the_buildings()) }
             p.quiet {
-                "Displacements of the ground are exact integrals, from rest, of the accelerations that shake. Displacements of floors are \
-                 relative to the ground of their own building, also in the animation; closings of contacts include those of the grounds."
+                (message::displacements_of_the_ground())
             }
             div.static-plots {
                 (first.figure())
                 @if shown > 1 { (second.figure()) }
             }
             table {
-                thead { tr { th { "building" } th { "arrival [s]" } th { "greatest displacement [mm]" } th { "at the end [mm]" } } }
+                thead { tr { th { (message::building()) } th { (message::arrival_s()) } th { (message::greatest_displacement_mm()) } th { (message::at_the_end_mm()) } } }
                 tbody {
                     @for (building, ground) in of_buildings {
                         tr {

@@ -6,6 +6,7 @@ use jostle::results::summary::{HingeSummary, SpringSummary};
 use jostle::structure::{BaseMotion, Discretization, MemberEnd, SpringPlace};
 use maud::{Markup, html};
 
+use crate::message;
 use crate::{Page, format};
 
 /// Loops shown.
@@ -178,13 +179,13 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
     let loops = page.springs.is_some() && !order.is_empty() && page.history.len() > 1;
     Some(html! {
         section #hinges {
-            h2 { "Cracking and yielding" }
+            h2 { (message::cracking_and_yielding_title()) }
             @for building in page.summary.buildings.iter().filter(|b| b.hinges.total > 0) {
                 p { (sentence(&building.name, &building.hinges, building.response.residual_roof_displacement_m)) }
             }
             @if loops {
                 p.quiet {
-                    "Hinges with the largest ductility or dissipated energy. Dashed: the curve of first loading. The dot is the instant of the cursor; the strong line leads to it from the left end of the charts above."
+                    (message::hinges_with_the_largest_ductility())
                 }
                 div #loops.multiples {}
             }
@@ -194,30 +195,23 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
 }
 
 fn sentence(name: &str, hinges: &HingeSummary, residual: f64) -> String {
-    let residual = format!(
-        "Residual displacement of the roof: {}.",
-        format::millimetres(residual.abs())
-    );
+    let residual = message::residual_displacement_of_the_roof(format::millimetres(residual.abs()));
     let count = |n: usize| format::fixed(n as f64, 0);
     match (hinges.first_yield_s, hinges.cracked) {
-        (Some(first), cracked) => format!(
-            "{name} yields at {} of {} places, first at {}; {} are cracked. Greatest ductility {}; {} dissipated. {residual}",
+        (Some(first), cracked) => message::yields_at_of_places_first(
+            &name,
             count(hinges.yielded),
             count(hinges.total),
             format::instant(first),
             count(cracked),
             format::significant(hinges.ductility, 3),
             format::energy(hinges.dissipated_j),
+            &residual,
         ),
-        (None, 0) => format!(
-            "{name} neither cracks nor yields at any of {} places.",
-            count(hinges.total)
-        ),
-        (None, cracked) => format!(
-            "{name} cracks at {} of {} places and does not yield. {residual}",
-            count(cracked),
-            count(hinges.total)
-        ),
+        (None, 0) => message::neither_cracks_nor_yields(&name, count(hinges.total)),
+        (None, cracked) => {
+            message::cracks_at_of_places(&name, count(cracked), count(hinges.total), &residual)
+        }
     }
 }
 
@@ -230,26 +224,26 @@ fn table(page: &Page, order: &[(Place, &SpringSummary)]) -> Markup {
         _ => ["mrad; mm", "kN·m; kN"],
     };
     let columns = [
-        ("cracked", "s"),
-        ("yielded", "s"),
-        ("ductility", ""),
-        ("greatest +", deformation),
-        ("greatest −", deformation),
-        ("peak", force),
-        ("dissipated", "kJ"),
+        (message::cracked(), "s"),
+        (message::yielded(), "s"),
+        (message::ductility(), ""),
+        (message::greatest_positive(), deformation),
+        (message::greatest_negative(), deformation),
+        (message::peak(), force),
+        (message::dissipated(), "kJ"),
     ];
     let all = order.len();
     let shown = &order[..all.min(MOST_ROWS)];
     html! {
         @if all > MOST_ROWS {
-            p.quiet { "The first " (MOST_ROWS) " of " (all) " in order of yielding; hinges.parquet contains all of them." }
+            p.quiet { (message::the_first_of_in_order(MOST_ROWS, &all)) }
         }
         div.scroll {
             table #hinge-table.clipped[shown.len() > FIRST_ROWS] {
-                caption.quiet { "In order of yielding." }
+                caption.quiet { (message::in_order_of_yielding()) }
                 thead { tr {
-                    th.number scope="col" { "no." }
-                    th scope="col" { "where" }
+                    th.number scope="col" { (message::ordinal()) }
+                    th scope="col" { (message::where_word()) }
                     @for (name, unit) in columns {
                         th.number scope="col" { (name) @if !unit.is_empty() { br; span.unit { "[" (unit) "]" } } }
                     }
@@ -266,7 +260,7 @@ fn table(page: &Page, order: &[(Place, &SpringSummary)]) -> Markup {
             }
         }
         @if shown.len() > FIRST_ROWS {
-            button.wide.unfold type="button" data-table="hinge-table" { "Show all " (shown.len()) " places" }
+            button.wide.unfold type="button" data-table="hinge-table" { (message::show_all_places(shown.len())) }
         }
     }
 }

@@ -9,6 +9,7 @@ use jostle::separation::{
 use maud::{Markup, html};
 
 use crate::envelope::Envelope;
+use crate::message;
 use crate::verdict::peak_closing;
 use crate::{Page, format};
 
@@ -37,9 +38,9 @@ pub(crate) fn joints(page: &Page, run: &[Envelope], without: Option<&[Envelope]>
             @let longest = widths.iter().map(|w| w.metres).fold(1e-9, f64::max);
             div.joint {
                 h3 {
-                    (summary.between[0]) " and " (summary.between[1])
+                    (message::one_and_other(&summary.between[0], &summary.between[1]))
                     @if let Some(height) = lower_height(page, gap.between) {
-                        span.quiet { " · lower building " (format::plain(height, 4)) " m high" }
+                        span.quiet { " " (message::lower_building_m_high(format::plain(height, 4))) }
                     }
                 }
                 div.bars role="table" {
@@ -58,11 +59,11 @@ pub(crate) fn joints(page: &Page, run: &[Envelope], without: Option<&[Envelope]>
             }
         }
         p.quiet {
-            "The line marks the gap."
+            (message::the_line_marks_the_gap())
             @if combined {
-                " SRSS and ABS combine the peak displacements where the buildings can touch, "
-                @if without.is_some() { "of the run without contact." } @else { "of this run, impacts included." }
-                " Codes take the same displacements."
+                " " (message::srss_and_abs_combine()) " "
+                @if without.is_some() { (message::of_the_run_without_contact()) } @else { (message::of_this_run_impacts_included()) }
+                " " (message::codes_take_the_same_displacements())
             }
         }
     }
@@ -78,14 +79,14 @@ fn sources(required: &Requirements) -> Markup {
     html! {
         @if !codes.is_empty() {
             details.rules {
-                summary { "Clauses and inputs of the codes" }
+                summary { (message::clauses_and_inputs()) }
                 div.scroll {
                     table {
                         thead { tr {
-                            th scope="col" { "rule" }
-                            th scope="col" { "clause" }
-                            th scope="col" { "inputs" }
-                            th scope="col" { "distance from the property line" }
+                            th scope="col" { (message::rule()) }
+                            th scope="col" { (message::clause()) }
+                            th scope="col" { (message::inputs()) }
+                            th scope="col" { (message::distance_from_the_property_line()) }
                         } }
                         tbody {
                             @for rule in codes {
@@ -95,7 +96,7 @@ fn sources(required: &Requirements) -> Markup {
                                     td { (rule.inputs.join("; ")) }
                                     td {
                                         @if let Some([left, right]) = rule.setbacks {
-                                            (format::millimetres(left)) " and " (format::millimetres(right))
+                                            (message::one_and_other(format::millimetres(left), format::millimetres(right)))
                                         }
                                     }
                                 }
@@ -104,7 +105,7 @@ fn sources(required: &Requirements) -> Markup {
                     }
                 }
                 @for rule in &required.left_out {
-                    p.quiet { (rule.name) " is left out: it needs " (rule.needs) " in " code { "[codes]" } "." }
+                    p.quiet { (message::is_left_out_it_needs(&rule.name, &rule.needs)) " " code { "[codes]" } "." }
                 }
             }
         }
@@ -188,7 +189,7 @@ fn correlation(page: &Page, between: [Option<usize>; 2]) -> Option<f64> {
 
 fn widths(summary: &GapSummary, required: &Requirements) -> Vec<Width> {
     let mut widths = vec![Width {
-        name: "gap".into(),
+        name: message::gap().into(),
         metres: summary.width_m,
         class: "of-gap",
     }];
@@ -201,9 +202,9 @@ fn widths(summary: &GapSummary, required: &Requirements) -> Vec<Width> {
             });
         }
     };
-    add("peak closing", peak_closing(summary), "of-run");
+    add(message::peak_closing(), peak_closing(summary), "of-run");
     add(
-        "smallest gap without pounding",
+        message::smallest_gap_without_pounding(),
         summary.closing_without_contact_m,
         "of-run",
     );

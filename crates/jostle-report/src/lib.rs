@@ -18,10 +18,12 @@ mod face_pressure;
 mod facts;
 mod floor_spectra;
 mod format;
+mod friction;
 mod grounds;
 mod hinges;
 mod joints;
 mod members;
+pub mod message;
 mod method;
 mod motion_page;
 mod page;
@@ -87,6 +89,8 @@ pub struct Page<'a> {
     pub sections: &'a [ReinforcedSection<'a>],
     /// Inputs of the separation rules of codes.
     pub codes: &'a jostle::separation::CodeInputs,
+    /// Angle from x to north, counter-clockwise; `None` to draw no north \[rad\].
+    pub north: Option<f64>,
     /// Contact data beside what masses suggest, by gap; empty to omit them.
     pub contacts: &'a [ContactBox],
     /// Results of `jostle method` for these buildings, shown as a section; empty to omit it.

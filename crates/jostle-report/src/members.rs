@@ -7,6 +7,7 @@ use jostle::results::summary::{
 use jostle_section::capacity::ShearRule;
 use maud::{Markup, html};
 
+use crate::message;
 use crate::{Page, format};
 
 /// Ratio from which there is next to no capacity to divide by.
@@ -30,14 +31,13 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
     asked.then(|| {
         html! {
             section #members {
-                h2 { "Columns and beams" }
+                h2 { (message::columns_and_beams()) }
                 @if let Some(rule) = rule {
                     @for capacity in page.summary.buildings.iter().filter_map(|b| Some((&b.name, b.capacity.as_ref()?))) {
                         p { (verdict(capacity.0, capacity.1)) }
                     }
                     p.quiet {
-                        "Capacity by " (rule.source()) ", with the strengths given in the model. Bending: moment capacity of the section under the axial force of the same instant. "
-                        "Ratios above 1 are beyond the capacity. summary.json and capacity.parquet also have the other rules."
+                        (message::capacity_by_with_the_strengths(rule.source()))
                     }
                 }
                 @for (index, building) in page.summary.buildings.iter().enumerate().filter(|(_, b)| !b.members.is_empty()) {
@@ -47,15 +47,12 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
                 }
                 @if page.summary.buildings.iter().flat_map(|b| &b.members).any(|m| !m.acceptance.is_empty()) {
                     p.quiet {
-                        "Rotations of yielding ends: chord rotation by EN 1998-3 (DL, SD, NC), plastic rotation by ASCE 41 (IO, LS, CP), "
-                        "and crushing of the section; in this order, as far as they apply."
+                        (message::rotations_of_yielding_ends_chord())
                     }
                 }
                 p.quiet {
-                    "Greatest forces of every member, by the greatest ratio where capacities are known, otherwise struck columns first, then by shear. Axial forces are positive in tension; "
-                    "shear and moment are the greatest of both ends and of both sides of a struck point, either sign. "
-                    "Damping forces are no part of shears and moments."
-                    @if in_space { " In a space frame they are the greatest of both planes of bending." }
+                    (message::greatest_forces_of_every_member())
+                    @if in_space { " " (message::greatest_of_both_planes_of_bending()) }
                 }
             }
         }
@@ -66,35 +63,28 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
 fn verdict(name: &str, capacity: &CapacitySummary) -> String {
     let place = |own: &ExceededSummary| {
         let during = own.impact.as_ref().map_or_else(String::new, |impact| {
-            format!(
-                ", during the impact of {} and {} that starts at {}",
-                impact.between[0],
-                impact.between[1],
-                format::instant(impact.start_s)
+            message::during_the_impact(
+                &impact.between[0],
+                &impact.between[1],
+                format::instant(impact.start_s),
             )
         });
         let at = format::instant(own.at_s);
-        format!(
-            "{} in {} at its {}, at {at}{during}",
-            own.member, own.kind, own.at
-        )
+        message::in_at(&own.member, &own.kind, &own.at, &at, &during)
     };
-    let worst = format!(
-        "Greatest ratio {}: {}.",
+    let worst = message::greatest_ratio_title(
         format::fixed(capacity.worst.ratio, 2),
-        place(&capacity.worst)
+        place(&capacity.worst),
     );
     match &capacity.first {
-        Some(first) => format!(
-            "{name}: {} of {} members are beyond their capacity, first {}. {worst}",
-            capacity.exceeded,
-            capacity.rated,
-            place(first)
+        Some(first) => message::of_members_are_beyond(
+            &name,
+            &capacity.exceeded,
+            &capacity.rated,
+            place(first),
+            &worst,
         ),
-        None => format!(
-            "{name}: none of {} members is beyond its capacity. {worst}",
-            capacity.rated
-        ),
+        None => message::none_of_members_is_beyond(&name, &capacity.rated, &worst),
     }
 }
 
@@ -112,7 +102,7 @@ fn ratio(value: Option<f64>, place: Option<&RatioPlace>) -> Markup {
     let text = if value < NO_CAPACITY {
         format::fixed(value, 2)
     } else {
-        "no capacity".to_owned()
+        message::no_capacity().to_owned()
     };
     html! { td class=(class) title=(title) { (text) } }
 }
@@ -129,15 +119,12 @@ fn levels(member: &MemberSummary) -> Markup {
         let last = own.limits.last().map_or("", |limit| limit.level);
         match own.level {
             Some(level) => level.to_owned(),
-            None => format!("beyond {last}"),
+            None => message::beyond_last(&last),
         }
     });
     let title = member.acceptance.iter().map(|own| {
         let milliradians = format::significant(own.rotation_rad * 1e3, 3);
-        format!(
-            "{}: {} {milliradians} mrad at the {}",
-            own.rule, own.measure, own.at
-        )
+        message::mrad_at(&own.rule, &own.measure, &milliradians, &own.at)
     });
     let (texts, title): (Vec<_>, Vec<_>) = (texts.collect(), title.collect());
     html! {
@@ -191,35 +178,35 @@ fn table(building: &BuildingSummary) -> Markup {
     let all = members.len();
     members.truncate(MOST_ROWS);
     let columns = [
-        ("greatest tension", "kN"),
-        ("greatest compression", "kN"),
-        ("shear", "kN"),
-        ("moment", "kN·m"),
+        (message::greatest_tension(), "kN"),
+        (message::greatest_compression(), "kN"),
+        (message::shear(), "kN"),
+        (message::moment(), "kN·m"),
     ];
     html! {
         details.peaks open[is_rated || members.iter().any(|m| hit(m) > 0.0)] {
-            summary { "Columns and beams of " (building.name) }
+            summary { (message::columns_and_beams_title(&building.name)) }
             @if all > MOST_ROWS {
-                p.quiet { (MOST_ROWS) " of " (all) " members; summary.json has all of them." }
+                p.quiet { (message::of_members_summary_json(MOST_ROWS, &all)) }
             }
             div.scroll {
                 table {
                     thead { tr {
-                        th scope="col" { "member" }
-                        th.number scope="col" { "impacts" }
-                        th.number scope="col" { "contact force" br; span.unit { "[kN]" } }
+                        th scope="col" { (message::member()) }
+                        th.number scope="col" { (message::impacts()) }
+                        th.number scope="col" { (message::contact_force()) br; span.unit { "[kN]" } }
                         @for (name, unit) in columns {
                             th.number scope="col" { (name) br; span.unit { "[" (unit) "]" } }
                         }
                         @if is_compared {
-                            th.number scope="col" { "shear" br; "/ without contact" }
-                            th.number scope="col" { "moment" br; "/ without contact" }
+                            th.number scope="col" { (message::shear()) br; (message::over_without_contact()) }
+                            th.number scope="col" { (message::moment()) br; (message::over_without_contact()) }
                         }
                         @if is_rated {
-                            th.number scope="col" { "shear" br; "/ capacity" }
-                            th.number scope="col" { "moment" br; "/ capacity" }
+                            th.number scope="col" { (message::shear()) br; (message::over_capacity()) }
+                            th.number scope="col" { (message::moment()) br; (message::over_capacity()) }
                         }
-                        @if turns { th scope="col" { "rotation within" } }
+                        @if turns { th scope="col" { (message::rotation_within()) } }
                     } }
                     tbody {
                         @for member in &members {
@@ -277,16 +264,16 @@ fn joints(building: &BuildingSummary) -> Markup {
     let beyond = beyond.count();
     html! {
         details.peaks open[beyond > 0] {
-            summary { "Joints of beams and columns of " (building.name) ": " (beyond) " of " (all) " beyond their shear capacity by " (rules.first().unwrap_or(&"")) }
+            summary { (message::joints_of_beams_and_columns(&building.name, &beyond, &all, rules.first().unwrap_or(&""))) }
             @if all > MOST_ROWS {
-                p.quiet { (MOST_ROWS) " of " (all) " joints; summary.json has all of them." }
+                p.quiet { (message::of_joints_summary_json(MOST_ROWS, &all)) }
             }
             div.scroll {
                 table {
                     thead { tr {
-                        th scope="col" { "joint" }
-                        th.number scope="col" { "shear of the core" br; span.unit { "[kN]" } }
-                        @for rule in &rules { th.number scope="col" { "shear / capacity" br; (rule) } }
+                        th scope="col" { (message::joint()) }
+                        th.number scope="col" { (message::shear_of_the_core()) br; span.unit { "[kN]" } }
+                        @for rule in &rules { th.number scope="col" { (message::shear_capacity()) br; (rule) } }
                     } }
                     tbody {
                         @for joint in &joints {
@@ -302,8 +289,7 @@ fn joints(building: &BuildingSummary) -> Markup {
                 }
             }
             p.quiet {
-                "Shear of the core by equilibrium of its upper half: forces in the upper bars of the beams, from their moments at the faces of the column, less the shear of the column above. "
-                "Ties of the column below are taken to continue through the core; beams across the plane are not counted."
+                (message::shear_of_the_core_by_equilibrium())
             }
         }
     }

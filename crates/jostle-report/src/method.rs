@@ -4,6 +4,7 @@ use jostle::method::{MethodSurvey, StepAccuracy};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::document::{POLICY, STYLE, theme_button, theme_script};
+use crate::message;
 
 /// Which error of a row to show.
 type ErrorOf = fn(&StepAccuracy) -> f64;
@@ -20,20 +21,20 @@ const AREA: [f64; 4] = [64.0, 14.0, 640.0, 300.0];
 pub fn render_method(title: &str, surveys: &[MethodSurvey]) -> String {
     let page = html! {
         (DOCTYPE)
-        html lang="en" {
+        html lang=(message::language_code()) {
             head {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta http-equiv="Content-Security-Policy" content=(POLICY);
-                title { (title) " – the method" }
+                title { (message::the_method(&title)) }
                 style { (PreEscaped(STYLE)) }
             }
             body {
                 header class="head" {
                     div {
-                        p class="kicker" { "The method on this model" }
+                        p class="kicker" { (message::the_method_on_this_model()) }
                         h1 { (title) }
-                        p { "Size of the equations of one step in each form, and the digits that each form keeps as the step decreases. Impacts need steps below a millisecond." }
+                        p { (message::size_of_the_equations()) }
                     }
                     (theme_button())
                 }
@@ -53,8 +54,8 @@ pub(crate) fn section(surveys: &[MethodSurvey]) -> Markup {
     html! {
         @if !surveys.is_empty() {
             section #method {
-                h2 { "The method on these buildings" }
-                p { "Size of the equations of one step in each form, and the digits that each form keeps as the step decreases." }
+                h2 { (message::the_method_on_these_buildings()) }
+                p { (message::size_of_the_equations_of_one()) }
                 @for (index, survey) in surveys.iter().enumerate() {
                     details open[index == 0] { summary { (survey.name) } (building(survey)) }
                 }
@@ -67,9 +68,8 @@ pub(crate) fn section(surveys: &[MethodSurvey]) -> Markup {
 fn explanation(surveys: &[MethodSurvey]) -> Markup {
     html! {
         p class="quiet" {
-            "Errors are the largest difference of a displacement from direct stiffness, relative to the largest displacement, for one step under irregular loads. "
-            "Product: the total transfer equation of Zhang et al. (2019). Element by element: Riccati in flexibility form. Riccati: the form used in runs."
-            @if surveys.iter().any(|survey| survey.yields) { " Hinges have their initial stiffness; only the Riccati form supports yielding." }
+            (message::errors_are_the_largest_difference())
+            @if surveys.iter().any(|survey| survey.yields) { " " (message::hinges_have_their_initial_stiffness()) }
         }
     }
 }
@@ -80,40 +80,40 @@ fn building(survey: &MethodSurvey) -> Markup {
             p { (elements(survey)) }
             div class="scroll" {
                 table {
-                    thead { tr { th { "form" } th { "unknowns" } th { "kept per step size" } th { "multiply-adds per solution" } } }
+                    thead { tr { th { (message::form()) } th { (message::unknowns()) } th { (message::kept_per_step_size()) } th { (message::multiply_adds_per_solution()) } } }
                     tbody {
                         tr {
-                            td { "total transfer equation (product)" }
+                            td { (message::total_transfer_equation_product()) }
                             @if survey.product_unknowns > 0 {
                                 td { (survey.product_unknowns) }
-                                td { (survey.product_unknowns.pow(2)) " entries" }
-                                td { (survey.product_unknowns.pow(2)) " and two passes through the elements" }
+                                td { (message::product_unknowns_entries(survey.product_unknowns.pow(2))) }
+                                td { (message::and_two_passes_through(survey.product_unknowns.pow(2))) }
                             } @else {
-                                td colspan="3" { @if survey.yields { "transfer matrices do not support yielding" } @else { "no transfer path through this building" } }
+                                td colspan="3" { @if survey.yields { (message::transfer_matrices_do_not_support()) } @else { (message::no_transfer_path_through()) } }
                             }
                         }
                         tr {
-                            td { "Riccati recursion" }
+                            td { (message::riccati_recursion()) }
                             td { (survey.degrees_of_freedom) }
-                            td { (survey.couplings) " couplings" }
+                            td { (message::couplings_couplings(&survey.couplings)) }
                             td { (2 * survey.couplings + survey.degrees_of_freedom) }
                         }
                         tr {
-                            td { "direct stiffness" }
+                            td { (message::direct_stiffness()) }
                             td { (survey.degrees_of_freedom) }
-                            td { (survey.stiffness_entries) "  entries of K before factorising" }
-                            td { "as its ordering falls out" }
+                            td { (message::entries_of_k_before_factorising(&survey.stiffness_entries)) }
+                            td { (message::as_its_ordering_falls_out()) }
                         }
                     }
                 }
             }
-            figure { (plot(survey)) figcaption class="quiet" { "Relative error of one step. Above the line at 1 no digit is right." } }
+            figure { (plot(survey)) figcaption class="quiet" { (message::relative_error_of_one_step()) } }
             div class="scroll" {
                 table {
                     thead { tr {
-                        th { "step" }
-                        @if !survey.yields { th { "product" } th { "digits expected of it" } th { "element by element" } }
-                        th { "Riccati" }
+                        th { (message::step()) }
+                        @if !survey.yields { th { (message::product()) } th { (message::digits_expected_of_it()) } th { (message::element_by_element()) } }
+                        th { (message::riccati()) }
                     } }
                     tbody {
                         @for row in &survey.accuracy {
@@ -135,21 +135,17 @@ fn building(survey: &MethodSurvey) -> Markup {
 }
 
 fn elements(survey: &MethodSurvey) -> String {
-    let mut parts = vec![format!("{} lumped masses", survey.lumped_masses)];
+    let mut parts = vec![message::lumped_masses(&survey.lumped_masses)];
     for (count, name) in [
-        (survey.members, "massless beams"),
-        (survey.hinges, "hinges"),
-        (survey.springs, "storey springs"),
+        (survey.members, message::massless_beams()),
+        (survey.hinges, message::hinges()),
+        (survey.springs, message::storey_springs()),
     ] {
         if count > 0 {
             parts.push(format!("{count} {name}"));
         }
     }
-    format!(
-        "{}; {} displacements after rigid connections.",
-        parts.join(", "),
-        survey.degrees_of_freedom
-    )
+    message::displacements_after_rigid_connections(parts.join(", "), &survey.degrees_of_freedom)
 }
 
 fn step_name(step: f64) -> String {
@@ -158,9 +154,9 @@ fn step_name(step: f64) -> String {
 
 fn error_text(error: f64) -> String {
     if !error.is_finite() {
-        "overflow".to_owned()
+        message::overflow().to_owned()
     } else if error > LOST {
-        format!("{error:.0e} (lost)")
+        message::error_lost(format_args!("{:.0e}", error))
     } else {
         format!("{error:.0e}")
     }
@@ -182,9 +178,11 @@ fn place(step: f64, error: f64) -> [f64; 2] {
 fn plot(survey: &MethodSurvey) -> Markup {
     let [left, top, width, height] = AREA;
     let mut series: Vec<(&str, &str, ErrorOf)> = vec![
-        ("product", "--c:var(--c1)", |row| row.product),
-        ("element by element", "--c:var(--c2)", |row| row.elementwise),
-        ("Riccati", "--c:var(--c0)", |row| row.riccati),
+        (message::product(), "--c:var(--c1)", |row| row.product),
+        (message::element_by_element(), "--c:var(--c2)", |row| {
+            row.elementwise
+        }),
+        (message::riccati(), "--c:var(--c0)", |row| row.riccati),
     ];
     if survey.yields {
         series.drain(..2);
@@ -198,7 +196,7 @@ fn plot(survey: &MethodSurvey) -> Markup {
         format!("M{}", text.join(" L"))
     };
     html! {
-        svg viewBox="0 0 720 360" role="img" aria-label={ "Relative error of one step of " (survey.name) " against the step size" } {
+        svg viewBox="0 0 720 360" role="img" aria-label={ (message::relative_error_of_one_step_of_against(&survey.name)) } {
             g class="grid" {
                 @for exponent in [-16, -12, -8, -4, 0] {
                     @let y = place(0.02, 10f64.powi(exponent))[1];
@@ -210,7 +208,7 @@ fn plot(survey: &MethodSurvey) -> Markup {
                     line x1=(x) x2=(x) y1=(top) y2=(top + height) {}
                     text x=(x) y=(top + height + 18.0) text-anchor="middle" { (step * 1e3) }
                 }
-                text x=(left + width / 2.0) y=(top + height + 38.0) text-anchor="middle" { "step [ms]" }
+                text x=(left + width / 2.0) y=(top + height + 38.0) text-anchor="middle" { (message::step_ms()) }
             }
             line class="line dashed" style="--c:var(--ink)" x1=(left) x2=(left + width) y1=(place(0.02, LOST)[1]) y2=(place(0.02, LOST)[1]) {}
             @for (index, (name, colour, value)) in series.into_iter().enumerate() {

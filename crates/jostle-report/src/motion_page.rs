@@ -10,6 +10,7 @@ use serde_json::{Value, json};
 use crate::document::{POLICY, STYLE, theme_button};
 use crate::encode::Packed;
 use crate::format;
+use crate::message;
 
 /// What the page of a motion shows.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +23,8 @@ pub struct MotionPage<'a> {
     pub measures: &'a Measures,
 }
 
-const SCRIPTS: [&str; 4] = [
+const SCRIPTS: [&str; 5] = [
+    include_str!("../assets/messages.js"),
     include_str!("../assets/data.js"),
     include_str!("../assets/chart.js"),
     include_str!("../assets/spectrum_chart.js"),
@@ -50,38 +52,39 @@ pub fn render_motion(page: &MotionPage) -> Result<String, MotionFault> {
         p.verdict { (sentence(page)) }
         (tiles(page.measures))
         section #charts {
-            h2 { "Over time" }
+            h2 { (message::over_time()) }
             div.controls {
-                span.buttons role="group" aria-label="Zoom all charts" {
-                    button #zoom-in type="button" aria-label="Zoom in" { "+" }
-                    button #zoom-out type="button" aria-label="Zoom out" { "−" }
-                    button #zoom-strong type="button" { "Strong part" }
-                    button #zoom-all type="button" { "Whole motion" }
+                span.buttons role="group" aria-label=(message::zoom_all_charts()) {
+                    button #zoom-in type="button" aria-label=(message::zoom_in()) { "+" }
+                    button #zoom-out type="button" aria-label=(message::zoom_out()) { "−" }
+                    button #zoom-strong type="button" { (message::strong_part()) }
+                    button #zoom-all type="button" { (message::whole_motion()) }
                 }
             }
-            p.quiet.screen { "Drag across a chart to zoom, double-click for the whole motion. Velocity and displacement are integrated from rest, without baseline correction." }
+            p.quiet.screen { (message::drag_across_a_chart()) }
             div #time-charts {}
         }
         section #response {
-            h2 { "Response spectra" }
+            h2 { (message::response_spectra()) }
             (spectrum_controls(true))
             div #spectra {}
-            p.quiet { "Exact for linear ground acceleration between samples; peaks are read at the ends of steps, at least twenty per period." }
+            p.quiet { (message::exact_for_linear_ground_acceleration()) }
         }
         section #content {
-            h2 { "Frequency content" }
+            h2 { (message::frequency_content()) }
             div #fourier {}
         }
     };
-    Ok(frame(page.name, "Ground motion", &body, &data))
+    Ok(frame(page.name, message::ground_motion(), &body, &data))
 }
 
 pub(crate) fn frame(title: &str, kicker: &str, body: &Markup, data: &Value) -> String {
     // A closing tag inside a name must not end the script.
     let data = data.to_string().replace('<', "\\u003c");
+    let script = SCRIPTS.concat();
     let page = html! {
         (DOCTYPE)
-        html lang="en" {
+        html lang=(message::language_code()) {
             head {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
@@ -96,10 +99,11 @@ pub(crate) fn frame(title: &str, kicker: &str, body: &Markup, data: &Value) -> S
                     (theme_button())
                 }
                 main { (body) }
-                footer { "Made by jostle " (env!("CARGO_PKG_VERSION")) ". One file; nothing is loaded from a network." }
-                noscript { p.note { "The charts need JavaScript." } }
+                footer { (message::made_by_jostle_version(env!("CARGO_PKG_VERSION"))) }
+                noscript { p.note { (message::the_charts_need_javascript()) } }
                 script #page-data type="application/json" { (PreEscaped(data)) }
-                script type="module" { (PreEscaped(SCRIPTS.concat())) }
+                (message::for_scripts(&script))
+                script type="module" { (PreEscaped(script)) }
             }
         }
     };
@@ -110,20 +114,20 @@ pub(crate) fn spectrum_controls(quantities: bool) -> Markup {
     html! {
         div.controls {
             @if quantities {
-                label { "Show "
+                label { (message::show()) " "
                     select #quantity {
-                        option value="psa" { "pseudo-acceleration" }
-                        option value="sa" { "total acceleration" }
-                        option value="psv" { "pseudo-velocity" }
-                        option value="sd" { "displacement" }
+                        option value="psa" { (message::pseudo_acceleration()) }
+                        option value="sa" { (message::total_acceleration()) }
+                        option value="psv" { (message::pseudo_velocity()) }
+                        option value="sd" { (message::displacement()) }
                     }
                 }
             }
-            label { "Axes "
+            label { (message::axes()) " "
                 select #axes {
-                    option value="semilog" { "logarithm of T" }
-                    option value="linear" { "linear" }
-                    option value="log" { "both logarithmic" }
+                    option value="semilog" { (message::logarithm_of_t()) }
+                    option value="linear" { (message::linear()) }
+                    option value="log" { (message::both_logarithmic()) }
                 }
             }
         }
@@ -132,8 +136,7 @@ pub(crate) fn spectrum_controls(quantities: bool) -> Markup {
 
 fn sentence(page: &MotionPage) -> String {
     let m = page.measures;
-    format!(
-        "{} values at {} s: {} of shaking, strong from {} to {}.",
+    message::values_at_s_of_shaking(
         format::fixed(m.points as f64, 0),
         format::plain(m.step, 4),
         format::unit(format::fixed(m.duration, 2), "s"),
@@ -144,14 +147,13 @@ fn sentence(page: &MotionPage) -> String {
 
 fn tiles(m: &Measures) -> Markup {
     let value = |value: f64, unit: &str| format::unit(format::significant(value, 4), unit);
-    let at = |t: f64| format!("at {}", format::unit(format::fixed(t, 2), "s"));
+    let at = |t: f64| message::at_at(format::unit(format::fixed(t, 2), "s"));
     let span = |[from, to]: [f64; 2]| {
         (
             format::unit(format::fixed(to - from, 2), "s"),
-            format!(
-                "from {} to {}",
+            message::from_to(
                 format::fixed(from, 2),
-                format::unit(format::fixed(to, 2), "s")
+                format::unit(format::fixed(to, 2), "s"),
             ),
         )
     };
@@ -160,43 +162,51 @@ fn tiles(m: &Measures) -> Markup {
     let (short, short_note) = span(m.d5_75);
     let tiles = [
         (
-            "Peak acceleration",
+            message::peak_acceleration_title(),
             value(m.pga.value, "m/s²"),
             format!("{gravity} g, {}", at(m.pga.at)),
         ),
-        ("Peak velocity", value(m.pgv.value, "m/s"), at(m.pgv.at)),
-        ("Peak displacement", value(m.pgd.value, "m"), at(m.pgd.at)),
         (
-            "Arias intensity",
+            message::peak_velocity(),
+            value(m.pgv.value, "m/s"),
+            at(m.pgv.at),
+        ),
+        (
+            message::peak_displacement(),
+            value(m.pgd.value, "m"),
+            at(m.pgd.at),
+        ),
+        (
+            message::arias_intensity(),
             value(m.arias, "m/s"),
-            "π/2g ∫a² dt".to_owned(),
+            message::arias_integral().to_owned(),
         ),
         (
-            "Cumulative absolute velocity",
+            message::cumulative_absolute_velocity(),
             value(m.cav, "m/s"),
-            "∫|a| dt".to_owned(),
+            message::absolute_integral().to_owned(),
         ),
-        ("Duration 5–95 %", long, long_note),
-        ("Duration 5–75 %", short, short_note),
+        (message::duration_5_95(), long, long_note),
+        (message::duration_5_75(), short, short_note),
         (
-            "Root mean square",
+            message::root_mean_square(),
             value(m.rms, "m/s²"),
-            "within 5–95 %".to_owned(),
+            message::within_5_95().to_owned(),
         ),
         (
-            "Predominant period",
+            message::predominant_period(),
             value(m.predominant_period, "s"),
-            "largest response, 5 %".to_owned(),
+            message::largest_response_5().to_owned(),
         ),
         (
-            "Mean period",
+            message::mean_period(),
             value(m.mean_period, "s"),
-            "of Fourier amplitudes".to_owned(),
+            message::of_fourier_amplitudes().to_owned(),
         ),
         (
-            "Housner intensity",
+            message::housner_intensity(),
             value(m.housner, "m"),
-            "PSV over 0.1–2.5 s, 5 %".to_owned(),
+            message::psv_over_0_1_2().to_owned(),
         ),
     ];
     html! {

@@ -4,15 +4,17 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::document::{CALCULATION_STYLE, POLICY, STYLE, colour, theme_button};
 use crate::envelope::{self, envelopes};
+use crate::message;
 use crate::site_drawing::SITE_STYLE;
 use crate::verdict::{closest_approach, nearest, peak_closing, verdict};
 use crate::{
-    Page, calculation, contact_box, describe, devices, floor_spectra, format, grounds, hinges,
-    joints, members, method, payload, site_plan, spread, tables,
+    Page, calculation, contact_box, describe, devices, floor_spectra, format, friction, grounds,
+    hinges, joints, members, method, payload, site_plan, spread, tables,
 };
 
 /// The scripts, in the order of their dependence; together they are one module.
-pub(crate) const SCRIPTS: [&str; 9] = [
+pub(crate) const SCRIPTS: [&str; 10] = [
+    include_str!("../assets/messages.js"),
     include_str!("../assets/data.js"),
     include_str!("../assets/chart.js"),
     include_str!("../assets/hinges.js"),
@@ -24,7 +26,7 @@ pub(crate) const SCRIPTS: [&str; 9] = [
     include_str!("../assets/main.js"),
 ];
 /// Those of buildings in space, before the others.
-const IN_SPACE: [&str; 2] = [
+pub(crate) const IN_SPACE: [&str; 2] = [
     include_str!("../assets/space.js"),
     include_str!("../assets/orbits.js"),
 ];
@@ -40,9 +42,13 @@ pub(crate) fn page(page: &Page) -> Markup {
         .buildings
         .iter()
         .any(|building| building.may_yield());
+    let script = match page.model.is_in_space() {
+        true => IN_SPACE.concat() + &SCRIPTS.concat(),
+        false => SCRIPTS.concat(),
+    };
     html! {
         (DOCTYPE)
-        html lang="en" {
+        html lang=(message::language_code()) {
             head {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
@@ -56,7 +62,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                 (warnings(page))
                 header.head {
                     div {
-                        p.kicker { "Seismic pounding report" }
+                        p.kicker { (message::seismic_pounding_report()) }
                         h1 { (page.summary.title) }
                     }
                     (theme_button())
@@ -71,22 +77,23 @@ pub(crate) fn page(page: &Page) -> Markup {
                         @if let Some(space) = site_plan::space_section(page) { (space) }
                         (chart_section(page.without_contact.is_some() && !page.model.gaps.is_empty()))
                     } @else {
-                        p.note { "No time histories were recorded, so there is no animation." }
+                        p.note { (message::no_time_histories_were_recorded()) }
                     }
                     @if let Some(hinges) = hinges::section(page) { (hinges) }
                     @if let Some(devices) = devices::section(page) { (devices) }
                     section #impacts {
-                        h2 { "Impacts" }
+                        h2 { (message::impacts_title()) }
                         @if recorded { (impact_panels()) }
                         @if page.model.gaps.is_empty() {
-                            p.quiet { "The model has no gap." }
+                            p.quiet { (message::the_model_has_no_gap()) }
                         } @else {
                             (tables::impacts(page))
                             (contact_box::contact_boxes(page))
+                            (friction::section(page))
                         }
                     }
                     section #envelopes {
-                        h2 { "Peaks over the height" }
+                        h2 { (message::peaks_over_the_height()) }
                         (legend(page, without.is_some()))
                         (envelopes(page, &run, without))
                         (tables::peaks(page))
@@ -98,12 +105,12 @@ pub(crate) fn page(page: &Page) -> Markup {
                     (calculation::motion_section(page))
                     @if !page.model.gaps.is_empty() {
                         section #joints {
-                            h2 { "Comparison with code requirements" }
+                            h2 { (message::comparison_with_code_requirements()) }
                             (joints::joints(page, &run, without))
                         }
                     }
                     section #model {
-                        h2 { "What was computed" }
+                        h2 { (message::what_was_computed()) }
                         (calculation::model_figures(page))
                         (describe::model(page))
                     }
@@ -112,16 +119,14 @@ pub(crate) fn page(page: &Page) -> Markup {
                     (guide(page))
                 }
                 footer {
-                    "Made by jostle " (page.summary.jostle) ". One file; nothing is loaded from a network."
+                    (message::made_by_jostle_version(&page.summary.jostle))
                 }
                 @if recorded {
                     (player(page.summary.gaps.iter().any(|gap| gap.impact_count > 0)))
-                    noscript { p.note { "The animation and the time charts need JavaScript." } }
+                    noscript { p.note { (message::the_animation_and_the_time()) } }
                     script #page-data type="application/json" { (PreEscaped(payload::payload(page))) }
-                    script type="module" {
-                        @if page.model.is_in_space() { (PreEscaped(IN_SPACE.concat())) }
-                        (PreEscaped(SCRIPTS.concat()))
-                    }
+                    (message::for_scripts(&script))
+                    script type="module" { (PreEscaped(script)) }
                 }
             }
         }
@@ -134,10 +139,10 @@ pub(crate) fn warnings(page: &Page) -> Markup {
         @if summary.ended_early.is_some() || !summary.warnings.is_empty() {
             aside.warnings.failed[summary.ended_early.is_some()] role="alert" {
                 @if let Some(why) = &summary.ended_early {
-                    p { b { "The run ended early: " } (why) }
+                    p { b { (message::the_run_ended_early()) " " } (why) }
                 }
                 @for warning in &summary.warnings {
-                    p { b { "Warning: " } (warning) }
+                    p { b { (message::warning()) " " } (warning) }
                 }
             }
         }
@@ -161,19 +166,27 @@ pub(crate) fn tiles(page: &Page) -> Markup {
             .iter()
             .max_by(|a, b| a.peak_force_n.total_cmp(&b.peak_force_n));
         let place = contact.map_or_else(String::new, crate::verdict::place);
-        tile("Peak force", format::force(hardest.peak_force_n), place);
+        tile(
+            message::peak_force_title(),
+            format::force(hardest.peak_force_n),
+            place,
+        );
         let first = summary
             .gaps
             .iter()
             .filter_map(|gap| gap.first_impact_s)
             .min_by(f64::total_cmp);
         tile(
-            "Impacts",
+            message::impacts_title(),
             format::fixed(impacts as f64, 0),
-            first.map_or_else(String::new, |t| format!("first at {}", format::instant(t))),
+            first.map_or_else(String::new, |t| message::first_at(format::instant(t))),
         );
     } else if !summary.gaps.is_empty() {
-        tile("Impacts", "none".into(), String::new());
+        tile(
+            message::impacts_title(),
+            message::none().into(),
+            String::new(),
+        );
     }
     for gap in &summary.gaps {
         let pair = if summary.gaps.len() > 1 {
@@ -185,29 +198,27 @@ pub(crate) fn tiles(page: &Page) -> Markup {
         let left =
             closest_approach(gap).filter(|distance| *distance > 0.0 && gap.impact_count == 0);
         tile(
-            &format!("Peak closing{pair}"),
+            &message::peak_closing_title(&pair),
             peak_closing(gap).map_or(format::NOTHING.into(), format::millimetres),
             match left {
-                Some(left) => format!(
-                    "gap {}, {} left",
-                    format::millimetres(width),
-                    format::millimetres(left)
-                ),
-                None => format!("gap {}", format::millimetres(width)),
+                Some(left) => {
+                    message::gap_left(format::millimetres(width), format::millimetres(left))
+                }
+                None => message::gap_width(format::millimetres(width)),
             },
         );
         if let Some(closing) = gap.closing_without_contact_m {
             tile(
-                &format!("Smallest gap without pounding{pair}"),
+                &message::smallest_gap_without_pounding_title(&pair),
                 format::millimetres(closing),
-                "from a run without contact".into(),
+                message::from_a_run_without_contact().into(),
             );
         }
     }
     for building in &summary.buildings {
         if let Some(roof) = building.floors.last() {
             tile(
-                &format!("Roof of {}", building.name),
+                &message::roof_of(&building.name),
                 format::millimetres(roof.response.displacement_peak_m()),
                 format!(
                     "{} / +{}",
@@ -220,21 +231,17 @@ pub(crate) fn tiles(page: &Page) -> Markup {
     for building in summary.buildings.iter().filter(|b| b.hinges.total > 0) {
         let hinges = &building.hinges;
         tile(
-            &format!("{} yields at", building.name),
+            &message::name_yields_at(&building.name),
             match hinges.yielded {
-                0 => "no place".into(),
-                n => format!("{n} of {}", hinges.total),
+                0 => message::no_place().into(),
+                n => message::one_of_all(&n, &hinges.total),
             },
-            format!(
-                "{} cracked; ductility {}",
-                hinges.cracked,
-                format::significant(hinges.ductility, 2)
-            ),
+            message::cracked_ductility(&hinges.cracked, format::significant(hinges.ductility, 2)),
         );
     }
     let pga = summary.motion.pga_m_s2;
     tile(
-        "Peak ground acceleration",
+        message::peak_ground_acceleration(),
         format::unit(format::significant(pga, 3), "m/s²"),
         format!(
             "{} % g, {}",
@@ -243,9 +250,9 @@ pub(crate) fn tiles(page: &Page) -> Markup {
         ),
     );
     tile(
-        "Energy imbalance",
+        message::energy_imbalance(),
         format::significant(summary.energy.worst_imbalance, 2),
-        "greatest over time".into(),
+        message::greatest_over_time().into(),
     );
     html! {
         div.tiles {
@@ -260,33 +267,32 @@ pub(crate) fn tiles(page: &Page) -> Markup {
 fn accuracy(page: &Page) -> Markup {
     let words = page.summary.promise.in_words();
     let words = words.strip_prefix("accuracy: ").unwrap_or(&words);
-    html! { p.quiet #accuracy { b { "Accuracy: " } (words) "." } }
+    html! { p.quiet #accuracy { b { (message::accuracy()) " " } (words) "." } }
 }
 
 /// The animation, with the controls of a run without contact and of yielding places.
 pub(crate) fn motion_section(compares: bool, yields: bool) -> Markup {
     html! {
         section #motion {
-            h2 { "How they move" }
+            h2 { (message::how_they_move()) }
             figure.stage { div #scene {} }
             div.controls {
-                label { "Exaggeration "
+                label { (message::exaggeration()) " "
                     input #exaggeration type="range" min="0" max="2" step="0.01" value="1";
                     output #exaggeration-value for="exaggeration" { "10×" }
                 }
                 @if compares {
-                    label { input #ghost type="checkbox"; " also without contact (dashed)" }
+                    label { input #ghost type="checkbox"; " " (message::also_without_contact_dashed()) }
                 }
                 @if yields {
-                    label { input #show-hinges type="checkbox" checked; " cracking and yielding" }
+                    label { input #show-hinges type="checkbox" checked; " " (message::cracking_and_yielding()) }
                 }
             }
             @if yields {
                 div #hinge-legend.hinge-legend {}
             }
             p.quiet {
-                "To scale; horizontal motion and gaps are exaggerated by the same factor, so contact looks like contact. "
-                "Columns between floors are drawn as smooth curves, not computed."
+                (message::to_scale_horizontal_motion())
             }
         }
     }
@@ -296,23 +302,22 @@ pub(crate) fn motion_section(compares: bool, yields: bool) -> Markup {
 pub(crate) fn chart_section(compares: bool) -> Markup {
     html! {
         section #charts {
-            h2 { "Over time" }
+            h2 { (message::over_time()) }
             div.controls {
-                label { "Show " select #place {} }
-                span.buttons role="group" aria-label="Zoom all charts" {
-                    button #zoom-in type="button" aria-label="Zoom in" { "+" }
-                    button #zoom-out type="button" aria-label="Zoom out" { "−" }
-                    button #zoom-impact type="button" { "This impact" }
-                    button #zoom-all type="button" { "Whole motion" }
+                label { (message::show()) " " select #place {} }
+                span.buttons role="group" aria-label=(message::zoom_all_charts()) {
+                    button #zoom-in type="button" aria-label=(message::zoom_in()) { "+" }
+                    button #zoom-out type="button" aria-label=(message::zoom_out()) { "−" }
+                    button #zoom-impact type="button" { (message::this_impact()) }
+                    button #zoom-all type="button" { (message::whole_motion()) }
                 }
             }
             p.quiet.screen {
-                "Drag across a chart to zoom, double-click for the whole motion, click to move the cursor. "
-                "On a chart with the keyboard focus, the wheel zooms (elsewhere with Shift or Ctrl); arrow keys move the cursor, + and − zoom."
+                (message::drag_across_a_chart_to_zoom())
             }
             div #time-charts {}
             @if compares {
-                p.quiet { "Dashed: the same buildings without contact." }
+                p.quiet { (message::dashed_the_same_buildings_without()) }
             }
         }
     }
@@ -329,7 +334,7 @@ pub(crate) fn legend(page: &Page, without: bool) -> Markup {
             @for (i, building) in page.model.buildings.iter().enumerate() {
                 span.key { span.swatch style=(colour(i)) {} (building.name) }
             }
-            @if without { span.key { span.swatch.dashed {} "without contact" } }
+            @if without { span.key { span.swatch.dashed {} (message::without_contact()) } }
         }
     }
 }
@@ -337,19 +342,19 @@ pub(crate) fn legend(page: &Page, without: bool) -> Markup {
 /// The bar of playback, with buttons that jump from impact to impact.
 pub(crate) fn player(impacts: bool) -> Markup {
     html! {
-        div #player.player role="group" aria-label="Playback" {
+        div #player.player role="group" aria-label=(message::playback()) {
             div.player-row {
-                button #play.play type="button" aria-label="Play" title="Play or pause (space)" {
+                button #play.play type="button" aria-label=(message::play()) title=(message::play_or_pause_space()) {
                     (icon("play-icon", "M4 2v16l14-8z")) (icon("pause-icon", "M4 2h4v16h-4zM12 2h4v16h-4z"))
                 }
                 @if impacts {
-                    button #previous type="button" aria-label="Previous impact" title="Previous impact ([)" { (icon("", "M3 3h3v14h-3zM17 3v14l-10-7z")) }
-                    button #next type="button" aria-label="Next impact" title="Next impact (])" { (icon("", "M3 3v14l10-7zM14 3h3v14h-3z")) }
+                    button #previous type="button" aria-label=(message::previous_impact()) title=(message::previous_impact_button()) { (icon("", "M3 3h3v14h-3zM17 3v14l-10-7z")) }
+                    button #next type="button" aria-label=(message::next_impact()) title=(message::next_impact_button()) { (icon("", "M3 3v14l10-7zM14 3h3v14h-3z")) }
                 }
                 output #clock.clock { "0.000 s" }
-                span #force-now.force-now { span.wordy hidden { "total " } span {} }
-                label.speed { span.wordy { "Speed " }
-                    select #speed aria-label="Speed" {
+                span #force-now.force-now { span.wordy hidden { (message::total()) " " } span {} }
+                label.speed { span.wordy { (message::speed()) " " }
+                    select #speed aria-label=(message::speed()) {
                         @for speed in ["0.01", "0.1", "0.25", "0.5", "1", "2", "4"] {
                             option value=(speed) selected[speed == "1"] { (speed) "×" }
                         }
@@ -358,7 +363,7 @@ pub(crate) fn player(impacts: bool) -> Markup {
             }
             div.scrub {
                 div #marks.marks aria-hidden="true" {}
-                input #scrub type="range" min="0" max="1" step="any" value="0" aria-label="Time";
+                input #scrub type="range" min="0" max="1" step="any" value="0" aria-label=(message::time_title());
             }
         }
     }
@@ -371,17 +376,17 @@ fn icon(class: &str, outline: &str) -> Markup {
 fn guide(page: &Page) -> Markup {
     html! {
         section #guide {
-            h2 { "How to read this" }
+            h2 { (message::how_to_read()) }
             ul {
-                li { "Displacements are relative to the ground and positive to the right; ground acceleration is positive to the right as well." }
-                li { "Closing is the displacement of the left floor minus that of the right one. The floors touch when it exceeds the gap; the excess is the indentation." }
-                li { "Contact forces are positive in compression: they push the left building left and the right one right. An impact begins when the surfaces touch and ends with the last instant of force before they separate." }
-                li { "Total acceleration includes the ground. Storey drift is the relative displacement of two floors divided by the height between them." }
-                li { "The input is the work of the ground motion in coordinates that move with the ground; kinetic, strain, damped, hysteretic and contact energy add up to it. The imbalance is the difference, relative to the greatest energy until then." }
+                li { (message::displacements_are_relative()) }
+                li { (message::closing_is_the_displacement()) }
+                li { (message::contact_forces_are_positive()) }
+                li { (message::total_acceleration_includes_the_ground()) }
+                li { (message::the_input_is_the_work()) }
                 @if page.model.buildings.iter().any(|building| building.may_yield()) {
-                    li { "A place has cracked, or yielded, once its deformation has passed the first, or second, corner of its curve, on either side. Ductility is the greatest rotation of a member end, hinge and bent member together, over that at yield, or the greatest deformation of a storey over that of yield; a positive value means tension at the bottom of a beam and on the right side of a column. Dissipated energy is the work minus the energy recoverable by unloading." }
+                    li { (message::a_place_has_cracked()) }
                 }
-                li { "Histories are thinned for this page, less during impacts; key figures and tables come from the full run." }
+                li { (message::histories_are_thinned()) }
             }
         }
     }

@@ -6,6 +6,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::document::{POLICY, STYLE, theme_button, theme_script};
 use crate::format::{fixed, significant};
+use crate::message;
 
 /// Plot area: left, top, width, height.
 const AREA: [f64; 4] = [64.0, 14.0, 420.0, 260.0];
@@ -17,28 +18,27 @@ const DRAWING: f64 = 220.0;
 pub fn render_sections(title: &str, surveys: &[SectionSurvey]) -> String {
     let page = html! {
         (DOCTYPE)
-        html lang="en" {
+        html lang=(message::language_code()) {
             head {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta http-equiv="Content-Security-Policy" content=(POLICY);
-                title { (title) " – sections" }
+                title { (message::title_sections(&title)) }
                 style { (PreEscaped(STYLE)) }
             }
             body {
                 header class="head" {
                     div {
-                        p class="kicker" { "From reinforcement to hinge" }
+                        p class="kicker" { (message::from_reinforcement_to_hinge()) }
                         h1 { (title) }
-                        p { "Cracking and yield of members: by formulas, and by fibre analysis of the section." }
+                        p { (message::cracking_and_yield_of_members()) }
                     }
                     (theme_button())
                 }
                 main {
                     @for survey in surveys { (sheet(survey)) }
                     p class="quiet" {
-                        "Rotations of a member end from its chord, in double curvature. Formula: cracking and yield moments of AIJ, secant stiffness at yield after Sugano, 1 % after yield. "
-                        "Fibre: trilinear curve of the same area as moment and curvature, integrated along the member, with bar slip at its end. K = 6EI/L of the gross section."
+                        (message::rotations_of_a_member_end())
                     }
                 }
                 (theme_script())
@@ -54,30 +54,26 @@ fn sheet(survey: &SectionSurvey) -> Markup {
         section {
             h2 { (survey.name) }
             p {
-                (fixed(section.width * 1e3, 0)) " × " (fixed(section.depth * 1e3, 0)) " mm, "
-                (section.bars.len()) " bars (" (fixed(section.steel_area() / section.area() * 100.0, 2)) " %); concrete "
-                (significant(section.concrete.strength * 1e-6, 3)) " MPa, steel " (fixed(section.steel.yield_strength * 1e-6, 0))
-                " MPa; axial compression " (fixed(survey.compression * 1e-3, 0)) " kN, "
-                (fixed(section.axial_ratio(survey.compression), 2)) " of the concrete; length " (fixed(survey.length, 2)) " m."
+                (message::section_in_words(fixed(section.width * 1e3, 0), fixed(section.depth * 1e3, 0), section.bars.len(), fixed(section.steel_area() / section.area() * 100.0, 2), significant(section.concrete.strength * 1e-6, 3), fixed(section.steel.yield_strength * 1e-6, 0), fixed(survey.compression * 1e-3, 0), fixed(section.axial_ratio(survey.compression), 2), fixed(survey.length, 2)))
             }
             div style="display:flex;flex-wrap:wrap;gap:1rem;align-items:flex-start" {
-                figure style="flex:0 1 15rem" { (drawing(section)) figcaption class="quiet" { "Positive moment: the bottom is in tension." } }
+                figure style="flex:0 1 15rem" { (drawing(section)) figcaption class="quiet" { (message::positive_moment_the_bottom()) } }
                 @match &survey.analysis {
                     Ok(analysis) => {
                         @for &side in survey.sides() {
                             figure style="flex:1 1 24rem;max-width:34rem" { (plot(survey, analysis, side)) figcaption class="quiet" { (caption(survey, side)) } }
                         }
                     }
-                    Err(error) => { p class="note" { "No moment–curvature analysis: " (error.to_string()) "." } }
+                    Err(error) => { p class="note" { (message::no_moment_curvature_analysis(error.to_string())) } }
                 }
             }
             div class="scroll" {
                 table {
-                    thead { tr { th { "method" } th { "cracking [kN·m]" } th { "at [mrad]" } th { "yield [kN·m]" } th { "at [mrad]" } th { "secant at yield / K" } th { "after yield / K" } } }
+                    thead { tr { th { (message::method()) } th { (message::cracking_kn_m()) } th { (message::at_mrad()) } th { (message::yield_kn_m()) } th { (message::at_mrad()) } th { (message::secant_at_yield_k()) } th { (message::after_yield_k()) } } }
                     tbody {
                         @for &side in survey.sides() {
-                            (row(survey, "formula", &survey.formula, side))
-                            @if let Ok(analysis) = &survey.analysis { (row(survey, "fibre", &analysis.ends, side)) }
+                            (row(survey, message::formula(), &survey.formula, side))
+                            @if let Ok(analysis) = &survey.analysis { (row(survey, message::fibre(), &analysis.ends, side)) }
                         }
                     }
                 }
@@ -89,16 +85,13 @@ fn sheet(survey: &SectionSurvey) -> Markup {
 fn side_name(survey: &SectionSurvey, side: Side) -> &'static str {
     match (survey.is_symmetric(), side) {
         (true, _) => "",
-        (_, Side::Positive) => ", positive",
-        (_, Side::Negative) => ", negative",
+        (_, Side::Positive) => message::positive(),
+        (_, Side::Negative) => message::negative(),
     }
 }
 
 fn caption(survey: &SectionSurvey, side: Side) -> String {
-    format!(
-        "Moment against curvature{}: analysis, and the trilinear curve of equal area (dashed).",
-        side_name(survey, side)
-    )
+    message::moment_against_curvature_analysis(side_name(survey, side))
 }
 
 fn row(survey: &SectionSurvey, name: &str, ends: &EndCurve, side: Side) -> Markup {
@@ -124,7 +117,7 @@ fn drawing(section: &Section) -> Markup {
     let (left, top) = (0.5 * (DRAWING - 20.0 - width), 14.0);
     let inset = section.cover * scale;
     html! {
-        svg viewBox={ "0 0 " (DRAWING) " " (depth + 50.0) } role="img" aria-label="Cross-section with its bars" {
+        svg viewBox={ "0 0 " (DRAWING) " " (depth + 50.0) } role="img" aria-label=(message::cross_section_with_its_bars()) {
             rect x=(left) y=(top) width=(width) height=(depth) fill="var(--c0)" fill-opacity="0.10" stroke="var(--ink)" stroke-width="1.5" {}
             @if section.ties.is_some() {
                 rect x=(left + inset - 2.0) y=(top + inset - 2.0) width=(width - 2.0 * inset + 4.0) height=(depth - 2.0 * inset + 4.0)
@@ -182,7 +175,7 @@ fn plot(survey: &SectionSurvey, analysis: &Analysis, side: Side) -> Markup {
         (0..=(largest / step).floor() as i32).map(move |n| f64::from(n) * step)
     };
     html! {
-        svg viewBox="0 0 500 320" role="img" aria-label={ "Moment against curvature" (side_name(survey, side)) } {
+        svg viewBox="0 0 500 320" role="img" aria-label={ (message::moment_against_curvature(side_name(survey, side))) } {
             g class="grid" {
                 @for moment in ticks(high * 1e-3) {
                     @let [_, y] = place(&Corner { deformation: 0.0, force: moment * 1e3 });
@@ -194,8 +187,8 @@ fn plot(survey: &SectionSurvey, analysis: &Analysis, side: Side) -> Markup {
                     line x1=(x) x2=(x) y1=(top) y2=(top + height) {}
                     text x=(x) y=(top + height + 18.0) text-anchor="middle" { (significant_tick(curvature)) }
                 }
-                text x=(left + width / 2.0) y=(top + height + 38.0) text-anchor="middle" { "curvature [1/km]" }
-                text x="14" y=(top + height / 2.0) text-anchor="middle" transform={ "rotate(-90 14 " (top + height / 2.0) ")" } { "moment [kN·m]" }
+                text x=(left + width / 2.0) y=(top + height + 38.0) text-anchor="middle" { (message::curvature_1_km()) }
+                text x="14" y=(top + height / 2.0) text-anchor="middle" transform={ "rotate(-90 14 " (top + height / 2.0) ")" } { (message::moment_kn_m()) }
             }
             path class="line" style="--c:var(--c0)" d=(path(&curve.points)) {}
             path class="line dashed" style="--c:var(--c1)" d=(path(&fitted)) {}

@@ -9,6 +9,7 @@ use serde_json::json;
 
 use crate::encode::Packed;
 use crate::format;
+use crate::message;
 use crate::motion_page::{digits, frame, spectrum_controls};
 use crate::study_page::{Axis, Chart, Section, Series, Stroke};
 
@@ -101,7 +102,8 @@ pub fn render_selection(page: &SelectionPage) -> Result<String, MotionFault> {
     spectra.push(
         json!({ "label": "mean", "periods": periods, "psa": digits(&found.mean), "bold": true }),
     );
-    for (label, factor) in std::iter::once(&("code", 1.0)).chain(page.check.code.bounds()) {
+    for (label, factor) in std::iter::once(&(message::code(), 1.0)).chain(page.check.code.bounds())
+    {
         let values: Vec<f64> = found.code.iter().map(|a| factor * a).collect();
         let dashed = *factor != 1.0;
         spectra.push(json!({ "label": label, "periods": periods, "psa": digits(&values), "dashed": dashed, "code": true }));
@@ -115,23 +117,23 @@ pub fn render_selection(page: &SelectionPage) -> Result<String, MotionFault> {
     });
     let clause = page.check.code.clause();
     let verdict = if page.check.passes() {
-        format!("The set meets the checked rules of {clause}.")
+        message::the_set_meets_the_checked(&clause)
     } else {
-        format!("The set does not meet {clause}.")
+        message::the_set_does_not_meet(&clause)
     };
     let body = html! {
         p.verdict { (verdict) }
-        section #rules { h2 { "What the clause asks" } (rules_table(page.check)) }
+        section #rules { h2 { (message::what_the_clause_asks()) } (rules_table(page.check)) }
         section #response {
-            h2 { "Response spectra with " (format::plain(100.0 * page.damping, 3)) " % damping" }
+            h2 { (message::response_spectra_with_damping(format::plain(100.0 * page.damping, 3))) }
             (spectrum_controls(false))
             div #spectra {}
         }
-        section #numbers { h2 { "At the main periods" } (selection_table(page)) }
+        section #numbers { h2 { (message::at_the_main_periods()) } (selection_table(page)) }
     };
     Ok(frame(
         &page.target.name(),
-        "Selection of ground motions",
+        message::selection_of_ground_motions(),
         &body,
         &data,
     ))
@@ -154,12 +156,12 @@ pub fn selection_sections(
     let reach = (1.6 * longest).clamp(SHORTEST_SPAN, LONGEST);
     let spectra = Spectra::new(target, damping, set, reach)?;
     let mut sections = vec![Section {
-        title: "Selection of ground motions".into(),
-        remark: format!(
-            "{}, {} % damping. {scaling} {}",
+        title: message::selection_of_ground_motions().into(),
+        remark: message::name_damping_damping_scaling_structures(
             target.name(),
             format::plain(100.0 * damping, 3),
-            remarks(structures)
+            &scaling,
+            remarks(structures),
         ),
         charts: vec![chart(&spectra, set, structures)],
         table: Some(verdicts(structures)),
@@ -167,10 +169,10 @@ pub fn selection_sections(
     }];
     sections.extend(structures.iter().map(|structure| Section {
         title: match &structure.name[..] {
-            "" => "Main periods".to_owned(),
-            name => format!("Main periods of {name}"),
+            "" => message::main_periods().to_owned(),
+            name => message::main_periods_title(&name),
         },
-        remark: "Response over that of the code.".into(),
+        remark: message::response_over().into(),
         table: Some(numbers(set, structure)),
         ..Section::default()
     }));
@@ -183,7 +185,7 @@ fn remarks(structures: &[CheckedStructure]) -> String {
     let estimated = checks.clone().any(|c| c.met(RuleKind::BaseShear).is_some());
     let mut all: Vec<&str> = Vec::new();
     if estimated {
-        all.push("Base shears are estimated from the elastic modes; the clause requires those of the time histories.");
+        all.push(message::base_shears_are_estimated());
     }
     for note in checks.flat_map(|check| &check.notes) {
         if !all.contains(note) {
@@ -212,8 +214,8 @@ fn chart(spectra: &Spectra, set: &[Candidate], structures: &[CheckedStructure]) 
         .enumerate()
         .map(|(i, (candidate, values))| series(&candidate.name, values, 1.0, Stroke::Thin, i))
         .collect();
-    all.push(series("mean", mean, 1.0, Stroke::Heavy, colour));
-    all.push(series("code", code, 1.0, Stroke::Line, colour + 1));
+    all.push(series(message::mean(), mean, 1.0, Stroke::Heavy, colour));
+    all.push(series(message::code(), code, 1.0, Stroke::Line, colour + 1));
     let bounds = structures
         .first()
         .map(|structure| structure.check.code.bounds());
@@ -224,8 +226,8 @@ fn chart(spectra: &Spectra, set: &[Candidate], structures: &[CheckedStructure]) 
         let means = structure.periods.iter().zip(&structure.check.mean);
         Series {
             name: match &structure.name[..] {
-                "" => "at main periods".to_owned(),
-                name => format!("at periods of {name}"),
+                "" => message::at_main_periods().to_owned(),
+                name => message::at_periods(&name),
             },
             points: means.map(|(main, mean)| [main.period, mean[1]]).collect(),
             band: Vec::new(),
@@ -238,8 +240,8 @@ fn chart(spectra: &Spectra, set: &[Candidate], structures: &[CheckedStructure]) 
         unit: unit.to_owned(),
     };
     Chart {
-        title: "Response spectra".into(),
-        x: axis("period", "s"),
+        title: message::response_spectra().into(),
+        x: axis(message::period(), "s"),
         y: axis("pseudo-acceleration", "m/s²"),
         series: all,
         levels: Vec::new(),
@@ -258,11 +260,11 @@ fn verdicts(structures: &[CheckedStructure]) -> (Vec<String>, Vec<Vec<String>>) 
         structures
             .iter()
             .map(|structure| match &structure.name[..] {
-                "" => "verdict".to_owned(),
+                "" => message::verdict().to_owned(),
                 name => name.to_owned(),
             }),
     );
-    heads.push("asks for".into());
+    heads.push(message::asks_for().into());
     let each: Vec<&[SelectionRule]> = structures
         .iter()
         .map(|structure| &structure.check.rules[..])
@@ -284,13 +286,20 @@ fn verdicts(structures: &[CheckedStructure]) -> (Vec<String>, Vec<Vec<String>>) 
 
 fn numbers(set: &[Candidate], structure: &CheckedStructure) -> (Vec<String>, Vec<Vec<String>>) {
     let (periods, check) = (&structure.periods, &structure.check);
-    let mut heads = vec!["motion".to_owned(), "origin".into(), "PGA".into()];
+    let mut heads = vec![
+        message::motion().to_owned(),
+        message::origin().into(),
+        "PGA".into(),
+    ];
     heads.extend(
         periods
             .iter()
             .map(|main| format!("T = {} s", format::plain(main.period, 4))),
     );
-    heads.extend(["base shear".into(), "effective duration".into()]);
+    heads.extend([
+        message::base_shear().into(),
+        message::effective_duration().into(),
+    ]);
     let mut rows: Vec<Vec<String>> = Vec::new();
     for (i, candidate) in set.iter().enumerate() {
         let mut row = vec![
@@ -305,7 +314,7 @@ fn numbers(set: &[Candidate], structure: &CheckedStructure) -> (Vec<String>, Vec
         ]);
         rows.push(row);
     }
-    let mut mean = vec!["mean".to_owned(), String::new(), String::new()];
+    let mut mean = vec![message::mean().to_owned(), String::new(), String::new()];
     mean.extend(check.mean.iter().map(|mean| ratio(1.0 + mean[2])));
     mean.extend([ratio(mean_shear(check)), String::new()]);
     rows.push(mean);
@@ -317,13 +326,17 @@ fn asked(rule: &SelectionRule) -> String {
 }
 
 fn verdict(met: bool) -> &'static str {
-    if met { "met" } else { "not met" }
+    if met {
+        message::met()
+    } else {
+        message::not_met()
+    }
 }
 
 fn origin(candidate: &Candidate) -> &'static str {
     match candidate.origin {
-        Origin::Natural => "recorded",
-        Origin::Artificial => "artificial",
+        Origin::Natural => message::recorded(),
+        Origin::Artificial => message::artificial(),
     }
 }
 
@@ -362,9 +375,9 @@ fn selection_table(page: &SelectionPage) -> Markup {
     html! {
         div.scroll { table {
             thead { tr {
-                th { "motion" } th { "origin" } th.number { "PGA" }
+                th { (message::motion()) } th { (message::origin()) } th.number { "PGA" }
                 @for main in page.periods { th.number { "T = " (format::plain(main.period, 4)) " s" } }
-                th.number { "base shear" } th.number { "effective duration" }
+                th.number { (message::base_shear()) } th.number { (message::effective_duration()) }
             } }
             tbody {
                 @for (i, candidate) in set.iter().enumerate() {
@@ -378,13 +391,13 @@ fn selection_table(page: &SelectionPage) -> Markup {
                     }
                 }
                 tr {
-                    td { b { "mean" } } td {} td {}
+                    td { b { (message::mean()) } } td {} td {}
                     @for [_, _, difference] in &check.mean { td.number { b { (ratio(1.0 + difference)) } } }
                     td.number { b { (ratio(mean_shear(check))) } }
                     td {}
                 }
             }
         } }
-        p.quiet { "Response over that of the code." }
+        p.quiet { (message::response_over()) }
     }
 }

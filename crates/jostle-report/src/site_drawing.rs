@@ -9,6 +9,7 @@ use maud::{Markup, PreEscaped, html};
 
 use crate::document::colour;
 use crate::format;
+use crate::message;
 use crate::site_places::SitePlace;
 
 /// Width of the drawing, and the margin around the site.
@@ -101,14 +102,26 @@ impl Scale {
     }
 }
 
-/// The drawing of a model as a file of its own; `None` if no building has a plan.
+/// The drawing of a model as a file of its own; `None` if no building has a plan. `north`: angle from x to north,
+/// counter-clockwise; `None` to draw none \[rad\].
 #[must_use]
-pub fn site_svg(model: &Model, system: &System, motion: Option<&GroundMotion>) -> Option<String> {
+pub fn site_svg(
+    model: &Model,
+    system: &System,
+    motion: Option<&GroundMotion>,
+    north: Option<f64>,
+) -> Option<String> {
     let scale = Scale::new(model)?;
     let places = SitePlace::of_system(model, system);
     let style = html! { style { (PreEscaped(without_variables(SITE_STYLE))) } };
     let title = html! { text.title x="14" y="22" { (model.title) } };
-    let picture = drawing(model, &scale, &places, motion, &html! { (style) (title) });
+    let picture = drawing(
+        model,
+        &scale,
+        &places,
+        (motion, north),
+        &html! { (style) (title) },
+    );
     let mut text = picture.into_string();
     for (number, colour) in ON_WHITE.iter().enumerate() {
         let of_page = format!("--c:var(--c{number})");
@@ -136,7 +149,7 @@ pub(crate) fn drawing(
     model: &Model,
     scale: &Scale,
     places: &[SitePlace],
-    motion: Option<&GroundMotion>,
+    (motion, north): (Option<&GroundMotion>, Option<f64>),
     beneath: &Markup,
 ) -> Markup {
     let height = scale.height;
@@ -144,7 +157,7 @@ pub(crate) fn drawing(
     let names = names(model, scale, &mut taken);
     let numbers = corner_numbers(model, scale, &mut taken);
     html! {
-        svg.site viewBox=(format!("0 0 {WIDTH} {height:.0}")) role="img" aria-label="The site from above: plans of the buildings, gaps, and the direction of shaking" {
+        svg.site viewBox=(format!("0 0 {WIDTH} {height:.0}")) role="img" aria-label=(message::the_site_from_above_plans()) {
             rect.sheet x="0" y="0" width=(WIDTH) height=(format!("{height:.0}")) {}
             @for (index, _, tiers) in tiers(model) {
                 g style=(colour(index)) {
@@ -156,7 +169,7 @@ pub(crate) fn drawing(
                     }
                     @for frame in &tiers.frames {
                         @let lines = (0..frame.column_lines()).map(|line| frame.line_at(line));
-                        polyline.frame points=(scale.path(lines.clone())) { title { "frame " (frame.name) } }
+                        polyline.frame points=(scale.path(lines.clone())) { title { (message::frame_name(&frame.name)) } }
                         @for line in lines {
                             @let [x, y] = scale.place(line);
                             rect.column x=(format!("{:.1}", x - 2.5)) y=(format!("{:.1}", y - 2.5)) width="5" height="5" {}
@@ -167,15 +180,15 @@ pub(crate) fn drawing(
                         @let [x, y] = scale.place(tier.centre);
                         @if let Some(storey) = tiers.storeys.first() {
                             @let [sx, sy] = scale.place(storey.centre);
-                            rect.stiffness x=(format!("{:.1}", sx - 4.0)) y=(format!("{:.1}", sy - 4.0)) width="8" height="8" { title { "centre of stiffness of the lowest storey" } }
+                            rect.stiffness x=(format!("{:.1}", sx - 4.0)) y=(format!("{:.1}", sy - 4.0)) width="8" height="8" { title { (message::centre_of_stiffness()) } }
                         }
-                        circle.mass cx=(format!("{x:.1}")) cy=(format!("{y:.1}")) r="3.5" { title { "centre of mass of the lowest floor" } }
+                        circle.mass cx=(format!("{x:.1}")) cy=(format!("{y:.1}")) r="3.5" { title { (message::centre_of_mass()) } }
                     }
                 }
             }
             @for wall in &model.walls {
                 @if let Some(line) = wall.line {
-                    polyline.wall points=(scale.path(line.into_iter())) { title { "wall " (wall.name) } }
+                    polyline.wall points=(scale.path(line.into_iter())) { title { (message::wall_name(&wall.name)) } }
                 }
             }
             (beneath)
@@ -183,7 +196,7 @@ pub(crate) fn drawing(
             (numbers)
             (marks(scale, places))
             (labels(scale, places, &mut taken))
-            (strip(scale, motion))
+            (strip(scale, motion, north))
         }
     }
 }
@@ -220,7 +233,7 @@ fn grid(frame: &SpaceFrame, scale: &Scale) -> Markup {
     let is_column = |own: &SpaceMember| matches!(own.place, SpacePlace::Column { .. });
     html! {
         @for (number, (line, name, place)) in numbered {
-            polyline.axis stroke-dasharray="6 3 1 3" points=(path(&line)) { title { "grid line " (name) " = " (number + 1) ", at " (format::plain(place, 4)) " m" } }
+            polyline.axis stroke-dasharray="6 3 1 3" points=(path(&line)) { title { (message::grid_line(name, number + 1, format::plain(place, 4))) } }
         }
         @for own in lowest() {
             @if is_column(own) {
@@ -254,7 +267,11 @@ fn names(model: &Model, scale: &Scale, taken: &mut Vec<[f64; 4]>) -> Markup {
         let words = format!(
             "{}, {floors} {}",
             building.name,
-            if floors == 1 { "floor" } else { "floors" }
+            if floors == 1 {
+                message::floor()
+            } else {
+                message::floors()
+            }
         );
         let [x, y] = scale.place(tiers.floors.first()?.centre);
         // Frames at lines of the plan have no centre of stiffness of their own.
@@ -318,6 +335,8 @@ fn marks(scale: &Scale, places: &[SitePlace]) -> Markup {
         .iter()
         .map(|place| place.peak_force)
         .fold(0.0, f64::max);
+    let slips = places.iter().filter_map(|place| place.slip);
+    let longest = slips.fold(0.0, f64::max);
     html! {
         @for place in places {
             @let half = 0.5 * place.overlap;
@@ -328,8 +347,9 @@ fn marks(scale: &Scale, places: &[SitePlace]) -> Markup {
             @let tip = [x + 15.0 * place.normal[0], y - 15.0 * place.normal[1]];
             @let share = if most > 0.0 { place.peak_force / most } else { 0.4 };
             g {
-                title { "floors " (place.floors_in_words()) @if place.peak_force > 0.0 { ": peak " (format::force(place.peak_force)) } }
+                title { (message::floors_floors_in_words(place.floors_in_words())) @if place.peak_force > 0.0 { (message::peak_peak_force(format::force(place.peak_force))) } }
                 (arrow("normal", [x, y], tip))
+                @if let Some(slip) = place.slip.filter(|slip| *slip > 0.0) { (slipped(place, [x, y], slip / longest)) }
                 @match place.kind {
                     PlanContactKind::Face => {
                         line.face x1=(format!("{x1:.1}")) y1=(format!("{y1:.1}")) x2=(format!("{x2:.1}")) y2=(format!("{y2:.1}")) stroke-width=(format!("{:.1}", 2.0 + 5.0 * share)) {}
@@ -343,11 +363,26 @@ fn marks(scale: &Scale, places: &[SitePlace]) -> Markup {
     }
 }
 
+/// Slip in both directions along a face, beside it on the side of the second building.
+fn slipped(place: &SitePlace, [x, y]: [f64; 2], share: f64) -> Markup {
+    let [nx, ny] = [place.normal[0], -place.normal[1]];
+    let [tx, ty] = [ny, -nx];
+    let from = [x + SLIP_BESIDE * nx, y + SLIP_BESIDE * ny];
+    let reach = SLIP_LEAST + SLIP_MORE * share;
+    html! {
+        (arrow("slip", from, [from[0] + reach * tx, from[1] + reach * ty]))
+        (arrow("slip", from, [from[0] - reach * tx, from[1] - reach * ty]))
+    }
+}
+
 /// Number and gap of every place, where nothing else is written.
 fn labels(scale: &Scale, places: &[SitePlace], taken: &mut Vec<[f64; 4]>) -> Markup {
     let mut all: Vec<Markup> = Vec::new();
     for (index, place) in places.iter().enumerate() {
-        let words = format!("{}: {}", index + 1, place.gap_in_words());
+        let mut words = format!("{}: {}", index + 1, place.gap_in_words());
+        if let Some(slip) = place.slip {
+            words += &message::and_slip(format::millimetres(slip));
+        }
         let [x, y] = scale.place(place.middle);
         let [nx, ny] = [place.normal[0], -place.normal[1]];
         let half = 0.5 * LETTER[0] * words.chars().count() as f64 + 4.0;
@@ -399,7 +434,7 @@ fn arrow(class: &str, from: [f64; 2], to: [f64; 2]) -> Markup {
 }
 
 /// Axes, direction of the motion and of the one across, and the scale.
-fn strip(scale: &Scale, motion: Option<&GroundMotion>) -> Markup {
+fn strip(scale: &Scale, motion: Option<&GroundMotion>, north: Option<f64>) -> Markup {
     let base = scale.height - 26.0;
     let axes = [42.0, base];
     html! {
@@ -407,15 +442,40 @@ fn strip(scale: &Scale, motion: Option<&GroundMotion>) -> Markup {
         (arrow("axis", axes, [axes[0], axes[1] - 38.0]))
         text.axis-name x=(format!("{:.1}", axes[0] + 43.0)) y=(format!("{:.1}", axes[1] + 4.0)) { "x" }
         text.axis-name x=(format!("{:.1}", axes[0] - 3.0)) y=(format!("{:.1}", axes[1] - 43.0)) { "y" }
-        @if let Some(motion) = motion { (shaking(motion, [200.0, base - 16.0])) }
+        @if let Some(motion) = motion { (shaking(motion, north, [200.0, base - 16.0])) }
+        @if let Some(north) = north { (north_arrow(north, [118.0, base - 16.0])) }
         (scale_bar(scale, base))
     }
 }
 
+/// Arrows of slip: distance from the face, least length, and that of the greatest slip beyond it.
+const SLIP_BESIDE: f64 = 20.0;
+const SLIP_LEAST: f64 = 9.0;
+const SLIP_MORE: f64 = 30.0;
+/// Half the length of the arrow to north.
+const NORTH: f64 = 20.0;
 /// Length of the arrows of the motion.
 const SHAKING: f64 = 30.0;
 
-fn shaking(motion: &GroundMotion, [x, y]: [f64; 2]) -> Markup {
+/// An arrow to north, with its letter.
+fn north_arrow(north: f64, [x, y]: [f64; 2]) -> Markup {
+    let (sin, cos) = north.sin_cos();
+    let end = |length: f64| [x + length * cos, y - length * sin];
+    let letter = end(NORTH + 11.0);
+    html! {
+        (arrow("north", end(-NORTH), end(NORTH)))
+        text.north-name x=(format!("{:.1}", letter[0])) y=(format!("{:.1}", letter[1] + 4.5)) text-anchor="middle" { (message::letter_of_north()) }
+    }
+}
+
+/// Compass bearing of a direction, clockwise from north, 0 to 360; both angles counter-clockwise from x \[°\].
+pub(crate) fn compass_bearing(angle: f64, north: f64) -> f64 {
+    let bearing = (north - angle).rem_euclid(360.0);
+    // What rounding makes of a direction just left of north.
+    if bearing > 360.0 - 1e-6 { 0.0 } else { bearing }
+}
+
+fn shaking(motion: &GroundMotion, north: Option<f64>, [x, y]: [f64; 2]) -> Markup {
     let angle = motion.bearing.as_ref().map_or(0.0, |bearing| bearing.angle);
     let has_across = motion.across().is_some();
     let tip = |angle: f64| {
@@ -431,11 +491,19 @@ fn shaking(motion: &GroundMotion, [x, y]: [f64; 2]) -> Markup {
     html! {
         @if has_across { (arrow("across", back(across), tip(across))) }
         (arrow("motion", back(angle), tip(angle)))
-        text.motion-name x=(format!("{:.1}", x + SHAKING + 16.0)) y=(format!("{:.1}", y - 2.0)) { "shaking at " (degrees) "° from x: " (motion.name) }
+        text.motion-name x=(format!("{:.1}", x + SHAKING + 16.0)) y=(format!("{:.1}", y - 2.0)) { (shaking_in_words(angle, north, &degrees, &motion.name)) }
         @if let Some(other) = motion.across() {
-            text.across-name x=(format!("{:.1}", x + SHAKING + 16.0)) y=(format!("{:.1}", y + 15.0)) { "across it (thin): " (other.name) }
+            text.across-name x=(format!("{:.1}", x + SHAKING + 16.0)) y=(format!("{:.1}", y + 15.0)) { (message::across_it_thin(&other.name)) }
         }
     }
+}
+
+fn shaking_in_words(angle: f64, north: Option<f64>, degrees: &str, name: &str) -> String {
+    let Some(north) = north else {
+        return message::shaking_at_from_x(degrees, name);
+    };
+    let bearing = compass_bearing(angle.to_degrees(), north.to_degrees());
+    message::shaking_at_with_bearing(degrees, format::plain(bearing, 4), name)
 }
 
 /// A round number of metres, about a seventh of the drawing.

@@ -1,5 +1,6 @@
 //! Places where plans can touch, as the geometry found them: equal ones of several floors together.
 
+use crate::message;
 use jostle::interface::{Contact, PlanContactKind, PlanPart};
 use jostle::{Model, PlanPoint, Summary, System};
 
@@ -26,6 +27,8 @@ pub struct SitePlace {
     pub gap: [f64; 2],
     /// Greatest force of any floor; zero without a run \[N\].
     pub peak_force: f64,
+    /// Greatest slip of any floor during an impact; `None` without friction or a run \[m\].
+    pub slip: Option<f64>,
 }
 
 /// Places closer than this are the same \[m\].
@@ -62,6 +65,7 @@ impl SitePlace {
                     overlap: own.overlap,
                     gap,
                     peak_force: 0.0,
+                    slip: None,
                 },
             );
         }
@@ -93,6 +97,7 @@ impl SitePlace {
                         overlap: plan.overlap_m,
                         gap: [contact.width_m; 2],
                         peak_force: contact.peak_force_n,
+                        slip: plan.sliding.map(|sliding| sliding.slip_peak_m),
                     },
                 );
             }
@@ -124,7 +129,7 @@ impl SitePlace {
         let follow = follow.into_iter().all(|step| step == Some(1));
         match &self.floors[..] {
             [only] if same => floor(only).to_string(),
-            [first, .., last] if same && follow => format!("{} to {}", floor(first), floor(last)),
+            [first, .., last] if same && follow => message::low_to_high(floor(first), floor(last)),
             pairs if same => {
                 let words = pairs.iter().map(|pair| floor(pair).to_string());
                 words.collect::<Vec<_>>().join(", ")
@@ -146,7 +151,10 @@ impl SitePlace {
         if most - least < 5e-5 {
             format!("{:.1} mm", 1e3 * least)
         } else {
-            format!("{:.1} to {:.1} mm", 1e3 * least, 1e3 * most)
+            message::to_mm(
+                format_args!("{:.1}", 1e3 * least),
+                format_args!("{:.1}", 1e3 * most),
+            )
         }
     }
 
@@ -163,9 +171,9 @@ pub(crate) fn part_of(model: &Model, side: usize, floor: Option<usize>, part: Pl
     let Some(building) = model.buildings.get(side) else {
         return match part {
             // The plan of a wall begins behind it; its face is its third edge.
-            PlanPart::Edge(2) => "face".into(),
-            PlanPart::Edge(_) => "side".into(),
-            PlanPart::Corner(_) => "end".into(),
+            PlanPart::Edge(2) => message::face().into(),
+            PlanPart::Edge(_) => message::side().into(),
+            PlanPart::Corner(_) => message::end().into(),
         };
     };
     let plan = match (&building.structure, floor) {
@@ -178,10 +186,10 @@ pub(crate) fn part_of(model: &Model, side: usize, floor: Option<usize>, part: Pl
 /// `corner 3`, or `edge 2–3`; corners count from 1.
 fn part_in_words(part: PlanPart, corners: usize) -> String {
     match part {
-        PlanPart::Corner(index) => format!("corner {}", index + 1),
+        PlanPart::Corner(index) => message::corner_index(index + 1),
         PlanPart::Edge(index) => {
             let next = if index + 1 == corners { 0 } else { index + 1 };
-            format!("edge {}–{}", index + 1, next + 1)
+            message::edge_index_next(index + 1, next + 1)
         }
     }
 }
@@ -194,6 +202,10 @@ fn add(places: &mut Vec<SitePlace>, place: SitePlace) {
                 known.gap[1].max(place.gap[1]),
             ];
             known.peak_force = known.peak_force.max(place.peak_force);
+            known.slip = match (known.slip, place.slip) {
+                (Some(own), Some(other)) => Some(own.max(other)),
+                (own, other) => own.or(other),
+            };
             known.floors.extend(place.floors);
         }
         None => places.push(place),

@@ -5,6 +5,7 @@ use jostle::{Column, PlanPoint, Tiers};
 use maud::{Markup, html};
 
 use crate::document::colour;
+use crate::message;
 use crate::site_drawing::{self, Scale, WIDTH, tiers};
 use crate::site_places::SitePlace;
 use crate::static_plot::{Line, Plot, thinned_to};
@@ -22,7 +23,7 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
     page.model.is_in_space().then(|| {
         html! {
             section #site.site-plan {
-                h2 { "Seen from above" }
+                h2 { (message::seen_from_above()) }
                 (drawing(page))
                 (faces(page))
                 (face_pressure::figures(page))
@@ -50,12 +51,15 @@ fn drawing(page: &Page) -> Markup {
     html! {
         figure.static-plot {
             figcaption {
-                span.chart-title { "Site plan" }
-                @if let Some((_, times)) = &paths { span.quiet { "  paths of roof corners " (format::plain(*times, 3)) " times as large" } }
+                span.chart-title { (message::site_plan()) }
+                @if let Some((_, times)) = &paths { span.quiet { "  " (message::paths_of_roof_corners_times(format::plain(*times, 3))) } }
             }
-            (site_drawing::drawing(page.model, &scale, &places, Some(page.motion), &beneath))
+            (site_drawing::drawing(page.model, &scale, &places, (Some(page.motion), page.north), &beneath))
         }
-        p.quiet { "Filled circles: centres of mass; squares: centres of stiffness of the lowest storey; bars: faces, as thick as their greatest force, with their normal and gap; dots: corners that can strike. Small numbers count the corners of each plan." }
+        p.quiet {
+            (message::filled_circles_centres_of_mass())
+            @if places.iter().any(|place| place.slip.is_some()) { " " (message::arrows_beside_faces()) }
+        }
     }
 }
 
@@ -102,10 +106,10 @@ fn corner_paths(page: &Page, site: f64) -> Option<(CornerPaths, f64)> {
 /// Where the scripts draw orbits of corners.
 fn orbits(page: &Page) -> Markup {
     html! {
-        h3 { "Paths of corners" }
+        h3 { (message::paths_of_corners()) }
         p.quiet {
-            "Displacement of a corner relative to the ground, x to the right and y upwards, both to the same scale; the dot moves with the time of the page."
-            @if page.without_contact.is_some() { " Dashed: the same buildings without contact." }
+            (message::displacement_of_a_corner_relative())
+            @if page.without_contact.is_some() { " " (message::dashed_the_same_buildings_without()) }
         }
         div #orbits.multiples {}
     }
@@ -113,30 +117,32 @@ fn orbits(page: &Page) -> Markup {
 
 /// The scene in three dimensions, which the scripts draw.
 pub(crate) fn space_section(page: &Page) -> Option<Markup> {
-    (page.model.is_in_space() && page.history.len() > 1).then(|| {
-        html! {
-            section #in-space {
-                h2 { "How they move in space" }
-                div #space.stage {}
-                div.controls {
-                    button #space-play type="button" { "Play" }
-                    span.buttons role="group" aria-label="View" {
-                        button #space-oblique type="button" { "From the side" }
-                        button #space-above type="button" { "From above" }
-                    }
-                    label { "Exaggeration "
-                        input #space-exaggeration type="range" min="0" max="2.5" step="0.01" value="1";
-                        output #space-exaggeration-value for="space-exaggeration" { "10×" }
-                    }
-                    label { input #space-names type="checkbox" checked; " forces in kN" }
+    (page.model.is_in_space() && page.history.len() > 1).then(scene)
+}
+
+/// The scene, still empty.
+pub(crate) fn scene() -> Markup {
+    html! {
+        section #in-space {
+            h2 { (message::how_they_move_in_space()) }
+            div #space.stage {}
+            div.controls {
+                button #space-play type="button" { (message::play()) }
+                span.buttons role="group" aria-label=(message::view()) {
+                    button #space-oblique type="button" { (message::from_the_side()) }
+                    button #space-above type="button" { (message::from_above()) }
                 }
-                p.quiet {
-                    "Drag to turn the view, also by touch or with the arrow keys; the wheel zooms. To scale; displacements, rotations and gaps are exaggerated by the same factor. "
-                    "Dots: ends of faces and corners, with thin arrows along their normals; red arrows: contact forces on either building, along the normal and at the centre of pressure of the impact; the bar across them: slip along the face since rest. The black arrow on the ground is the ground acceleration."
+                label { (message::exaggeration()) " "
+                    input #space-exaggeration type="range" min="0" max="2.5" step="0.01" value="1";
+                    output #space-exaggeration-value for="space-exaggeration" { "10×" }
                 }
+                label { input #space-names type="checkbox" checked; " " (message::forces_in_kn()) }
+            }
+            p.quiet {
+                (message::drag_to_turn_the_view())
             }
         }
-    })
+    }
 }
 
 fn pair(floors: [Option<usize>; 2]) -> String {
@@ -149,13 +155,13 @@ fn faces(page: &Page) -> Markup {
         return html! {};
     }
     html! {
-        h3 { "Faces and corners" }
+        h3 { (message::faces_and_corners()) }
         div.scroll { table {
             thead { tr {
-                th scope="col" { "between" } th scope="col" { "floors" } th scope="col" { "kind" }
-                th.number scope="col" { "length" br; span.unit { "[m]" } } th.number scope="col" { "gap" br; span.unit { "[mm]" } }
-                th.number scope="col" { "normal" } th.number scope="col" { "impacts" }
-                th.number scope="col" { "peak force" br; span.unit { "[kN]" } } th.number scope="col" { "centre of pressure" br; span.unit { "[m]" } }
+                th scope="col" { (message::between()) } th scope="col" { (message::floors()) } th scope="col" { (message::kind()) }
+                th.number scope="col" { (message::length()) br; span.unit { "[m]" } } th.number scope="col" { (message::gap()) br; span.unit { "[mm]" } }
+                th.number scope="col" { (message::normal()) } th.number scope="col" { (message::impacts()) }
+                th.number scope="col" { (message::peak_force()) br; span.unit { "[kN]" } } th.number scope="col" { (message::centre_of_pressure()) br; span.unit { "[m]" } }
             } }
             tbody {
                 @for gap in &page.summary.gaps {
@@ -181,14 +187,14 @@ fn faces(page: &Page) -> Markup {
 
 fn peaks(page: &Page) -> Markup {
     html! {
-        h3 { "Peaks across the row and in rotation" }
+        h3 { (message::peaks_across_the_row()) }
         div.scroll { table {
             thead { tr {
-                th scope="col" { "building" } th.number scope="col" { "floor" }
-                th.number scope="col" { "displacement across" br; span.unit { "[mm]" } } th.number scope="col" { "rotation" br; span.unit { "[mrad]" } }
-                th.number scope="col" { "corner" br; span.unit { "[mm]" } } th.number scope="col" { "drift across" br; span.unit { "[%]" } }
-                th.number scope="col" { "shear across" br; span.unit { "[kN]" } } th.number scope="col" { "torque" br; span.unit { "[kN·m]" } }
-                th.number scope="col" { "acceleration across" br; span.unit { "[m/s²]" } }
+                th scope="col" { (message::building()) } th.number scope="col" { (message::floor()) }
+                th.number scope="col" { (message::displacement_across()) br; span.unit { "[mm]" } } th.number scope="col" { (message::rotation()) br; span.unit { "[mrad]" } }
+                th.number scope="col" { (message::corner()) br; span.unit { "[mm]" } } th.number scope="col" { (message::drift_across()) br; span.unit { "[%]" } }
+                th.number scope="col" { (message::shear_across()) br; span.unit { "[kN]" } } th.number scope="col" { (message::torque()) br; span.unit { "[kN·m]" } }
+                th.number scope="col" { (message::acceleration_across()) br; span.unit { "[m/s²]" } }
             } }
             tbody {
                 @for building in &page.summary.buildings {
@@ -209,7 +215,7 @@ fn peaks(page: &Page) -> Markup {
                 }
             }
         } }
-        p.quiet { "Drift, shear and torque are those of the storey below the floor; torques are about the centre of mass of the lowest floor." }
+        p.quiet { (message::drift_shear_and_torque()) }
     }
 }
 
@@ -226,7 +232,7 @@ fn histories(page: &Page) -> Markup {
                 let name = &page.model.buildings[building].name;
                 Some(Line {
                     name: match free {
-                        true => format!("{name} without contact"),
+                        true => message::name_without_contact(&name),
                         false => name.clone(),
                     },
                     points: thinned_to(
@@ -252,7 +258,7 @@ fn histories(page: &Page) -> Markup {
     };
     let plot = |title: &str, y_label: &str, lines: Vec<Line>| Plot {
         title: title.to_owned(),
-        x_label: "time [s]".to_owned(),
+        x_label: message::time_s().to_owned(),
         y_label: y_label.to_owned(),
         logarithmic: false,
         aspect: 0.5,
@@ -265,8 +271,8 @@ fn histories(page: &Page) -> Markup {
     let turns = lines(|building, floor| Column::Rotation { building, floor }, 1e3);
     html! {
         div.static-plots {
-            (plot("Roof displacement across", "displacement [mm]", across).figure())
-            (plot("Roof rotation", "rotation [mrad]", turns).figure())
+            (plot(message::roof_displacement_across(), message::displacement_mm(), across).figure())
+            (plot(message::roof_rotation(), message::rotation_mrad(), turns).figure())
         }
     }
 }

@@ -6,20 +6,24 @@ use jostle_section::Section;
 use jostle_section::formula::Member;
 
 use crate::facts::{Facts, grouped};
+use crate::message;
 use crate::{Page, ReinforcedSection, format};
 
 /// One entry for each special feature.
 pub(crate) fn facts(building: &Building) -> Facts {
     let mut facts = base(&building.base);
     let gravity = match (building.gravity.preload, building.gravity.p_delta) {
-        (true, true) => Some("starts from the displacements under self weight; P-Delta"),
-        (true, false) => Some("starts bent under its weight"),
-        (false, true) => Some("P-Delta of every column"),
+        (true, true) => Some(message::starts_from_the_displacements_under()),
+        (true, false) => Some(message::starts_bent_under_its_weight()),
+        (false, true) => Some(message::p_delta_of_every_column()),
         (false, false) => None,
     };
-    facts.extend(gravity.map(|text| ("gravity", text.to_owned())));
+    facts.extend(gravity.map(|text| (message::gravity(), text.to_owned())));
     if let Structure::Frame(frame) = &building.structure {
-        for (name, sections) in [("columns, GA", &frame.columns), ("beams, GA", &frame.beams)] {
+        for (name, sections) in [
+            (message::columns_ga(), &frame.columns),
+            (message::beams_ga(), &frame.beams),
+        ] {
             let values: Vec<f64> = sections
                 .iter()
                 .map(|section| section.shear_rigidity.unwrap_or(f64::INFINITY))
@@ -27,7 +31,7 @@ pub(crate) fn facts(building: &Building) -> Facts {
             if values.iter().any(|value| value.is_finite()) {
                 let text = |value: f64| match value.is_finite() {
                     true => format::force(value),
-                    false => "rigid".into(),
+                    false => message::rigid().into(),
                 };
                 facts.push((name, grouped(&values, text)));
             }
@@ -42,56 +46,74 @@ fn base(base: &Base) -> Facts {
     }
     if let Some(isolation) = &base.isolation {
         return vec![
-            ("bearings", isolation.isolator.name().to_owned()),
-            ("mat", format::tonnes(isolation.mat_mass)),
+            (message::bearings(), isolation.isolator.name().to_owned()),
+            (message::mat(), format::tonnes(isolation.mat_mass)),
         ];
     }
     if let Some(foundation) = &base.foundation {
         let metres = |value: f64| format::plain(value, 3);
         let depth = match foundation.embedment > 0.0 {
-            true => format!(", {} m deep", metres(foundation.embedment)),
+            true => message::m_deep(metres(foundation.embedment)),
             false => String::new(),
         };
         return vec![
             (
-                "size of the foundation",
+                message::size_of_the_foundation(),
                 format!(
                     "{} m × {} m{depth}",
                     metres(foundation.length),
                     metres(foundation.width)
                 ),
             ),
-            ("mass of the foundation", format::tonnes(foundation.mass)),
+            (
+                message::mass_of_the_foundation(),
+                format::tonnes(foundation.mass),
+            ),
         ];
     }
     let mut facts: Facts = vec![(
-        "base",
+        message::base(),
         springs(&[
-            ("rotation", base.rotational_stiffness, "N·m/rad"),
-            ("sideways", base.horizontal_stiffness, "N/m"),
-            ("vertical", base.vertical_stiffness, "N/m"),
+            (message::rotation(), base.rotational_stiffness, "N·m/rad"),
+            (message::sideways(), base.horizontal_stiffness, "N/m"),
+            (message::vertical(), base.vertical_stiffness, "N/m"),
         ]),
     )];
     for (name, hinge, unit) in [
-        ("base rocks", base.rotational_hinge, "kN·m"),
-        ("base slides", base.horizontal_hinge, "kN"),
+        (message::base_rocks(), base.rotational_hinge, "kN·m"),
+        (message::base_slides(), base.horizontal_hinge, "kN"),
     ] {
         if let Some(hinge) = hinge {
             let yielding = hinge.backbone().side(Side::Positive).yielding.force;
             let value = format::unit(format::plain(yielding * 1e-3, 4), unit);
-            facts.push((name, format!("{}, yields at {value}", hinge.rule().name())));
+            facts.push((
+                name,
+                message::name_yields_at_value(hinge.rule().name(), &value),
+            ));
         }
     }
     let dashpots = springs(&[
-        ("rotation", positive(base.rotational_damping), "N·m·s/rad"),
-        ("sideways", positive(base.horizontal_damping), "N·s/m"),
-        ("vertical", positive(base.vertical_damping), "N·s/m"),
+        (
+            message::rotation(),
+            positive(base.rotational_damping),
+            "N·m·s/rad",
+        ),
+        (
+            message::sideways(),
+            positive(base.horizontal_damping),
+            "N·s/m",
+        ),
+        (
+            message::vertical(),
+            positive(base.vertical_damping),
+            "N·s/m",
+        ),
     ]);
     if !dashpots.is_empty() {
-        facts.push(("base dashpots", dashpots));
+        facts.push((message::base_dashpots(), dashpots));
     }
     if base.mass > 0.0 {
-        facts.push(("footing mass", format::tonnes(base.mass)));
+        facts.push((message::footing_mass(), format::tonnes(base.mass)));
     }
     facts
 }
@@ -112,12 +134,12 @@ fn springs(parts: &[(&str, Option<f64>, &str)]) -> String {
 /// How beams are joined to columns.
 pub(crate) fn joint(joint: &Joint) -> String {
     if *joint == Joint::default() {
-        return "rigid".into();
+        return message::rigid().into();
     }
     springs(&[
-        ("rotation", joint.rotational_stiffness, "N·m/rad"),
-        ("sideways", joint.horizontal_stiffness, "N/m"),
-        ("vertical", joint.vertical_stiffness, "N/m"),
+        (message::rotation(), joint.rotational_stiffness, "N·m/rad"),
+        (message::sideways(), joint.horizontal_stiffness, "N/m"),
+        (message::vertical(), joint.vertical_stiffness, "N/m"),
     ])
 }
 
@@ -126,8 +148,8 @@ pub(crate) fn sections(page: &Page, building: usize) -> Facts {
     let own = page.sections.iter().filter(|s| s.building == building);
     own.map(|known| {
         let name = match known.member {
-            Member::Column => "column section",
-            Member::Beam => "beam section",
+            Member::Column => message::column_section(),
+            Member::Beam => message::beam_section(),
         };
         (name, section(known))
     })
@@ -141,8 +163,8 @@ fn section(known: &ReinforcedSection) -> String {
         [low, high] => format!("{low}–{high}: "),
     };
     let size = |metres: f64| format::plain(metres * 1e3, 4);
-    let mut text = format!(
-        "{floors}{} × {}\u{a0}mm, {} ({}\u{a0}%), concrete {}\u{a0}MPa, steel {}\u{a0}MPa",
+    let mut text = message::section_on_floors(
+        &floors,
         size(section.width),
         size(section.depth),
         bars(section),
@@ -151,11 +173,10 @@ fn section(known: &ReinforcedSection) -> String {
         format::plain(section.steel.yield_strength * 1e-6, 3),
     );
     if let Some(ties) = &section.ties {
-        text.push_str(&format!(
-            ", ties d{} at {}\u{a0}mm, {} legs",
+        text.push_str(&message::ties_d_at_mm_legs(
             size(ties.diameter),
             size(ties.spacing),
-            ties.legs
+            &ties.legs,
         ));
     }
     if known.member == Member::Column {
@@ -163,9 +184,9 @@ fn section(known: &ReinforcedSection) -> String {
         let range = if low == high {
             low
         } else {
-            format!("{low} to {high}")
+            message::low_to_high(&low, &high)
         };
-        text.push_str(&format!(", axial compression {range}"));
+        text.push_str(&message::axial_compression(&range));
     }
     text
 }
@@ -180,7 +201,7 @@ fn bars(section: &Section) -> String {
         counted(section, |depth| depth < middle),
         counted(section, |depth| depth >= middle),
     );
-    format!("{top} top, {bottom} bottom")
+    message::top_bottom(&top, &bottom)
 }
 
 /// Bars at the depths asked for, by diameter.

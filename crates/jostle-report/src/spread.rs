@@ -3,18 +3,25 @@
 use jostle::results::contact_sensitivity::{BuildingChange, ContactVariant, GapSpread};
 use maud::{Markup, html};
 
+use crate::message;
 use crate::{Page, format};
 
 /// A change of the results of a building: name and value \[–\].
 type Change = (&'static str, fn(&BuildingChange) -> f64);
 
-const CHANGES: [Change; 5] = [
-    ("displacement", |change| change.displacement),
-    ("storey drift", |change| change.storey_drift),
-    ("total acceleration", |change| change.total_acceleration),
-    ("storey shear", |change| change.storey_shear),
-    ("overturning moment", |change| change.overturning_moment),
-];
+fn changes() -> [Change; 5] {
+    [
+        (message::displacement(), |change| change.displacement),
+        (message::storey_drift(), |change| change.storey_drift),
+        (message::total_acceleration(), |change| {
+            change.total_acceleration
+        }),
+        (message::storey_shear(), |change| change.storey_shear),
+        (message::overturning_moment(), |change| {
+            change.overturning_moment
+        }),
+    ]
+}
 
 /// The section; `None` if no runs with other contacts were made.
 pub(crate) fn section(page: &Page) -> Option<Markup> {
@@ -25,30 +32,29 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
     let impacts: usize = page.summary.gaps.iter().map(|gap| gap.impact_count).sum();
     Some(html! {
         section #spread.spread {
-            h2 { "Spread over contacts" }
+            h2 { (message::spread_over_contacts()) }
             p.quiet {
-                "Nobody knows contact stiffness and restitution closely. These are the results of this run, and the least and the greatest of it and of "
-                (found.variants.len()) " runs with other contacts."
+                (message::nobody_knows_contact_stiffness(found.variants.len()))
             }
             div.scroll { table {
                 thead { tr {
-                    th scope="col" { "result" } th.number scope="col" { "this run" } th.number scope="col" { "least" } th.number scope="col" { "greatest" }
-                    th scope="col" { "from zero to the greatest" }
+                    th scope="col" { (message::result()) } th.number scope="col" { (message::this_run()) } th.number scope="col" { (message::least()) } th.number scope="col" { (message::greatest()) }
+                    th scope="col" { (message::from_zero_to_the_greatest()) }
                 } }
                 tbody {
                     @for (gap, own) in found.gaps.iter().zip(&page.summary.gaps) {
-                        (row(&named("peak force [kN]", gap, several), [own.peak_force_n, gap.peak_force_min_n, gap.peak_force_max_n], |force| format::significant(force * 1e-3, 4)))
+                        (row(&named(message::peak_force_kn(), gap, several), [own.peak_force_n, gap.peak_force_min_n, gap.peak_force_max_n], |force| format::significant(force * 1e-3, 4)))
                         @let counts = [own.impact_count, gap.impact_count_min, gap.impact_count_max].map(|count| count as f64);
-                        (row(&named("impacts", gap, several), counts, |count| format::fixed(count, 0)))
+                        (row(&named(message::impacts(), gap, several), counts, |count| format::fixed(count, 0)))
                     }
                 }
             } }
             div.scroll { table {
                 thead { tr {
-                    th scope="col" { "contact" } th.number scope="col" { "peak force" br; span.unit { "[kN]" } } th.number scope="col" { "impacts" }
+                    th scope="col" { (message::contact()) } th.number scope="col" { (message::peak_force()) br; span.unit { "[kN]" } } th.number scope="col" { (message::impacts()) }
                 } }
                 tbody {
-                    tr { th scope="row" { "of this run" } td.number { (format::significant(greatest * 1e-3, 4)) } td.number { (impacts) } }
+                    tr { th scope="row" { (message::of_this_run()) } td.number { (format::significant(greatest * 1e-3, 4)) } td.number { (impacts) } }
                     @for variant in &found.variants {
                         tr { th scope="row" { (in_words(variant.contact)) } td.number { (format::significant(variant.peak_force_n * 1e-3, 4)) } td.number { (variant.impact_count) } }
                     }
@@ -56,19 +62,19 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
             } }
             div.scroll { table {
                 thead { tr {
-                    th scope="col" { "changes of peaks by up to" }
-                    @for (name, _) in CHANGES { th.number scope="col" { (name) br; span.unit { "[%]" } } }
+                    th scope="col" { (message::changes_of_peaks_by_up()) }
+                    @for (name, _) in changes() { th.number scope="col" { (name) br; span.unit { "[%]" } } }
                 } }
                 tbody {
                     @for building in &found.buildings {
                         tr {
                             th scope="row" { (building.name) }
-                            @for (_, of) in CHANGES { td.number { (format::fixed(100.0 * of(building), 1)) } }
+                            @for (_, of) in changes() { td.number { (format::fixed(100.0 * of(building), 1)) } }
                         }
                     }
                 }
             } }
-            p.quiet { "Changes are those of any floor or storey, relative to the greatest peak of their kind in the building." }
+            p.quiet { (message::changes_are_those_of_any()) }
         }
     })
 }
@@ -107,8 +113,8 @@ fn named(name: &str, gap: &GapSpread, several: bool) -> String {
 
 fn in_words(contact: ContactVariant) -> String {
     match (contact.stiffness_factor, contact.restitution_change) {
-        (factor, 0.0) => format!("stiffness × {}", format::plain(factor, 3)),
-        (_, change) if change < 0.0 => format!("restitution − {}", format::plain(-change, 3)),
-        (_, change) => format!("restitution + {}", format::plain(change, 3)),
+        (factor, 0.0) => message::stiffness_factor(format::plain(factor, 3)),
+        (_, change) if change < 0.0 => message::restitution_minus(format::plain(-change, 3)),
+        (_, change) => message::restitution_plus(format::plain(change, 3)),
     }
 }

@@ -3,6 +3,7 @@
 use maud::{Markup, html};
 
 use crate::format;
+use crate::message;
 
 /// A plot of lines over a common axis.
 pub(crate) struct Plot {
@@ -51,7 +52,7 @@ impl Plot {
         };
         let [x, y] = [range(0), range(1)];
         if !(x[0] < x[1] && y[0].is_finite() && y[1].is_finite()) {
-            return html! { figure.static-plot { figcaption { (self.title) ": nothing to show" } } };
+            return html! { figure.static-plot { figcaption { (message::nothing_to_show(&self.title)) } } };
         }
         let ys = ticks(y[0].min(0.0), y[1].max(0.0), 5.0);
         let y = [ys.first(), ys.last()].map(|end| end.copied().unwrap_or(0.0));

@@ -6,6 +6,7 @@ use jostle::results::response::FloorResponse;
 use jostle::results::summary::{BuildingSummary, ContactSummary, GapSummary, ImpactSummary};
 use maud::{Markup, html};
 
+use crate::message;
 use crate::verdict::place;
 use crate::{Page, format};
 
@@ -34,29 +35,29 @@ pub(crate) fn impacts(page: &Page) -> Markup {
     rows.truncate(MOST_ROWS);
     rows.sort_by(|a, b| a.3.start_s.total_cmp(&b.3.start_s));
     let columns: [(&str, &str); 9] = [
-        ("start", "s"),
-        ("duration", "ms"),
-        ("peak force", "kN"),
-        ("indentation", "mm"),
-        ("impact speed", "m/s"),
-        ("separation speed", "m/s"),
-        ("restitution", "–"),
-        ("impulse", "kN·s"),
-        ("dissipated", "kJ"),
+        (message::start(), "s"),
+        (message::duration(), "ms"),
+        (message::peak_force(), "kN"),
+        (message::indentation(), "mm"),
+        (message::impact_speed(), "m/s"),
+        (message::separation_speed(), "m/s"),
+        (message::restitution(), "–"),
+        (message::impulse(), "kN·s"),
+        (message::dissipated(), "kJ"),
     ];
     html! {
         @if all == 0 {
-            p.quiet { "No contact between floors." }
+            p.quiet { (message::no_contact_between_floors()) }
         } @else {
             @if all > MOST_ROWS {
-                p.quiet { "The " (MOST_ROWS) " strongest of " (all) "  impacts; impacts.parquet contains all of them." }
+                p.quiet { (message::the_strongest_of_impacts_impacts(MOST_ROWS, &all)) }
             }
             div.scroll {
                 table #impact-table.sortable.clipped[rows.len() > FIRST_ROWS] data-first=(FIRST_ROWS) {
                     thead { tr {
-                        th scope="col" { button type="button" { "where" } }
+                        th scope="col" { button type="button" { (message::where_word()) } }
                         @for (name, unit) in columns {
-                            th.number scope="col" aria-sort=[(name == "start").then_some("ascending")] {
+                            th.number scope="col" aria-sort=[(name == message::start()).then_some("ascending")] {
                                 button type="button" { (name) @if unit != "–" { br; span.unit { "[" (unit) "]" } } }
                             }
                         }
@@ -72,13 +73,12 @@ pub(crate) fn impacts(page: &Page) -> Markup {
                 }
             }
             @if rows.len() > FIRST_ROWS {
-                button #all-impacts.wide type="button" { "Show all " (rows.len()) " impacts" }
+                button #all-impacts.wide type="button" { (message::show_all_impacts(rows.len())) }
             }
             @for gap in summary.gaps.iter().filter(|gap| gap.multiple_pounding_count > 0) {
                 p.quiet {
                     @if several { (gap.between[0]) "–" (gap.between[1]) ": " }
-                    (gap.multiple_pounding_count) " of " (gap.pounding_count)
-                    " poundings are at several floors at the same time, at most " (gap.most_at_once) " at once."
+                    (message::of_poundings_are_at_several(&gap.multiple_pounding_count, &gap.pounding_count, &gap.most_at_once))
                 }
             }
             (restitution_note(page))
@@ -111,18 +111,17 @@ fn restitution_note(page: &Page) -> Markup {
     html! {
         div.note {
             p {
-                "Restitution is separation speed ÷ impact speed, as computed. Two free masses would rebound with "
+                (message::restitution_is_separation_speed_impact()) " "
                 @for (i, gap) in summary.gaps.iter().enumerate() {
                     @if i > 0 { ", " }
                     b { (format::fixed(gap.free_restitution, 3)) }
                     @if summary.gaps.len() > 1 { " (" (gap.between[0]) "–" (gap.between[1]) ")" }
                 }
-                " under this contact law. In a building the storeys and other contacts also act during the impact, so the two ratios differ. After a light impact the ratio may exceed one."
+                " " (message::under_this_contact_law())
             }
             @if let Some((gap, law)) = published {
                 p {
-                    "The coefficient in the published hertz-damp formula is not the rebound of free masses: with e = "
-                    (format::plain(law.restitution, 3)) " they rebound with " (format::fixed(gap.free_restitution, 3)) "."
+                    (message::the_coefficient_in_the_published(format::plain(law.restitution, 3), format::fixed(gap.free_restitution, 3)))
                 }
             }
         }
@@ -140,7 +139,7 @@ pub(crate) fn peaks(page: &Page) -> Markup {
     html! {
         @for building in &page.summary.buildings {
             details.peaks {
-                summary { "Peaks of " (building.name) " in numbers" }
+                summary { (message::peaks_of_in_numbers(&building.name)) }
                 (peaks_of(building))
             }
         }
@@ -154,14 +153,14 @@ fn peaks_of(building: &BuildingSummary) -> Markup {
             table {
                 thead {
                     tr {
-                        th scope="col" rowspan=[compared.then_some("2")] { "floor" }
-                        th.number scope="col" rowspan=[compared.then_some("2")] { "height" br; span.unit { "[m]" } }
+                        th scope="col" rowspan=[compared.then_some("2")] { (message::floor()) }
+                        th.number scope="col" rowspan=[compared.then_some("2")] { (message::height()) br; span.unit { "[m]" } }
                         @for (_, shown) in peaks_shown() {
                             th.number scope="colgroup" colspan=[compared.then_some("2")] { (shown.title) br; span.unit { "[" (shown.unit) "]" } }
                         }
                     }
                     @if compared {
-                        tr { @for _ in peaks_shown() { th.number scope="col" { "with" } th.number scope="col" { "without" } } }
+                        tr { @for _ in peaks_shown() { th.number scope="col" { (message::with_word()) } th.number scope="col" { (message::without()) } } }
                     }
                 }
                 tbody {
@@ -181,9 +180,9 @@ fn peaks_of(building: &BuildingSummary) -> Markup {
             }
         }
         p.quiet {
-            "Greatest absolute values"
-            @if compared { ", with and without contact" }
-            ". Drift and shear are those of the storey below the floor; the moment is about the base of that storey."
+            (message::greatest_absolute_values())
+            @if compared { (message::with_and_without_contact()) }
+            (message::drift_and_shear_are_those())
         }
     }
 }

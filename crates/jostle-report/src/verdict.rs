@@ -3,6 +3,7 @@
 use jostle::results::summary::{ContactSummary, GapSummary, ImpactSummary, Summary};
 
 use crate::format;
+use crate::message;
 
 /// The headline of the report: what happened, in a sentence or two.
 #[must_use]
@@ -16,7 +17,7 @@ pub fn verdict(summary: &Summary) -> String {
     match (&summary.gaps[..], &pounding[..]) {
         ([], _) => alone(summary),
         ([_], [gap]) => sentence_of(gap),
-        ([gap], []) => approach(gap, "No contact: "),
+        ([gap], []) => approach(gap, message::no_contact_but()),
         (gaps, []) => {
             let nearest = gaps
                 .iter()
@@ -26,16 +27,16 @@ pub fn verdict(summary: &Summary) -> String {
                     distance(a).total_cmp(&distance(b))
                 });
             match nearest {
-                Some(gap) => approach(gap, &format!("No contact in any of {} gaps: ", gaps.len())),
-                None => format!("No contact in any of {} gaps.", gaps.len()),
+                Some(gap) => approach(gap, &message::no_contact_in_any(gaps.len())),
+                None => message::no_contact_in_any_of_gaps(gaps.len()),
             }
         }
         (_, gaps) if gaps.len() <= 2 => {
             let mut text: Vec<String> = gaps.iter().map(|gap| sentence_of(gap)).collect();
             if quiet > 0 {
                 text.push(match quiet {
-                    1 => "The other gap stays open.".into(),
-                    n => format!("The other {n} gaps stay open."),
+                    1 => message::the_other_gap_stays_open().into(),
+                    n => message::the_other_gaps_stay_open(&n),
                 });
             }
             text.join(" ")
@@ -44,11 +45,10 @@ pub fn verdict(summary: &Summary) -> String {
             let hardest = gaps
                 .iter()
                 .max_by(|a, b| a.peak_force_n.total_cmp(&b.peak_force_n));
-            format!(
-                "{} of {} gaps close. {}",
+            message::of_gaps_close(
                 gaps.len(),
                 all.len(),
-                hardest.map_or_else(String::new, |gap| sentence_of(gap))
+                hardest.map_or_else(String::new, |gap| sentence_of(gap)),
             )
         }
     }
@@ -60,11 +60,10 @@ fn alone(summary: &Summary) -> String {
         Some((&building.name, roof.response.displacement_peak_m()))
     });
     match roof.max_by(|a, b| a.1.total_cmp(&b.1)) {
-        Some((name, sway)) => format!(
-            "{name} has a peak roof displacement of {}; it has no neighbour.",
-            format::millimetres(sway)
-        ),
-        None => "Nothing was recorded.".into(),
+        Some((name, sway)) => {
+            message::has_a_peak_roof_displacement(&name, format::millimetres(sway))
+        }
+        None => message::nothing_was_recorded().into(),
     }
 }
 
@@ -79,48 +78,37 @@ fn sentence_of(gap: &GapSummary) -> String {
     let first = all().min_by(|a, b| a.1.start_s.total_cmp(&b.1.start_s));
     let hardest = all().max_by(|a, b| a.1.peak_force_n.total_cmp(&b.1.peak_force_n));
     let (Some((first_at, first)), Some((hardest_at, hardest))) = (first, hardest) else {
-        return format!(
-            "{left} and {right} hit {} with up to {}.",
+        return message::hit_times_with_up_to(
+            &left,
+            &right,
             times(gap.impact_count),
-            format::force(gap.peak_force_n)
+            format::force(gap.peak_force_n),
         );
     };
     let force = |impact: &ImpactSummary| format::force(impact.peak_force_n);
     let at = |impact: &ImpactSummary| format::instant(impact.start_s);
     if gap.impact_count == 1 {
-        return format!(
-            "{left} and {right} hit once: {}, at {}, with {}.",
-            place(first_at),
-            at(first),
-            force(first)
-        );
+        return message::and_hit_once(&left, &right, place(first_at), at(first), force(first));
     }
-    let head = format!("{left} and {right} hit {}", times(gap.impact_count));
+    let head = message::hit_times(&left, &right, times(gap.impact_count));
     let (first_place, hardest_place) = (place(first_at), place(hardest_at));
     let start = format!("{} ({first_place})", at(first));
     if hardest == first {
-        format!(
-            "{head}; the first impact, at {start}, has the peak force, {}.",
-            force(hardest)
-        )
+        message::the_first_impact(&head, &start, force(hardest))
     } else {
-        format!(
-            "{head}, first at {start}; peak force at {} ({hardest_place}), {}.",
-            at(hardest),
-            force(hardest)
-        )
+        message::first_at_peak_force(&head, &start, at(hardest), &hardest_place, force(hardest))
     }
 }
 
 fn approach(gap: &GapSummary, head: &str) -> String {
     match closest_approach(gap) {
-        Some(distance) => format!(
-            "{head}the smallest distance between {} and {} is {}.",
-            gap.between[0],
-            gap.between[1],
-            format::millimetres(distance)
+        Some(distance) => message::the_smallest_distance_between(
+            &head,
+            &gap.between[0],
+            &gap.between[1],
+            format::millimetres(distance),
         ),
-        None => "No contact.".into(),
+        None => message::no_contact().into(),
     }
 }
 
@@ -146,18 +134,18 @@ pub(crate) fn peak_closing(gap: &GapSummary) -> Option<f64> {
 /// Where a contact is: "floor 5", "floors 5 and 4", "height 4.80 m".
 pub(crate) fn place(contact: &ContactSummary) -> String {
     match contact.floors {
-        [Some(0), Some(0)] => "mats".to_owned(),
-        [Some(0), None] | [None, Some(0)] => "mat".to_owned(),
-        [Some(left), Some(right)] if left == right => format!("floor {left}"),
-        [Some(left), Some(right)] => format!("floors {left} and {right}"),
-        _ => format!("height {}\u{a0}m", format::fixed(contact.height_m, 2)),
+        [Some(0), Some(0)] => message::mats().to_owned(),
+        [Some(0), None] | [None, Some(0)] => message::mat().to_owned(),
+        [Some(left), Some(right)] if left == right => message::floor_one(&left),
+        [Some(left), Some(right)] => message::floors_and(&left, &right),
+        _ => message::height_m(format::fixed(contact.height_m, 2)),
     }
 }
 
 fn times(count: usize) -> String {
     match count {
-        1 => "once".into(),
-        2 => "twice".into(),
-        n => format!("{} times", format::fixed(n as f64, 0)),
+        1 => message::once().into(),
+        2 => message::twice().into(),
+        n => message::number_of_times(format::fixed(n as f64, 0)),
     }
 }

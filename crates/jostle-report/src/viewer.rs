@@ -4,14 +4,16 @@ use maud::html;
 
 use crate::document::STYLE;
 use crate::envelope::{self, envelopes};
-use crate::page::{self, SCRIPTS};
-use crate::{Page, describe, hinges, joints, payload, tables, verdict};
+use crate::message;
+use crate::page::{self, IN_SPACE, SCRIPTS};
+use crate::site_drawing::SITE_STYLE;
+use crate::{Page, describe, friction, hinges, joints, payload, site_plan, tables, verdict};
 
 /// Parts of the page that do not change with the run.
 #[derive(Clone, Debug)]
 pub struct Viewer {
     /// Style sheet.
-    pub style: &'static str,
+    pub style: String,
     /// Scripts, one module; `load` and `refresh` show a run.
     pub script: String,
     /// The section with the animation.
@@ -31,15 +33,17 @@ impl Viewer {
             p #accuracy.quiet {}
             (page::chart_section(true))
             div #part-hinges {}
-            section { h2 { "Impacts" } (page::impact_panels()) div #part-impacts {} }
-            section { h2 { "Peaks over the height" } div #part-envelopes {} }
-            section #code { h2 { "Comparison with code requirements" } div #part-joints {} }
-            section { h2 { "What was computed" } div #part-model {} }
+            section { h2 { (message::impacts_title()) } (page::impact_panels()) div #part-impacts {} }
+            section { h2 { (message::peaks_over_the_height()) } div #part-envelopes {} }
+            section #code { h2 { (message::comparison_with_code_requirements()) } div #part-joints {} }
+            div #part-site {}
+            section { h2 { (message::what_was_computed()) } div #part-model {} }
         };
+        let motion = html! { (page::motion_section(true, true)) (site_plan::scene()) };
         Self {
-            style: STYLE,
-            script: SCRIPTS.concat(),
-            motion: page::motion_section(true, true).into_string(),
+            style: [STYLE, SITE_STYLE].concat(),
+            script: IN_SPACE.concat() + &SCRIPTS.concat(),
+            motion: motion.into_string(),
             sections: sections.into_string(),
             player: page::player(true).into_string(),
         }
@@ -73,9 +77,10 @@ pub fn frame(page: &Page) -> Frame {
     let without = without.as_deref();
     let impacts = html! {
         @if page.model.gaps.is_empty() {
-            p.quiet { "The model has no gap." }
+            p.quiet { (message::the_model_has_no_gap()) }
         } @else {
             (tables::impacts(page))
+            (friction::section(page))
         }
     };
     let peaks = html! {
@@ -92,6 +97,7 @@ pub fn frame(page: &Page) -> Frame {
         ("impacts", impacts),
         ("envelopes", peaks),
         ("joints", joints),
+        ("site", site_plan::section(page).unwrap_or_default()),
         ("model", describe::model(page)),
     ];
     let (data, numbers) = payload::frame(page);

@@ -14,7 +14,7 @@ use crate::fixture::{in_space, two_frames};
 fn the_site_has_corners_gaps_directions_and_a_scale() {
     let run = in_space();
     let system = System::assemble(&run.model).unwrap();
-    let drawing = site_svg(&run.model, &system, Some(&run.motion)).unwrap();
+    let drawing = site_svg(&run.model, &system, Some(&run.motion), None).unwrap();
     assert!(drawing.starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\""));
     for part in [
         "Two in space",
@@ -37,7 +37,7 @@ fn the_site_has_corners_gaps_directions_and_a_scale() {
     assert!(!document.contains("http"));
     let plane = two_frames(0.1);
     let system = System::assemble(&plane.model).unwrap();
-    assert_eq!(site_svg(&plane.model, &system, None), None);
+    assert_eq!(site_svg(&plane.model, &system, None, None), None);
 }
 
 /// The face lies between corners 2 and 3 of the L and 4 and 1 of the box, from y = 2 m to 8 m.
@@ -116,4 +116,22 @@ fn the_report_shows_faces_paths_and_the_scene() {
             "{part} has no place in a report of frames"
         );
     }
+}
+
+/// North at 90° is y: a shaking at 34.38° from x comes from 55.62° clockwise of it.
+#[test]
+fn north_is_drawn_and_directions_have_bearings() {
+    let run = in_space();
+    let system = System::assemble(&run.model).unwrap();
+    let north = std::f64::consts::FRAC_PI_2;
+    let drawing = site_svg(&run.model, &system, Some(&run.motion), Some(north)).unwrap();
+    for part in [
+        "class=\"north\"",
+        ">N</text>",
+        "shaking at 34.38° from x, bearing 55.62°: two tones",
+    ] {
+        assert!(drawing.contains(part), "{part} is absent");
+    }
+    let without = site_svg(&run.model, &system, Some(&run.motion), None).unwrap();
+    assert!(!without.contains("north\"") && !without.contains("bearing"));
 }

@@ -76,6 +76,7 @@ fn page() -> StudyPage {
                     colour: 0,
                     dashed: false,
                 }],
+                north: None,
             }],
             table: Some((
                 vec!["curve".into(), "median".into(), "β".into()],

@@ -10,6 +10,7 @@ use crate::critical_gap::CriticalGap;
 use crate::error::RunError;
 use crate::numbers::{counted, kn, mm};
 use crate::replace::{FileKind, may_write};
+use jostle_report::message;
 
 /// Page of the curves.
 const PAGE: &str = "gap_curve.html";
@@ -95,34 +96,30 @@ pub fn gap_curve_page(title: &str, found: &[CriticalGap]) -> String {
         sections_of(pair, &of_pair)
     });
     render_study(&StudyPage {
-        kind: "Force over gap".into(),
+        kind: message::force_over_gap().into(),
         title: title.into(),
         headline: found.iter().map(headline).collect(),
         sections: sections.collect(),
-        files: vec![(TABLE.into(), "one row per width".into())],
+        files: vec![(TABLE.into(), message::one_row_per_width().into())],
         ..StudyPage::default()
     })
 }
 
 fn headline(gap: &CriticalGap) -> String {
-    let pair = gap.between.join(" and ");
+    let pair = gap.between.join(message::and());
     let most = gap
         .curve
         .iter()
         .max_by(|a, b| a.peak_force_n.total_cmp(&b.peak_force_n));
     let strongest = most.filter(|point| point.impact_count > 0).map(|point| {
-        format!(
-            " The greatest force, {} kN, comes at a gap of {} mm.",
-            kn(point.peak_force_n),
-            mm(point.width_m)
-        )
+        message::the_greatest_force_kn_comes(kn(point.peak_force_n), mm(point.width_m))
     });
-    format!(
-        "Under {} with {:.1} cm/s², {pair} do not touch from {} mm on.{}",
-        gap.motion,
-        100.0 * gap.pga_m_s2,
+    message::under_with_cm_s_do(
+        &gap.motion,
+        format_args!("{:.1}", 100.0 * gap.pga_m_s2),
+        &pair,
         mm(gap.gap_m),
-        strongest.unwrap_or_default()
+        strongest.unwrap_or_default(),
     )
 }
 
@@ -155,7 +152,7 @@ fn sections_of(pair: &[String; 2], gaps: &[&CriticalGap]) -> Vec<Section> {
                     .collect();
                 if !points.is_empty() {
                     series.push(Series {
-                        name: "gaps of rules".into(),
+                        name: message::gaps_of_rules().into(),
                         points,
                         band: Vec::new(),
                         stroke: Stroke::Dots,
@@ -166,7 +163,7 @@ fn sections_of(pair: &[String; 2], gaps: &[&CriticalGap]) -> Vec<Section> {
         }
         Chart {
             title: y.name.clone(),
-            x: axis("gap", "mm"),
+            x: axis(message::gap(), "mm"),
             y,
             series,
             levels: Vec::new(),
@@ -180,37 +177,34 @@ fn sections_of(pair: &[String; 2], gaps: &[&CriticalGap]) -> Vec<Section> {
         .filter(|point| point.met == Some(false))
         .count();
     let warning = if unmet > 0 {
-        format!(
-            " {} did not meet the tolerance (column met).",
-            counted(unmet, "point")
-        )
+        message::did_not_meet_the_tolerance(counted(unmet, message::point()))
     } else {
         String::new()
     };
     let mut sections = vec![Section {
         title: pair.join(" – "),
-        remark: format!(
-            "Greatest contact force and number of impacts over the width of the gap, all other gaps out of reach. Dots: the \
-             gaps of rules that are narrower than needed. Where neighbouring points jump, a slightly different gap leads to other \
-             impacts.{warning}"
-        ),
+        remark: message::greatest_contact_force_and_number(&warning),
         charts: vec![
             chart(
-                axis("greatest contact force", "kN"),
+                axis(message::greatest_contact_force(), "kN"),
                 &|p| 1e-3 * p.peak_force_n,
                 true,
             ),
-            chart(axis("impacts", ""), &|p| p.impact_count as f64, false),
+            chart(
+                axis(message::impacts(), ""),
+                &|p| p.impact_count as f64,
+                false,
+            ),
         ],
         ..Section::default()
     }];
     for gap in gaps.iter().filter(|gap| !gap.rules.is_empty()) {
         let heads = [
-            "rule",
-            "gap mm",
-            "÷ smallest",
-            "impacts",
-            "greatest force kN",
+            message::rule(),
+            message::gap_mm(),
+            message::smallest(),
+            message::impacts(),
+            message::greatest_force_kn(),
         ];
         let rows = gap.rules.iter().map(|rule| {
             vec![
@@ -222,11 +216,8 @@ fn sections_of(pair: &[String; 2], gaps: &[&CriticalGap]) -> Vec<Section> {
             ]
         });
         sections.push(Section {
-            title: format!("Rules under {}", gap.motion),
-            remark: format!(
-                "Smallest gap without pounding: {} mm. Sources: jostle gap --json.",
-                mm(gap.gap_m)
-            ),
+            title: message::rules_under(&gap.motion),
+            remark: message::smallest_gap_without_pounding_mm(mm(gap.gap_m)),
             table: Some((heads.map(Into::into).to_vec(), rows.collect())),
             ..Section::default()
         });

@@ -58,6 +58,7 @@ impl<'a> Results<'a> {
             springs: self.outcome.spring_history.as_ref(),
             sections: &sections,
             codes: &self.prepared.input.codes,
+            north: self.prepared.input.north,
             contacts: &contacts,
             methods: self.methods,
             calculation: Some(&calculation),

@@ -3,7 +3,7 @@
 use jostle::model::{Building, Structure};
 use maud::{Markup, html};
 
-use super::words::WORDS;
+use crate::message;
 use crate::static_plot::colour;
 use crate::walls::{SceneWall, walls};
 use crate::{Page, format};
@@ -93,8 +93,8 @@ pub(super) fn figure(page: &Page) -> Markup {
     }
     html! {
         figure.static-plot.elevation {
-            figcaption { span.chart-title { (WORDS.elevation) } }
-            svg viewBox=(format!("0 0 {WIDTH} {height:.0}")) role="img" aria-label=(WORDS.elevation) {
+            figcaption { span.chart-title { (message::elevation_to_scale_dimensions()) } }
+            svg viewBox=(format!("0 0 {WIDTH} {height:.0}")) role="img" aria-label=(message::elevation_to_scale_dimensions()) {
                 line.ground x1="8" x2=(WIDTH - 8.0) y1=(round(ground)) y2=(round(ground)) {}
                 @for (index, (outline, left)) in outlines.iter().zip(&places).enumerate() {
                     @if isolated(&model.buildings[index]) {
@@ -243,7 +243,7 @@ fn gap_mark(
         return html! {};
     }
     html! {
-        text x=(round(at)) y=(round(ground + 43.0)) text-anchor="middle" { "gap " (format::millimetres(width)) }
+        text x=(round(at)) y=(round(ground + 43.0)) text-anchor="middle" { (message::gap_width(format::millimetres(width))) }
     }
 }
 

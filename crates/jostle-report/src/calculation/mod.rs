@@ -2,15 +2,13 @@
 //! the calculation was made from.
 
 mod elevation;
-mod words;
 
 use jostle::{Building, GroundMotion, Wave};
 use jostle_motion::{Accelerogram, Reading, TargetSpectrum, response_spectrum, spaced_periods};
 use maud::{Markup, html};
 
 use crate::static_plot::{Line, Plot};
-use crate::{Page, format};
-use words::WORDS;
+use crate::{Page, format, message};
 
 /// What a calculation document shows beyond the numbers of a run.
 #[derive(Clone, Debug)]
@@ -45,9 +43,13 @@ pub(crate) fn motion_section(page: &Page) -> Markup {
     };
     let time = (0..motion.points()).map(|i| motion.step() * i as f64);
     let record = Plot {
-        title: format!("{}: {}", WORDS.acceleration, page.summary.motion.name),
-        x_label: format!("{} [s]", WORDS.time),
-        y_label: format!("{} [m/s²]", WORDS.acceleration),
+        title: format!(
+            "{}: {}",
+            message::ground_acceleration(),
+            page.summary.motion.name
+        ),
+        x_label: format!("{} [s]", message::time()),
+        y_label: format!("{} [m/s²]", message::ground_acceleration()),
         logarithmic: false,
         aspect: 0.42,
         lines: vec![Line {
@@ -62,7 +64,7 @@ pub(crate) fn motion_section(page: &Page) -> Markup {
     };
     html! {
         section #ground-motion {
-            h2 { (WORDS.ground_motion) }
+            h2 { (message::ground_motion()) }
             div.static-plots {
                 (record.figure())
                 @if let Some(spectrum) = spectrum(calculation, &motion, &page.summary.motion.name) { (spectrum.figure()) }
@@ -90,7 +92,7 @@ fn spectrum(calculation: &Calculation<'_>, motion: &Accelerogram, name: &str) ->
             inside.then_some([*period, value])
         });
         lines.push(Line {
-            name: WORDS.code_spectrum.into(),
+            name: message::code().into(),
             points: points.collect(),
             colour: 1,
             dashed: true,
@@ -99,11 +101,11 @@ fn spectrum(calculation: &Calculation<'_>, motion: &Accelerogram, name: &str) ->
     Some(Plot {
         title: format!(
             "{}, {} %",
-            WORDS.response_spectrum,
+            message::response_spectrum_damping(),
             format::plain(100.0 * damping, 3)
         ),
-        x_label: format!("{} [s]", WORDS.period),
-        y_label: format!("{} [m/s²]", WORDS.pseudo_acceleration),
+        x_label: format!("{} [s]", message::period()),
+        y_label: format!("{} [m/s²]", message::pseudo_acceleration()),
         logarithmic: true,
         aspect: 0.42,
         lines,
@@ -155,9 +157,9 @@ fn shape_plot(building: &Building, shapes: &[(f64, Vec<f64>)]) -> Plot {
         }
     });
     Plot {
-        title: format!("{}, {}", WORDS.mode_shapes, building.name),
-        x_label: WORDS.shape.into(),
-        y_label: format!("{} [m]", WORDS.height),
+        title: format!("{}, {}", message::lateral_mode_shapes(), building.name),
+        x_label: message::horizontal_displacement_greatest_1().into(),
+        y_label: format!("{} [m]", message::height()),
         logarithmic: false,
         aspect: 0.56,
         lines: lines.collect(),
@@ -172,17 +174,17 @@ pub(crate) fn source_section(page: &Page) -> Markup {
     let text = calculation.input_text.trim_end();
     html! {
         section #source {
-            h2 { (WORDS.source) }
+            h2 { (message::what_it_was_computed()) }
             dl.source {
-                div { dt { (WORDS.program) } dd { "jostle " (page.summary.jostle) ", " (page.summary.work.solver) } }
-                div { dt { (WORDS.model_hash) } dd { code { (calculation.input_hash) } } }
-                div { dt { (WORDS.run_hash) } dd { code { (calculation.run_hash) } } }
+                div { dt { (message::program()) } dd { "jostle " (page.summary.jostle) ", " (page.summary.work.solver) } }
+                div { dt { (message::model_file_sha_256()) } dd { code { (calculation.input_hash) } } }
+                div { dt { (message::model_and_motion_as_run()) } dd { code { (calculation.run_hash) } } }
             }
             @if text.is_empty() || text.chars().count() > LONGEST_INPUT {
-                p.quiet { (WORDS.input_left_out) }
+                p.quiet { (message::the_model_file_is_too()) }
             } @else {
                 details {
-                    summary { (WORDS.input) }
+                    summary { (message::the_model_file()) }
                     pre.input { (text) }
                 }
             }

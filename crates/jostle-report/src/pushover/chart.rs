@@ -5,6 +5,7 @@ use jostle::pushover::{Bilinear, PushEventKind, PushPoint, PushedBuilding, Pusho
 use maud::{Markup, html};
 
 use crate::format;
+use crate::message;
 
 /// Plot area: left, top, width, height.
 const AREA: [f64; 4] = [70.0, 30.0, 580.0, 320.0];
@@ -68,7 +69,7 @@ impl Chart {
         };
         let [roof, shear] = self.size;
         html! {
-            svg.capacity viewBox="0 0 720 410" role="img" aria-label={ "Base shear of " (one.building.name) " against the displacement of its roof" } {
+            svg.capacity viewBox="0 0 720 410" role="img" aria-label={ (message::base_shear_of_against(&one.building.name)) } {
                 g.grid {
                     @for value in ticks(1e3 * roof, 7.0) {
                         @let x = self.place(value * 1e-3, 0.0)[0];
@@ -88,9 +89,9 @@ impl Chart {
                         @let x = self.place(value * first.height / 100.0, 0.0)[0];
                         text.axis x=(x) y=(top - 8.0) text-anchor="middle" { (format::plain(value, 4)) " %" }
                     }
-                    text.axis x=(left + width / 2.0) y=(top + height + 40.0) text-anchor="middle" { "roof displacement [mm]; above: over the height" }
-                    text.axis x="0" y="0" transform={ "translate(14 " (top + height / 2.0) ") rotate(-90)" } text-anchor="middle" { "base shear [kN]" }
-                    text.axis x="0" y="0" transform={ "translate(708 " (top + height / 2.0) ") rotate(-90)" } text-anchor="middle" { "of weight [%]" }
+                    text.axis x=(left + width / 2.0) y=(top + height + 40.0) text-anchor="middle" { (message::roof_displacement_mm_above()) }
+                    text.axis x="0" y="0" transform={ "translate(14 " (top + height / 2.0) ") rotate(-90)" } text-anchor="middle" { (message::base_shear_kn()) }
+                    text.axis x="0" y="0" transform={ "translate(708 " (top + height / 2.0) ") rotate(-90)" } text-anchor="middle" { (message::of_weight()) }
                 }
                 @for (index, curve) in one.curves.iter().enumerate() { (self.curve(one, index, curve)) }
                 circle.here data-role="here" r="7" cx=(left) cy=(top + height) {}
@@ -142,16 +143,16 @@ impl Chart {
     fn names(&self, curve: &Pushover) -> Markup {
         let mut named: Vec<(&str, &PushPoint, [f64; 2], &str)> = Vec::new();
         if let Some(point) = curve.first(Stage::Cracked) {
-            named.push(("first crack", point, [10.0, 16.0], "start"));
+            named.push((message::first_crack(), point, [10.0, 16.0], "start"));
         }
         if let Some(point) = curve.first(Stage::Yielded) {
-            named.push(("first yield", point, [10.0, 18.0], "start"));
+            named.push((message::first_yield(), point, [10.0, 18.0], "start"));
         }
         if !named.is_empty() {
             let inside = curve.peak().roof > 0.85 * self.size[0];
             let anchor = if inside { "end" } else { "middle" };
             named.push((
-                "greatest",
+                message::greatest(),
                 curve.peak(),
                 [if inside { -6.0 } else { 0.0 }, -11.0],
                 anchor,

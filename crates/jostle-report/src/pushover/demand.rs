@@ -8,6 +8,7 @@ use maud::{Markup, html};
 
 use super::chart::ticks;
 use crate::format;
+use crate::message;
 
 /// What a building is asked to withstand.
 #[derive(Clone, Copy, Debug)]
@@ -88,22 +89,21 @@ pub(super) fn section(index: usize, one: &PushedBuilding<'_>, demand: &Demand<'_
     html! {
         figure.chart.adrs {
             figcaption {
-                span.chart-title { "Capacity and demand" }
+                span.chart-title { (message::capacity_and_demand()) }
                 span.legend {
-                    span.key { span.swatch style="--c:var(--c1)" {} "elastic demand, " (format::plain(100.0 * demand.damping, 2)) " % damping" }
+                    span.key { span.swatch style="--c:var(--c1)" {} (message::elastic_demand_damping(format::plain(100.0 * demand.damping, 2))) }
                     @for (k, capacity) in capacities.iter().enumerate() {
-                        span.key { span.swatch.dashed[k > 0] style=(super::chart::colour(k)) {} "capacity to the " (capacity.curve.settings.direction.name()) }
+                        span.key { span.swatch.dashed[k > 0] style=(super::chart::colour(k)) {} (message::capacity_to(capacity.curve.settings.direction.name())) }
                     }
-                    span.key { span.swatch.dashed {} "bilinear" }
-                    span.key { span.swatch.round.reached {} "reached" }
+                    span.key { span.swatch.dashed {} (message::bilinear()) }
+                    span.key { span.swatch.round.reached {} (message::reached()) }
                 }
             }
             (picture(index, &one.building.name, &wanted, &capacities))
         }
         @for capacity in &capacities { p { (capacity.in_words(demand)) } }
         p.quiet {
-            "Spectral displacement is the roof displacement over Γ, spectral acceleration the base shear over Γ m* (EN 1998-1, Annex B). "
-            "The point is the greatest displacement of the bilinear oscillator under the motion, step by step. Straight lines through the origin have one period each."
+            (message::spectral_displacement_is_the_roof())
         }
     }
 }
@@ -138,27 +138,28 @@ impl<'a> Capacity<'a> {
 
     fn in_words(&self, demand: &Demand<'_>) -> String {
         let mass = format::tonnes(self.one.mass);
-        let shape = format!(
-            "Pushed to the {}: m* = {mass}, Γ = {}",
+        let shape = message::pushed_to_the_m(
             self.curve.settings.direction.name(),
-            format::significant(self.one.participation, 4)
+            &mass,
+            format::significant(self.one.participation, 4),
         );
         let Some(found) = self.performance else {
-            return format!("{shape}. The curve has no bilinear form, so no demand is computed.");
+            return message::the_curve_has_no_bilinear(&shape);
         };
         let roof = self.one.participation * found.reached;
         let last = self.curve.points.last().map_or(0.0, |point| point.roof);
         let beyond = if roof > last {
-            ", beyond the end of the curve"
+            message::beyond_the_end()
         } else {
             ""
         };
-        format!(
-            "{shape}, T* = {} s. Under {} the roof moves {}, {} % of the height{beyond}; ductility {}.",
+        message::t_s_under_the_roof(
+            &shape,
             format::significant(found.period, 3),
-            demand.name,
+            &demand.name,
             format::millimetres(roof),
             format::significant(100.0 * roof / self.curve.height, 3),
+            &beyond,
             format::significant(found.reached / found.at_yield, 3),
         )
     }
@@ -205,7 +206,7 @@ fn picture(index: usize, name: &str, wanted: &[[f64; 2]], capacities: &[Capacity
         path(&[[0.0, 0.0], corner, end])
     };
     html! {
-        svg.capacity viewBox="0 0 720 400" role="img" aria-label={ "Spectral acceleration of " (name) " against spectral displacement" } {
+        svg.capacity viewBox="0 0 720 400" role="img" aria-label={ (message::spectral_acceleration_of_against_spectral(&name)) } {
             clipPath id={ "adrs-clip-" (index) } { rect x=(left) y=(top) width=(width) height=(height) {} }
             g.grid {
                 @for value in ticks(1e3 * far, 7.0) {
@@ -218,8 +219,8 @@ fn picture(index: usize, name: &str, wanted: &[[f64; 2]], capacities: &[Capacity
                     line x1=(left) x2=(left + width) y1=(y) y2=(y) {}
                     text.axis x=(left - 8.0) y=(y + 4.0) text-anchor="end" { (format::plain(value, 4)) }
                 }
-                text.axis x=(left + width / 2.0) y=(bottom + 40.0) text-anchor="middle" { "spectral displacement [mm]" }
-                text.axis x="0" y="0" transform={ "translate(14 " (top + height / 2.0) ") rotate(-90)" } text-anchor="middle" { "spectral acceleration [m/s²]" }
+                text.axis x=(left + width / 2.0) y=(bottom + 40.0) text-anchor="middle" { (message::spectral_displacement_mm()) }
+                text.axis x="0" y="0" transform={ "translate(14 " (top + height / 2.0) ") rotate(-90)" } text-anchor="middle" { (message::spectral_acceleration_m_s()) }
             }
             @for period in LINES {
                 @let stiffness = (std::f64::consts::TAU / period).powi(2);

@@ -10,11 +10,15 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::document::{POLICY, STYLE, theme_button};
 use crate::format;
+use crate::message;
 use chart::Chart;
 pub use demand::Demand;
 
 const OWN_STYLE: &str = include_str!("../../assets/pushover.css");
-const SCRIPT: &str = include_str!("../../assets/pushover.js");
+const SCRIPTS: [&str; 2] = [
+    include_str!("../../assets/messages.js"),
+    include_str!("../../assets/pushover.js"),
+];
 
 /// Hinges named at most in a row of the table.
 const NAMED: usize = 6;
@@ -28,22 +32,23 @@ pub fn render_pushover(
 ) -> String {
     let charts: Vec<Chart> = pushed.iter().map(Chart::new).collect();
     let headline: Vec<String> = pushed.iter().map(verdict).collect();
+    let script = SCRIPTS.concat();
     let page = html! {
         (DOCTYPE)
-        html lang="en" {
+        html lang=(message::language_code()) {
             head {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta http-equiv="Content-Security-Policy" content=(POLICY);
                 meta name="description" content=(headline.join(" "));
-                title { (title) " – pushover" }
+                title { (message::title_pushover(&title)) }
                 link rel="icon" href="data:,";
                 style { (PreEscaped(STYLE)) (PreEscaped(OWN_STYLE)) }
             }
             body {
                 header.head {
                     div {
-                        p.kicker { "Pushover" }
+                        p.kicker { (message::pushover()) }
                         h1 { (title) }
                     }
                     (theme_button())
@@ -56,11 +61,12 @@ pub fn render_pushover(
                     (guide())
                 }
                 footer {
-                    "Made by jostle " (env!("CARGO_PKG_VERSION")) ". One file; nothing is loaded from a network."
+                    (message::made_by_jostle_version(env!("CARGO_PKG_VERSION")))
                 }
-                noscript { p.note { "The deformed shapes need JavaScript." } }
+                noscript { p.note { (message::the_deformed_shapes_need_javascript()) } }
                 script #page-data type="application/json" { (PreEscaped(shapes::payload(pushed, &charts))) }
-                script type="module" { (PreEscaped(SCRIPT)) }
+                (message::for_scripts(&script))
+                script type="module" { (PreEscaped(script)) }
             }
         }
     };
@@ -73,7 +79,7 @@ fn percent(share: f64, digits: i32) -> String {
 
 fn direction(one: &PushedBuilding, curve: &Pushover) -> String {
     if one.curves.len() > 1 {
-        format!(" to the {}", curve.settings.direction.name())
+        message::direction_to_the(curve.settings.direction.name())
     } else {
         String::new()
     }
@@ -83,29 +89,28 @@ fn direction(one: &PushedBuilding, curve: &Pushover) -> String {
 fn verdict(one: &PushedBuilding) -> String {
     let name = &one.building.name;
     if one.building.equations.springs.is_empty() {
-        return format!("{name} has no hinges: it is elastic at any drift.");
+        return message::has_no_hinges_it(&name);
     }
     let weakest = one
         .curves
         .iter()
         .min_by(|a, b| a.peak().base_shear.total_cmp(&b.peak().base_shear));
     let Some(curve) = weakest else {
-        return format!("{name} was not pushed.");
+        return message::was_not_pushed(&name);
     };
     let peak = curve.peak();
-    let mut text = format!(
-        "{name} resists up to {} of its weight{}, at {} drift of the roof",
+    let mut text = message::resists_up(
+        &name,
         percent(curve.coefficient(peak), 3),
         direction(one, curve),
-        percent(curve.drift(peak), 3)
+        percent(curve.drift(peak), 3),
     );
     text += &match curve.first(Stage::Yielded) {
-        Some(first) if first.roof > 0.0 => format!(
-            "; its first hinge yields at {} of the weight.",
-            percent(curve.coefficient(first), 3)
-        ),
-        Some(_) => "; gravity alone makes a hinge yield.".to_owned(),
-        None => "; no hinge yields.".to_owned(),
+        Some(first) if first.roof > 0.0 => {
+            message::its_first_hinge_yields(percent(curve.coefficient(first), 3))
+        }
+        Some(_) => message::gravity_alone_makes_a_hinge().to_owned(),
+        None => message::no_hinge_yields().to_owned(),
     };
     text
 }
@@ -120,22 +125,22 @@ fn building(
         section data-building=(index) {
             h2 { (one.building.name) }
             @for curve in &one.curves {
-                @if one.curves.len() > 1 { h3 { "Pushed to the " (curve.settings.direction.name()) } }
+                @if one.curves.len() > 1 { h3 { (message::pushed_to(curve.settings.direction.name())) } }
                 @if curve.end != PushEnd::Target {
-                    p.note { b { "Ended early: " } (curve.end.to_string()) "." }
+                    p.note { b { (message::ended_early()) " " } (curve.end.to_string()) "." }
                 }
                 (tiles(one, curve))
             }
             figure.chart {
                 figcaption {
-                    span.chart-title { "Capacity curve" }
+                    span.chart-title { (message::capacity_curve()) }
                     span.legend {
                         @for (k, curve) in one.curves.iter().enumerate() {
-                            span.key { span.swatch.dashed[k > 0] style=(chart::colour(k)) {} "to the " (curve.settings.direction.name()) }
+                            span.key { span.swatch.dashed[k > 0] style=(chart::colour(k)) {} (message::to_the(curve.settings.direction.name())) }
                         }
-                        span.key { span.swatch.dashed {} "bilinear, equal energy" }
-                        span.key { span.swatch.round.cracked {} "cracks" }
-                        span.key { span.swatch.round.yielded {} "yields" }
+                        span.key { span.swatch.dashed {} (message::bilinear_equal_energy()) }
+                        span.key { span.swatch.round.cracked {} (message::cracks()) }
+                        span.key { span.swatch.round.yielded {} (message::yields()) }
                     }
                 }
                 (chart.draw(one))
@@ -143,16 +148,16 @@ fn building(
             @if let Some(demand) = demand { (demand::section(index, one, demand)) }
             figure.chart {
                 figcaption {
-                    span.chart-title { "Deformed shape" }
+                    span.chart-title { (message::deformed_shape()) }
                     span.legend {
-                        span.key { span.swatch.round {} "uncracked" }
-                        span.key { span.swatch.round.cracked {} "cracked" }
-                        span.key { span.swatch.round.yielded {} "yielded" }
+                        span.key { span.swatch.round {} (message::uncracked()) }
+                        span.key { span.swatch.round.cracked {} (message::cracked()) }
+                        span.key { span.swatch.round.yielded {} (message::yielded()) }
                     }
                 }
                 div.controls {
                     @if one.curves.len() > 1 {
-                        label { "Pushed to the "
+                        label { (message::pushed_to_title()) " "
                             select data-role="which" {
                                 @for (k, curve) in one.curves.iter().enumerate() {
                                     option value=(k) { (curve.settings.direction.name()) }
@@ -161,14 +166,14 @@ fn building(
                         }
                     }
                     span.buttons {
-                        button data-role="before" type="button" { "Event before" }
-                        button data-role="after" type="button" { "Next event" }
+                        button data-role="before" type="button" { (message::event_before()) }
+                        button data-role="after" type="button" { (message::next_event()) }
                     }
-                    label.slide { "Roof "
-                        input data-role="slider" type="range" min="0" max="1" step="any" value="1" aria-label="Roof displacement";
+                    label.slide { (message::roof()) " "
+                        input data-role="slider" type="range" min="0" max="1" step="any" value="1" aria-label=(message::roof_displacement());
                         output data-role="now" {}
                     }
-                    label { "Exaggeration "
+                    label { (message::exaggeration()) " "
                         input data-role="exaggeration" type="range" min="1" max="30" step="1" value="5";
                         output data-role="factor" {}
                     }
@@ -187,33 +192,36 @@ fn tiles(one: &PushedBuilding, curve: &Pushover) -> Markup {
     let mut tiles: Vec<(&str, String, String)> = Vec::new();
     let mut tile = |name: &'static str, point: &PushPoint| {
         if point.roof == 0.0 {
-            tiles.push((name, "at rest".to_owned(), "under gravity alone".to_owned()));
+            tiles.push((
+                name,
+                message::at_rest().to_owned(),
+                message::under_gravity_alone().to_owned(),
+            ));
             return;
         }
-        let note = format!(
-            "of the weight: {} at {}, {} drift",
+        let note = message::of_the_weight_at_drift(
             format::force(point.base_shear),
             format::millimetres(point.roof),
-            percent(curve.drift(point), 3)
+            percent(curve.drift(point), 3),
         );
         tiles.push((name, percent(curve.coefficient(point), 3), note));
     };
     if let Some(first) = curve.first(Stage::Cracked) {
-        tile("First crack", first);
+        tile(message::first_crack_title(), first);
     }
     if let Some(first) = curve.first(Stage::Yielded) {
-        tile("First yield", first);
+        tile(message::first_yield_title(), first);
     }
-    tile("Greatest base shear", curve.peak());
+    tile(message::greatest_base_shear(), curve.peak());
     if let Some(last) = curve.points.last().filter(|last| **last != *curve.peak()) {
-        tile("At the end", last);
+        tile(message::at_the_end(), last);
     }
     let springs = one.building.equations.springs.len();
     let [cracked, yielded] = curve.counts(springs);
     tiles.push((
-        "Hinges",
-        format!("{yielded} yielded"),
-        format!("{cracked} of {springs} cracked"),
+        message::hinges_title(),
+        message::yielded_yielded(&yielded),
+        message::of_cracked(&cracked, &springs),
     ));
     html! {
         div.tiles {
@@ -226,24 +234,24 @@ fn tiles(one: &PushedBuilding, curve: &Pushover) -> Markup {
 
 fn pushed_card(one: &PushedBuilding, curve: &Pushover) -> Markup {
     let pattern = match curve.settings.pattern {
-        LoadPattern::FirstMode => "mass times the first lateral mode shape, uncracked",
-        LoadPattern::Uniform => "mass",
-        LoadPattern::Triangular => "mass times height",
+        LoadPattern::FirstMode => message::mass_times_the_first_lateral(),
+        LoadPattern::Uniform => message::mass(),
+        LoadPattern::Triangular => message::mass_times_height(),
     };
     html! {
         div.card {
-            h3 { "How it was pushed" (direction(one, curve)) }
+            h3 { (message::how_it_was_pushed(direction(one, curve))) }
             dl {
-                div { dt { "Load" } dd { (curve.settings.pattern.name()) ": " (pattern) } }
-                div { dt { "Driven" } dd { "the roof, to " (percent(curve.settings.drift, 3)) " of " (format::unit(format::plain(curve.height, 4), "m")) } }
-                div { dt { "Weight" } dd { (format::force(curve.weight)) } }
-                div { dt { "Gravity" } dd {
-                    @if one.building.rest.displacement.is_empty() { "does not load the hinges" } @else { "loads the hinges first" }
-                    @if one.building.equations.undamped.is_zero() { "; no P-Delta" } @else { "; P-Delta" }
+                div { dt { (message::load()) } dd { (curve.settings.pattern.name()) ": " (pattern) } }
+                div { dt { (message::driven()) } dd { (message::the_roof(percent(curve.settings.drift, 3), format::unit(format::plain(curve.height, 4), "m"))) } }
+                div { dt { (message::weight()) } dd { (format::force(curve.weight)) } }
+                div { dt { (message::gravity_title()) } dd {
+                    @if one.building.rest.displacement.is_empty() { (message::does_not_load_the_hinges()) } @else { (message::loads_the_hinges_first()) }
+                    @if one.building.equations.undamped.is_zero() { (message::and_no_p_delta()) } @else { (message::and_p_delta()) }
                 } }
-                div { dt { "Floor shares" } dd {
+                div { dt { (message::floor_shares()) } dd {
                     @let shares: Vec<String> = curve.floor_loads.iter().map(|share| format::significant(100.0 * share, 3)).collect();
-                    (shares.join(", ")) " % from the ground up"
+                    (message::from_the_ground_up(shares.join(", ")))
                 } }
             }
         }
@@ -253,19 +261,19 @@ fn pushed_card(one: &PushedBuilding, curve: &Pushover) -> Markup {
 fn bilinear_card(one: &PushedBuilding, curve: &Pushover) -> Markup {
     html! {
         div.card {
-            h3 { "Bilinear discretization" (direction(one, curve)) }
+            h3 { (message::bilinear_discretization(direction(one, curve))) }
             @match Bilinear::fit(&curve.points) {
                 Some(two) => {
                     dl {
-                        div { dt { "Yields at" } dd { (format::force(two.yield_force)) ", " (format::millimetres(two.yield_displacement)) } }
-                        div { dt { "Ends at" } dd { (format::force(two.ultimate_force)) ", " (format::millimetres(two.ultimate_displacement)) } }
-                        div { dt { "Stiffness" } dd { (format::stiffness(two.stiffness())) } }
-                        div { dt { "After yield" } dd { (percent(two.hardening(), 3)) " of it" } }
-                        div { dt { "Ductility" } dd { (format::significant(two.ductility(), 3)) } }
+                        div { dt { (message::yields_at()) } dd { (format::force(two.yield_force)) ", " (format::millimetres(two.yield_displacement)) } }
+                        div { dt { (message::ends_at()) } dd { (format::force(two.ultimate_force)) ", " (format::millimetres(two.ultimate_displacement)) } }
+                        div { dt { (message::stiffness_title()) } dd { (format::stiffness(two.stiffness())) } }
+                        div { dt { (message::after_yield()) } dd { (message::of_it(percent(two.hardening(), 3))) } }
+                        div { dt { (message::ductility_title()) } dd { (format::significant(two.ductility(), 3)) } }
                     }
-                    p.quiet { "Secant through 60 % of the yield strength; equal energy up to the greatest base shear (FEMA 356, 3.3.3.2.4)." }
+                    p.quiet { (message::secant_through_60()) }
                 }
-                None => p.quiet { "The curve is too close to linear for a bilinear discretization." }
+                None => p.quiet { (message::the_curve_is_too_close()) }
             }
         }
     }
@@ -278,18 +286,18 @@ fn events(one: &PushedBuilding, index: usize, curve: &Pushover) -> Markup {
             .map(|event| format!("{} {}", one.place(event.spring), event.kind.name()))
             .collect();
         if point.events.len() > NAMED {
-            text.push(format!("and {} more", point.events.len() - NAMED));
+            text.push(message::and_more(point.events.len() - NAMED));
         }
         text.join("; ")
     };
     html! {
         @if curve.points.iter().any(|point| !point.events.is_empty()) {
             div.beside {
-                h3 { "What happened, in order" (direction(one, curve)) }
+                h3 { (message::what_happened_in_order(direction(one, curve))) }
                 div.scroll.tall {
                     table.events {
                         thead { tr {
-                            th.number { "roof [mm]" } th.number { "drift [%]" } th.number { "base shear [kN]" } th.number { "of weight [%]" } th { "hinges" }
+                            th.number { (message::roof_mm()) } th.number { (message::drift()) } th.number { (message::base_shear_kn()) } th.number { (message::of_weight()) } th { (message::hinges()) }
                         } }
                         tbody {
                             @for point in curve.points.iter().filter(|point| !point.events.is_empty()) {
@@ -312,13 +320,13 @@ fn events(one: &PushedBuilding, index: usize, curve: &Pushover) -> Markup {
 fn guide() -> Markup {
     html! {
         section #guide {
-            h2 { "How to read this" }
+            h2 { (message::how_to_read()) }
             ul {
-                li { "The load pattern is constant and the roof displacement is prescribed; base shear is the sum of the load. Displacements are relative to the state at rest and positive in the direction of the load." }
-                li { "Hinges are linear between their corners, so the curve is linear between events and independent of any step size." }
-                li { "The curve falls where P-Delta exceeds the hardening of hinges. It ends at the target drift, where no resistance is left, or where a part fails although the roof is restrained." }
-                li { "A hinge cracks or yields when it first passes that point of its backbone on either side. A hinge that reloads passes a corner." }
-                li { "A pushover shows strength and the order of yielding under one load. It does not include higher modes, cycles or impacts." }
+                li { (message::the_load_pattern_is_constant()) }
+                li { (message::hinges_are_linear_between()) }
+                li { (message::the_curve_falls_where_p()) }
+                li { (message::a_hinge_cracks_or_yields()) }
+                li { (message::a_pushover_shows_strength()) }
             }
         }
     }

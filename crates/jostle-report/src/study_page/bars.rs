@@ -5,6 +5,7 @@ use maud::{Markup, html};
 use super::{Axis, number};
 use crate::envelope::ticks;
 use crate::format;
+use crate::message;
 
 /// A ranking.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,7 +58,7 @@ pub(super) fn figure(bars: &Bars) -> Markup {
     let below = TOP + ROW * bars.bars.len() as f64;
     let height = below + BOTTOM;
     let (marks, decimals) = ticks(low, low + span, 5.0);
-    let base = format!("base {} {}", number(bars.centre), bars.value.unit);
+    let base = message::base_centre_value(number(bars.centre), &bars.value.unit);
     let base = base.trim_end();
     // Kept within the picture.
     let half = 0.5 * LETTER * base.chars().count() as f64;

@@ -3,6 +3,7 @@
 use maud::{Markup, html};
 
 use super::{Axis, number};
+use crate::message;
 
 /// Lines over an axis.
 #[derive(Clone, Debug, PartialEq)]
@@ -138,7 +139,7 @@ pub(super) fn figure(chart: &Chart) -> Markup {
         .iter()
         .filter(|series| !series.name.is_empty())
         .collect();
-    let label = format!("{} over {}", chart.y.name, chart.x.name);
+    let label = message::one_over_other(&chart.y.name, &chart.x.name);
     html! {
         figure.study-chart {
             figcaption {
@@ -147,7 +148,7 @@ pub(super) fn figure(chart: &Chart) -> Markup {
                     @for series in named.iter().take(LEGEND) {
                         span.key style=(colour(series.colour)) { span.swatch.dashed[series.stroke == Stroke::Dashed] {} (series.name) }
                     }
-                    @if named.len() > LEGEND { span.key { "and " (named.len() - LEGEND) " more" } }
+                    @if named.len() > LEGEND { span.key { (message::and_more(named.len() - LEGEND)) } }
                 }
             }
             svg viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) role="img" aria-label=(label) {

@@ -3,6 +3,7 @@
 use maud::{Markup, html};
 
 use super::{Axis, number};
+use crate::message;
 
 /// A quantity over two others.
 #[derive(Clone, Debug, PartialEq)]
@@ -127,7 +128,7 @@ pub(super) fn figure(map: &HeatMap) -> Markup {
             0.0
         }
     };
-    let label = format!("{} over {} and {}", map.value.name, map.x.name, map.y.name);
+    let label = message::one_over_two(&map.value.name, &map.x.name, &map.y.name);
     let bar = LEFT + length + 14.0;
     html! {
         figure.study-map {

@@ -10,6 +10,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::document::{POLICY, STYLE, theme_button, theme_script};
 use crate::format;
+use crate::message;
 
 pub use bars::{Bar, Bars};
 pub use chart::{Chart, Level, Series, Stroke};
@@ -81,13 +82,13 @@ pub struct Section {
 #[must_use]
 pub fn render_study(page: &StudyPage) -> String {
     let kind = if page.kind.is_empty() {
-        "Study"
+        message::study()
     } else {
         &page.kind
     };
     let markup = html! {
         (DOCTYPE)
-        html lang="en" {
+        html lang=(message::language_code()) {
             head {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
@@ -119,7 +120,7 @@ pub fn render_study(page: &StudyPage) -> String {
                     @if !page.files.is_empty() { (files(page)) }
                 }
                 footer {
-                    "Made by jostle " (env!("CARGO_PKG_VERSION")) ". One file; nothing is loaded from a network."
+                    (message::made_by_jostle_version(env!("CARGO_PKG_VERSION")))
                 }
                 (theme_script())
             }
@@ -131,8 +132,8 @@ pub fn render_study(page: &StudyPage) -> String {
 fn maps(page: &StudyPage) -> Markup {
     html! {
         section #maps {
-            h2 { "Maps" }
-            p.quiet { "Every cell is one case, or the mean of several; move the pointer over it for its number. A frame marks cases with histories: click to open them." }
+            h2 { (message::maps()) }
+            p.quiet { (message::every_cell_is_one_case()) }
             @for (heading, maps) in &page.maps {
                 @if !heading.is_empty() { h3 { (heading) } }
                 div.study-maps { @for map in maps { (heat_map::figure(map)) } }
@@ -180,16 +181,16 @@ fn charts(section: &Section) -> Markup {
 fn runs(page: &StudyPage) -> Markup {
     html! {
         section #runs {
-            h2 { "Runs" }
+            h2 { (message::runs()) }
             @if !page.runs.is_empty() {
                 ul.study-list {
                     @for (case, what, link) in &page.runs {
-                        li { a href=(link) { "Case " (case) } " – " (what) }
+                        li { a href=(link) { (message::case_case(&case)) } " – " (what) }
                     }
                 }
             }
             @if !page.command.is_empty() {
-                p.quiet { "Any other case, with histories and animation: " code { (page.command) " --case NUMBER" } }
+                p.quiet { (message::any_other_case_with_histories()) " " code { (page.command) " --case NUMBER" } }
             }
         }
     }
@@ -198,12 +199,12 @@ fn runs(page: &StudyPage) -> Markup {
 fn failures(page: &StudyPage) -> Markup {
     html! {
         section #failures {
-            h2 { (page.failed) " of the cases did not complete" }
+            h2 { (message::of_the_cases_did(&page.failed)) }
             ul.study-list {
-                @for (case, reason) in &page.failures { li { "Case " (case) ": " (reason) } }
+                @for (case, reason) in &page.failures { li { (message::case_case_reason(&case, &reason)) } }
             }
             @if page.failed > page.failures.len() {
-                p.quiet { "… and " (page.failed - page.failures.len()) " more: see the columns " code { "status" } " and " code { "reason" } "." }
+                p.quiet { (message::and_more_see_the_columns(page.failed - page.failures.len())) " " code { "status" } " " (message::and_word()) " " code { "reason" } "." }
             }
         }
     }
@@ -212,7 +213,7 @@ fn failures(page: &StudyPage) -> Markup {
 fn files(page: &StudyPage) -> Markup {
     html! {
         section #files {
-            h2 { "Files" }
+            h2 { (message::files()) }
             table {
                 tbody {
                     @for (name, what) in &page.files {

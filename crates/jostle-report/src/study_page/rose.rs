@@ -3,6 +3,8 @@
 use maud::{Markup, html};
 
 use super::{Axis, number};
+use crate::message;
+use crate::site_drawing::compass_bearing;
 
 /// A quantity over the angle of incidence.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,6 +15,8 @@ pub struct Rose {
     pub value: Axis,
     /// Curves.
     pub petals: Vec<Petal>,
+    /// Angle from x to north, counter-clockwise; `None` to draw no north \[°\].
+    pub north: Option<f64>,
 }
 
 /// One curve of a rose.
@@ -36,6 +40,7 @@ impl Rose {
             title,
             value,
             petals: Vec::new(),
+            north: None,
         }
     }
 }
@@ -112,11 +117,11 @@ pub(super) fn figure(rose: &Rose) -> Markup {
                         span.key style=(colour(petal.colour)) { span.swatch {} (petal.name) }
                     }
                     @if rose.petals.iter().any(|petal| petal.dashed) {
-                        span.key { span.swatch.dashed {} "without contact" }
+                        span.key { span.swatch.dashed {} (message::without_contact()) }
                     }
                 }
             }
-            svg viewBox=(format!("0 0 {SIDE} {SIDE}")) role="img" aria-label=(format!("{} over the angle of incidence", rose.title)) {
+            svg viewBox=(format!("0 0 {SIDE} {SIDE}")) role="img" aria-label=(message::over_the_angle_of_incidence(&rose.title)) {
                 g.grid {
                     @for ring in &all { circle cx=(middle) cy=(middle) r=(format!("{:.1}", RADIUS * ring / end)) {} }
                     @for spoke in 0..12 {
@@ -130,6 +135,12 @@ pub(super) fn figure(rose: &Rose) -> Markup {
                     @let [x, y] = place(angle, RADIUS + 19.0);
                     @let name = match spoke { 0 => "0° x".to_owned(), 3 => "90° y".to_owned(), _ => format!("{angle}°") };
                     text.study-spoke x=(format!("{x:.1}")) y=(format!("{:.1}", y + 4.0)) text-anchor="middle" { (name) }
+                }
+                @if let Some(north) = rose.north {
+                    @let [x, y] = place(north, RADIUS + 38.0);
+                    @let [from, tip] = [RADIUS - 8.0, RADIUS + 8.0].map(|radius| place(north, radius));
+                    line.study-north x1=(format!("{:.1}", from[0])) y1=(format!("{:.1}", from[1])) x2=(format!("{:.1}", tip[0])) y2=(format!("{:.1}", tip[1])) {}
+                    text.study-north x=(format!("{x:.1}")) y=(format!("{:.1}", y + 4.0)) text-anchor="middle" { (message::letter_of_north()) }
                 }
                 @for petal in &rose.petals {
                     path.petal.dashed[petal.dashed] d=(path(petal)) style=(colour(petal.colour)) { title { (petal.name) } }
@@ -151,22 +162,36 @@ pub(super) fn figure(rose: &Rose) -> Markup {
                         @if let Some([angle, value]) = petal.worst() {
                             @let [x, y] = place(angle, RADIUS * value / end);
                             circle.study-worst cx=(format!("{x:.1}")) cy=(format!("{y:.1}")) r="5" style=(colour(petal.colour)) {
-                                title { (petal.name) ", worst angle: " (number(angle)) "°, " (number(value)) " " (rose.value.unit) }
+                                title { (message::worst_angle(&petal.name, number(angle), number(value), &rose.value.unit)) }
                             }
                         }
                     }
                 } @else {
-                    text.study-ring x=(middle) y=(middle) text-anchor="middle" { "0 at every angle" }
+                    text.study-ring x=(middle) y=(middle) text-anchor="middle" { (message::zero_at_every_angle()) }
                 }
             }
             p.quiet.study-worst-words {
                 @for petal in rose.petals.iter().filter(|petal| !petal.dashed && most > 0.0) {
                     @if let Some([angle, value]) = petal.worst() {
-                        span { @if !petal.name.is_empty() { (petal.name) ": " } (number(value)) " " (rose.value.unit) " at " (number(angle)) "°" }
+                        span { @if !petal.name.is_empty() { (petal.name) ": " } (worst_in_words(rose, value, angle)) }
                     }
                 }
             }
         }
+    }
+}
+
+/// A greatest value and its angle; with its compass bearing where north is known.
+fn worst_in_words(rose: &Rose, value: f64, angle: f64) -> String {
+    let unit = &rose.value.unit;
+    match rose.north {
+        None => message::value_at_angle(number(value), unit, number(angle)),
+        Some(north) => message::value_at_bearing(
+            number(value),
+            unit,
+            number(angle),
+            number(compass_bearing(angle, north)),
+        ),
     }
 }
 

@@ -4,6 +4,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::{OWN_STYLE, Section, charts};
 use crate::document::{CALCULATION_STYLE, POLICY, STYLE, theme_button, theme_script};
+use crate::message;
 
 /// Everything the page of a suite shows.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -39,46 +40,50 @@ pub struct SuiteRow {
     pub remark: String,
 }
 
-const RECORD_COLUMNS: [(&str, &str); 5] = [
-    ("peak", "m/s²"),
-    ("scale", ""),
-    ("duration", "s"),
-    ("impacts", ""),
-    ("peak force", "kN"),
-];
-const QUANTITY_COLUMNS: [&str; 6] = [
-    "mean",
-    "standard deviation",
-    "16 to 84 %",
-    "greatest",
-    "of record",
-    "governing",
-];
+fn record_columns() -> [(&'static str, &'static str); 5] {
+    [
+        (message::peak(), "m/s²"),
+        (message::scale(), ""),
+        (message::duration(), "s"),
+        (message::impacts(), ""),
+        (message::peak_force(), "kN"),
+    ]
+}
+fn quantity_columns() -> [&'static str; 6] {
+    [
+        message::mean(),
+        message::standard_deviation(),
+        message::percentiles_16_to_84(),
+        message::greatest(),
+        message::of_record(),
+        message::governing(),
+    ]
+}
 
 /// The whole page; it loads nothing from outside.
 #[must_use]
 pub fn render_suite(page: &SuitePage) -> String {
     let markup = html! {
         (DOCTYPE)
-        html lang="en" {
+        html lang=(message::language_code()) {
             head {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta http-equiv="Content-Security-Policy" content=(POLICY);
                 meta name="description" content=(page.headline);
-                title { (page.title) " – suite" }
+                title { (message::title_suite(&page.title)) }
                 link rel="icon" href="data:,";
                 style { (PreEscaped(STYLE)) (PreEscaped(OWN_STYLE)) (PreEscaped(CALCULATION_STYLE)) }
             }
             body {
                 @if !page.warnings.is_empty() {
                     aside.warnings role="alert" {
-                        @for warning in &page.warnings { p { b { "Warning: " } (warning) } }
+                        @for warning in &page.warnings { p { b { (message::warning()) " " } (warning) } }
                     }
                 }
                 header.head {
                     div {
-                        p.kicker { "Suite of " (page.records.len()) " records" }
+                        p.kicker { (message::suite_of_records(page.records.len())) }
                         h1 { (page.title) }
                     }
                     (theme_button())
@@ -89,14 +94,14 @@ pub fn render_suite(page: &SuitePage) -> String {
                     (records(page))
                     @for section in &page.sections { (charts(section)) }
                     section #files {
-                        h2 { "Files" }
+                        h2 { (message::files()) }
                         table { tbody {
                             @for (name, what) in &page.files { tr { td { code { (name) } } td.study-wrap { (what) } } }
                         } }
                     }
                 }
                 footer {
-                    "Made by jostle " (env!("CARGO_PKG_VERSION")) ". One file; nothing is loaded from a network."
+                    (message::made_by_jostle_version(env!("CARGO_PKG_VERSION")))
                 }
                 (theme_script())
             }
@@ -109,13 +114,13 @@ fn quantities(page: &SuitePage) -> Markup {
     let governs = if page.statistic == "mean" { 1 } else { 4 };
     html! {
         section #governing {
-            h2 { "Governing values" }
-            p.quiet { "All records together. The " (page.statistic) " governs." }
+            h2 { (message::governing_values()) }
+            p.quiet { (message::all_records_together_the_governs(&page.statistic)) }
             div.scroll {
                 table {
                     thead { tr {
-                        th scope="col" { "quantity" }
-                        @for name in QUANTITY_COLUMNS { th.number[name != "of record"] scope="col" { (name) } }
+                        th scope="col" { (message::quantity()) }
+                        @for name in quantity_columns() { th.number[name != message::of_record()] scope="col" { (name) } }
                     } }
                     tbody {
                         @for row in &page.quantities {
@@ -138,12 +143,12 @@ fn quantities(page: &SuitePage) -> Markup {
 fn records(page: &SuitePage) -> Markup {
     html! {
         section #records {
-            h2 { "Records" }
+            h2 { (message::records()) }
             div.scroll {
                 table {
                     thead { tr {
-                        th scope="col" { "record" }
-                        @for (name, unit) in RECORD_COLUMNS {
+                        th scope="col" { (message::record()) }
+                        @for (name, unit) in record_columns() {
                             th.number scope="col" { (name) @if !unit.is_empty() { " " span.unit { "[" (unit) "]" } } }
                         }
                         th scope="col" {}

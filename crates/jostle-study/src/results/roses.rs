@@ -129,6 +129,8 @@ impl Results<'_> {
                 groups.push(curve.group.clone());
             }
         }
+        let input = self.study.file.base.input().ok();
+        let north = input.and_then(|input| input.north).map(f64::to_degrees);
         let mut roses: Vec<(String, Rose)> = Vec::new();
         for curve in &curves {
             let (owner, quantity) = parts(&curve.column);
@@ -154,7 +156,11 @@ impl Results<'_> {
                         name: axis.name.clone(),
                         unit: axis.unit.clone(),
                     };
-                    roses.push((key, Rose::new(title, value)));
+                    let rose = Rose {
+                        north,
+                        ..Rose::new(title, value)
+                    };
+                    roses.push((key, rose));
                     roses.len() - 1
                 }
             };

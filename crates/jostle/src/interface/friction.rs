@@ -23,6 +23,33 @@ pub fn sticking_stiffness(law: &ContactLaw, effective_mass: f64) -> f64 {
     SLIDING_OVER_PRESSING * pressing
 }
 
+/// A floor that moves as a rigid body, as a point of a contact sees it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct PushedFloor {
+    /// Lever arm of a push along the normal, (c − o) × n, and of one along the face \[m\].
+    pub(crate) levers: [f64; 2],
+    /// Share of the mass in W_nn and in W_nt: n·M⁻¹n and n·M⁻¹t \[1/kg\].
+    pub(crate) inverse_masses: [f64; 2],
+    /// Polar mass, > 0 \[kg·m²\].
+    pub(crate) polar_mass: f64,
+}
+
+/// Coefficient of friction below which forces at a point are unique while it slips, W_nn/|W_nt| (theory, Eq. Z17):
+/// a friction force F μ must press the floors together less than F parts them. Infinite where friction does not press
+/// \[–\].
+pub(crate) fn unique_below(floors: impl Iterator<Item = PushedFloor>) -> f64 {
+    let (mut normal, mut mixed) = (0.0, 0.0);
+    for floor in floors {
+        let [across, along] = floor.levers;
+        normal += floor.inverse_masses[0] + across * across / floor.polar_mass;
+        mixed += floor.inverse_masses[1] + across * along / floor.polar_mass;
+    }
+    if mixed == 0.0 {
+        return f64::INFINITY;
+    }
+    (normal / mixed).abs()
+}
+
 /// Friction along a face at one of its points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Friction {
@@ -30,6 +57,8 @@ pub struct Friction {
     pub law: Coulomb,
     /// Displacement along the face, the normal turned by +90°.
     pub ports: PortPair,
+    /// Coefficient below which the forces of this point are unique in any short step, W_nn/|W_nt|, > 0 \[–\].
+    pub unique_below: f64,
 }
 
 /// Coulomb friction with a spring that sticks before it slips (theory, Eq. Z13).

@@ -17,6 +17,7 @@ pub use contact_points::{UnmatchedFloors, floor_and_height};
 pub use dof_row::DofRow;
 pub use edge_end::EdgeEnd;
 pub use friction::{Coulomb, Friction, sticking_stiffness};
+pub(crate) use friction::{PushedFloor, unique_below};
 pub(crate) use graph::InterfaceGraph;
 pub use link::{LinkElement, LinkMemory};
 pub(crate) use plan_contacts::MOST_POINTS;

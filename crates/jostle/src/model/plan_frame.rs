@@ -87,10 +87,14 @@ impl LumpedFloor {
         if self.one_way == [0.0; 2] {
             return self.tier.mass;
         }
-        let moved = direction.iter().zip(self.one_way);
-        1.0 / moved
-            .map(|(share, extra)| share * share / (self.tier.mass + extra))
-            .sum::<f64>()
+        1.0 / self.inverse_mass(direction, direction)
+    }
+
+    /// Acceleration of the centre along one unit vector by a unit force along another, without rotation \[1/kg\].
+    #[must_use]
+    pub fn inverse_mass(&self, [x, y]: PlanPoint, [along_x, along_y]: PlanPoint) -> f64 {
+        let masses = self.one_way.map(|extra| self.tier.mass + extra);
+        x * along_x / masses[0] + y * along_y / masses[1]
     }
 }
 

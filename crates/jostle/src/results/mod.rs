@@ -6,6 +6,7 @@ pub mod contact_sensitivity;
 mod counted_impact;
 pub mod floor_spectra;
 mod foundation;
+mod friction;
 mod ground;
 pub mod in_plan;
 mod isolation;
@@ -17,5 +18,6 @@ pub mod summary;
 
 pub use counted_impact::{CountedImpact, counted, find_simultaneous};
 pub use foundation::foundation_warnings;
+pub use friction::friction_warnings;
 pub use members::{member_name, section_name};
 pub use summarise::{Run, springs_of};

@@ -12,6 +12,7 @@ use crate::model::{Gap, LinkLaw, Model};
 use crate::motion::GroundMotion;
 use crate::results::capacity;
 use crate::results::foundation::{foundation_summary, foundation_warnings, soil_energy};
+use crate::results::friction::friction_warnings;
 use crate::results::ground::{closing_of_grounds, ground_summary};
 use crate::results::isolation::{isolation_summary, mat_summary, wall_summaries};
 use crate::results::members::members_of;
@@ -595,6 +596,7 @@ fn warnings(run: &Run) -> Vec<String> {
         }
     }
     warnings.extend(foundation_warnings(run.system));
+    warnings.extend(friction_warnings(run.model, run.system));
     let accuracy = run.outcome.accuracy.iter();
     warnings.extend(accuracy.flat_map(|accuracy| accuracy_warnings(accuracy, remedy)));
     warnings

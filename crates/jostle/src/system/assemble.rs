@@ -5,8 +5,8 @@ use super::{BuildingSystem, FoundationPlace, SpringSupport, System, WallPlace, f
 use crate::contact::{ContactLaw, effective_mass};
 use crate::interface::contact_points::{PointPair, SAME, mean};
 use crate::interface::{
-    Contact, Coulomb, DofRow, EdgeEnd, Friction, LinkElement, PlanPlace, Port, PortPair, Row,
-    faces_of_gap, narrowest, sticking_stiffness,
+    Contact, Coulomb, DofRow, EdgeEnd, Friction, LinkElement, PlanPlace, Port, PortPair,
+    PushedFloor, Row, faces_of_gap, narrowest, sticking_stiffness, unique_below,
 };
 use crate::model::{
     Base, Building, Damping, FloorPairs, Level, Link, LumpedFloor, Model, ModelFault, PlanPoint,
@@ -380,12 +380,20 @@ fn plan_contacts(
                 ports: ports(end.direction),
                 inside: end.inside - if end.is_indentation { wider } else { 0.0 },
             }));
-            let friction = (gap.in_plan.friction > 0.0).then(|| Friction {
-                law: Coulomb {
-                    coefficient: gap.in_plan.friction,
-                    stiffness: point.share * sticking,
-                },
-                ports: ports([-face.normal[1], face.normal[0]]),
+            let along = [-face.normal[1], face.normal[0]];
+            let friction = (gap.in_plan.friction > 0.0).then(|| {
+                let pushed = [own.get(*i), other.get(*j)];
+                let pushed = pushed.into_iter().flatten();
+                Friction {
+                    law: Coulomb {
+                        coefficient: gap.in_plan.friction,
+                        stiffness: point.share * sticking,
+                    },
+                    ports: ports(along),
+                    unique_below: unique_below(
+                        pushed.map(|floor| pushed_at(floor, point.at, [face.normal, along])),
+                    ),
+                }
             });
             let ports = ports(face.normal);
             let law = ContactLaw {
@@ -412,6 +420,18 @@ fn plan_contacts(
         }
     }
     (contacts, ends)
+}
+
+/// A floor as a point sees it that pushes along the normal of a face and along the face.
+fn pushed_at(floor: &LumpedFloor, at: PlanPoint, directions: [PlanPoint; 2]) -> PushedFloor {
+    let tier = &floor.tier;
+    let arm = [at[0] - tier.centre[0], at[1] - tier.centre[1]];
+    let [normal, _] = directions;
+    PushedFloor {
+        levers: directions.map(|[x, y]| arm[0] * y - arm[1] * x),
+        inverse_masses: directions.map(|direction| floor.inverse_mass(normal, direction)),
+        polar_mass: tier.polar_mass,
+    }
 }
 
 fn ports(

@@ -11,6 +11,7 @@ mod extremes_are_survived;
 mod face_points;
 mod forces_never_pull;
 mod foundations;
+mod friction_limit;
 mod given_structures;
 mod grounds;
 mod harmonic_pounding;

@@ -1,0 +1,155 @@
+//! The texts of all pages: one function per message, one table per language.
+//!
+//! Pages never contain a text of their own. `message::peak_force()` returns the text of that key in the language of the
+//! page; a message with values, such as `"first at {instant}"`, is a function of them. A second language is another
+//! [`Messages`], complete by construction, and pages are written in it within [`in_language`].
+//!
+//! The language belongs to the thread that writes a page: some two hundred functions write parts of pages, none of which
+//! decides about it.
+
+mod english;
+
+use std::cell::Cell;
+use std::collections::BTreeMap;
+use std::fmt::{Display, Write};
+
+use maud::{Markup, PreEscaped, html};
+
+pub use english::*;
+
+/// Declares the messages: a function for each, the table [`Messages`] of one language, and the table in English.
+macro_rules! messages {
+    ($($key:ident $(($($value:ident),+))? = $english:literal;)+) => {
+        /// The texts of all messages in one language. Values stand in braces: `{width}`.
+        #[derive(Clone, Debug)]
+        pub struct Messages {
+            $(#[doc = concat!("`", $english, "`")] pub $key: &'static str,)+
+        }
+
+        /// English.
+        pub static ENGLISH: Messages = Messages { $($key: $english,)+ };
+
+        impl Messages {
+            /// Key and text of every message, in the order of the table.
+            #[must_use]
+            pub fn all(&self) -> Vec<(&'static str, &'static str)> {
+                vec![$((stringify!($key), self.$key),)+]
+            }
+
+            /// Another table: `text` of every key and English text.
+            #[must_use]
+            pub fn from_english(text: impl Fn(&'static str, &'static str) -> &'static str) -> Self {
+                Self { $($key: text(stringify!($key), $english),)+ }
+            }
+        }
+
+        $(message!($key, $english $(, $($value),+)?);)+
+    };
+}
+
+/// Declares the function of one message.
+macro_rules! message {
+    ($key:ident, $english:literal) => {
+        #[doc = concat!("`", $english, "`")]
+        #[must_use]
+        pub fn $key() -> &'static str {
+            crate::message::current().$key
+        }
+    };
+    ($key:ident, $english:literal, $($value:ident),+) => {
+        #[doc = concat!("`", $english, "`")]
+        #[must_use]
+        pub fn $key($($value: impl std::fmt::Display),+) -> String {
+            crate::message::fill(crate::message::current().$key, &[$((stringify!($value), &$value)),+])
+        }
+    };
+}
+
+use {message, messages};
+
+thread_local! {
+    static LANGUAGE: Cell<&'static Messages> = const { Cell::new(&ENGLISH) };
+}
+
+/// The table that pages of this thread are written in.
+pub(crate) fn current() -> &'static Messages {
+    LANGUAGE.get()
+}
+
+/// Returns what `write` returns; pages that it writes on this thread are in `language`.
+pub fn in_language<T>(language: &'static Messages, write: impl FnOnce() -> T) -> T {
+    struct Restore(&'static Messages);
+    impl Drop for Restore {
+        fn drop(&mut self) {
+            LANGUAGE.set(self.0);
+        }
+    }
+    let _restore = Restore(LANGUAGE.replace(language));
+    write()
+}
+
+/// `text` with its names in braces replaced by their values. Unknown names stay as they are.
+pub(crate) fn fill(text: &str, values: &[(&str, &dyn Display)]) -> String {
+    let mut filled = String::with_capacity(text.len() + 16 * values.len());
+    let mut rest = text;
+    while let Some((before, after)) = rest.split_once('{') {
+        filled.push_str(before);
+        let known = after.split_once('}').and_then(|(name, after)| {
+            let (_, value) = values.iter().find(|(known, _)| *known == name)?;
+            Some((value, after))
+        });
+        rest = if let Some((value, after)) = known {
+            // Writing to a string cannot fail.
+            let _ = write!(filled, "{value}");
+            after
+        } else {
+            filled.push('{');
+            after
+        };
+    }
+    filled.push_str(rest);
+    filled
+}
+
+/// The element with the texts that a script of a page asks for by `say("key")`.
+#[must_use]
+pub fn for_scripts(script: &str) -> Markup {
+    let known: BTreeMap<&str, &str> = current().all().into_iter().collect();
+    let asked = script.split("say(\"").skip(1);
+    let keys = asked.filter_map(|after| Some(after.split_once('"')?.0));
+    let texts: BTreeMap<&str, &str> = keys
+        .filter_map(|key| Some((key, *known.get(key)?)))
+        .collect();
+    let json = serde_json::json!(texts).to_string().replace('<', "\\u003c");
+    html! { script #page-messages type="application/json" { (PreEscaped(json)) } }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_replace_their_names() {
+        let values: [(&str, &dyn Display); 2] = [("width", &"20 mm"), ("left", &3)];
+        assert_eq!(
+            fill("gap {width}, {left} left", &values),
+            "gap 20 mm, 3 left"
+        );
+        assert_eq!(fill("{left}{width}{left}", &values), "320 mm3");
+        assert_eq!(fill("{unknown} {", &values), "{unknown} {");
+    }
+
+    #[test]
+    fn values_are_not_read_as_messages() {
+        let values: [(&str, &dyn Display); 2] = [("name", &"{width}"), ("width", &1)];
+        assert_eq!(fill("{name} {width}", &values), "{width} 1");
+    }
+
+    #[test]
+    fn a_language_ends_with_its_page() {
+        static SHOUTED: std::sync::LazyLock<Messages> =
+            std::sync::LazyLock::new(|| Messages::from_english(|_, _| "!"));
+        let inside = in_language(&SHOUTED, peak_force);
+        assert_eq!((inside, peak_force()), ("!", ENGLISH.peak_force));
+    }
+}
