@@ -105,6 +105,8 @@ class Frame(Part):
         hinges: plastic hinges at the member ends; without them the frame is elastic:
             ``{"rule": "peak-oriented", "from": "section"}`` or
             ``{"rule": "normal", "initial": 100, "column": {"cracking": "120 kN.m", …}, "beam": {…}}``.
+        shear_failure: columns that fail in shear: ``{"rule": "sezen-moehle", "residual": 0.2}`` or
+            ``{"strength": "300 kN", "slope": "5 MN/m"}``; without it their shear strength has no limit.
         position: place along the row, for ``apparent_velocity`` and ``coherency`` of the motion.
         motion: the ground under this building, if it differs: ``{"arrival": "30 ms"}``, ``{"record": …, "scale": …}``.
         gravity: whether the run starts from the displacements under self weight; ``False`` by default.
@@ -148,6 +150,7 @@ class Frame(Part):
         isolation: Table | None = None,
         foundation: Table | None = None,
         hinges: Table | None = None,
+        shear_failure: Table | None = None,
         position: Quantity | None = None,
         motion: Table | None = None,
         gravity: bool | None = None,
@@ -183,6 +186,7 @@ class Frame(Part):
                 "isolation": isolation,
                 "foundation": foundation,
                 "hinges": hinges,
+                "shear_failure": shear_failure,
                 "position": position,
                 "motion": motion,
                 "gravity": gravity,

@@ -413,9 +413,10 @@ class Result:
         return Table._of(self._core.member_table(index))
 
     def capacity(self, building: str | None = None) -> Table:
-        """Demand over capacity of reinforced columns and beams, for a model with ``output={"capacity": True}``.
+        """Demand over capacity of reinforced columns, beams and joints, for a model with ``output={"capacity": True}``.
 
-        One row per member and rule, the governing rule first: ``member``, ``rule``, then for shear and bending the
+        One row per member and rule, the governing rule first, then one per joint (``J1.joint.LINE.FLOOR``) and rule that has
+        a clause for joints: ``member``, ``rule``, then for shear and bending (none of joints) the
         greatest ratio (``shear_ratio``, ``bending_ratio``, under the axial force of the same instant), its instant
         (``…_at_s``), section (``…_end``), the capacity then (``shear_capacity_n``, ``bending_capacity_n_m``), the first
         excess (``…_exceeded_s``) and the start of the impact in progress (``…_impact_s``); ``axial_failure_drift`` and

@@ -92,10 +92,20 @@ fn write_curve(text: &mut String, one: &PushedBuilding, curve: &Pushover) -> std
         PushEnd::Target => String::new(),
         other => format!(" {}", styled(LOUD, &format!("Ended early: {other}."))),
     };
+    let places = one.building.discretization.spring_places.iter();
+    let shear = places.filter(|place| place.is_shear()).count();
+    let failures = match shear {
+        0 => String::new(),
+        _ => format!(
+            " {} of {} fail in shear.",
+            curve.failures(),
+            counted(shear, "column end")
+        ),
+    };
     writeln!(
         text,
-        "  {cracked} of {} crack, {yielded} yield.{ended}",
-        counted(springs, "hinge")
+        "  {cracked} of {} crack, {yielded} yield.{failures}{ended}",
+        counted(springs - shear, "hinge")
     )?;
     write_events(text, one, curve)
 }
@@ -108,7 +118,7 @@ fn write_events(text: &mut String, one: &PushedBuilding, curve: &Pushover) -> st
         .collect();
     let yields = |point: &PushPoint| {
         let mut kinds = point.events.iter().map(|event| event.kind);
-        kinds.any(|kind| kind == PushEventKind::Yields)
+        kinds.any(|kind| matches!(kind, PushEventKind::Yields | PushEventKind::Fails))
     };
     let mut yielding = 0;
     let listed = eventful.iter().enumerate().filter(|(index, point)| {

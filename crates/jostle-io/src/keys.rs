@@ -71,6 +71,8 @@ pub(crate) enum Section {
     StopSide,
     Integrator,
     Damping,
+    /// Columns of a frame that fail in shear.
+    ShearFailure,
     /// Hinges of a frame.
     Hinges,
     /// Hinges of columns or of beams.
@@ -262,6 +264,8 @@ pub(crate) const INTEGRATORS: &[&str] = names!(IntegratorMethod);
 pub(crate) const AXIAL: &[&str] = &["rigid", "flexible"];
 pub(crate) const RESTITUTION_IS: &[&str] = names!(RestitutionIs);
 pub(crate) const RULES: &[&str] = names!(HysteresisRule);
+/// Where shear springs of columns stand.
+pub(crate) const SHEAR_ENDS: &[&str] = &["foot", "both"];
 pub(crate) const HINGE_SOURCES: &[&str] = &["section"];
 pub(crate) const HINGE_METHODS: &[&str] = &["formula", "fibre"];
 pub(crate) const WAVES: &[&str] = &["sine", "ricker"];
@@ -461,6 +465,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Frame, "poisson_ratio", Quantity(D::Dimensionless), "0.2", "Poisson's ratio, for the shear modulus."),
     optional(S::Frame, "joint", Kind::Table(S::Joint), "Elastic hinge at the beam ends."),
     optional(S::Frame, "hinges", Kind::Table(S::Hinges), "Plastic hinges at the member ends; without them the frame is elastic."),
+    optional(S::Frame, "shear_failure", Kind::Table(S::ShearFailure), "Lets columns fail in shear; without it their shear strength has no limit."),
 
     default(S::Shear, "base", WordOrTable("fixed", &[S::ShearBase]), "\"fixed\"", "Horizontal spring and dashpot under the building."),
     optional(S::Shear, "isolation", Kind::Table(S::Isolation), "Bearings and a mat under the building, instead of base; in one plane."),
@@ -640,6 +645,11 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Damping, "alpha", Quantity(D::Frequency), "Rayleigh coefficient on the masses, instead of ratio."),
     optional(S::Damping, "beta", Quantity(D::Time), "Rayleigh coefficient on the stiffness, instead of ratio."),
 
+    optional(S::ShearFailure, "rule", Choice(CAPACITY_RULES), "Rule for the shear strength of columns with bars and ties, under their axial load."),
+    optional(S::ShearFailure, "strength", PerStorey(D::Force), "Shear strength of the columns, instead of rule."),
+    default(S::ShearFailure, "slope", PerStorey(D::Stiffness), "by Elwood and Moehle, from their axial load and ties", "Shear that a column loses per drift after failure; required with strength."),
+    default(S::ShearFailure, "residual", Quantity(D::Dimensionless), "0", "Shear strength that remains, over that at failure."),
+    default(S::ShearFailure, "ends", Choice(SHEAR_ENDS), "both where neighbours can strike a column between floors", "Where shear springs stand."),
     required(S::Hinges, "rule", Choice(RULES), "Unloading and reloading rule of hinges."),
     default(S::Hinges, "gamma", Quantity(D::Dimensionless), "0.4", "Exponent of the unloading stiffness of takeda."),
     optional(S::Hinges, "pinching", Kind::Table(S::Pinching), "Where reloading stiffens; required with the rule pinched."),

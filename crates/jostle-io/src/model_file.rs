@@ -28,6 +28,7 @@ mod plan_frames;
 mod reinforced;
 mod section;
 mod shear;
+mod shear_failure;
 mod site;
 mod soil;
 mod space_frame;
@@ -568,6 +569,7 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Parts>
     }
     let site = reader.get(&view, "site");
     let north = site.and_then(|field| site::read(reader, &field, model.is_in_space()));
+    shear_failure::add_heads(&mut model, reader, &view);
     capacity::fill(&mut model, &capacity, &reinforced);
     Some(Parts {
         model,

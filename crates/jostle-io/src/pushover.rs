@@ -85,6 +85,8 @@ fn curve_json(one: &PushedBuilding, curve: &Pushover) -> Value {
     };
     let springs = one.building.equations.springs.len();
     let [cracked, yielded] = curve.counts(springs);
+    let places = one.building.discretization.spring_places.iter();
+    let shear = places.filter(|place| place.is_shear()).count();
     json!({
         "building": one.building.name,
         "direction": curve.settings.direction.name(),
@@ -93,9 +95,10 @@ fn curve_json(one: &PushedBuilding, curve: &Pushover) -> Value {
         "height_m": curve.height,
         "weight_n": curve.weight,
         "floor_loads": curve.floor_loads,
-        "hinges": springs,
+        "hinges": springs - shear,
         "hinges_cracked": cracked,
         "hinges_yielded": yielded,
+        "shear_failures": curve.failures(),
         "end": { "target_reached": curve.end == PushEnd::Target, "reason": curve.end.to_string() },
         "first_crack": curve.first(Stage::Cracked).map(place),
         "first_yield": curve.first(Stage::Yielded).map(place),

@@ -108,6 +108,7 @@ const TABLES: &[(Section, &str, &str)] = &[
     (Section::BaseRocking, "`base.rotational_hinge`", ""),
     (Section::BaseSliding, "`base.horizontal_hinge`", ""),
     (Section::Damping, "`damping`", ""),
+    (Section::ShearFailure, "`shear_failure` of a frame", ""),
     (Section::Hinges, "`hinges` of a frame", ""),
     (Section::Hinge, "`hinges.column`, `hinges.beam`", ""),
     (

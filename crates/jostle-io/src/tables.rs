@@ -7,8 +7,8 @@ use jostle::history::MemberHistory;
 use jostle::hysteresis::Side;
 use jostle::quantity::Read;
 use jostle::results::summary::{
-    AcrossSummary, ContactSummary, ImpactSummary, MemberSummary, RatioPlace, RatioSummary,
-    SectionSummary, SpringSummary,
+    AcrossSummary, AxialFailureSummary, ContactSummary, ImpactSummary, MemberSummary, RatioPlace,
+    RatioSummary, SectionSummary, SpringSummary,
 };
 use jostle::results::{member_name, section_name};
 use jostle::structure::{BaseMotion, MemberEnd, SectionAt, SpringPlace};
@@ -211,9 +211,9 @@ pub fn encode_values_parquet(
 
 /// Writes what can crack and yield: one row per hinge or storey spring, building by building, touched or not.
 ///
-/// `kind` is `column`, `beam` or `storey`; `level` is the storey of a column, the floor of a beam; `line` is the
+/// `kind` is `column`, `beam`, `column shear` or `storey`; `level` is the storey of a column, the floor of a beam; `line` is the
 /// column line or the bay, absent for storeys; `end` is `foot`, `head`, `left`, `right` or empty. Deformations are in
-/// rad (m for storeys), forces in N·m (N for storeys).
+/// rad (m for shear of columns and for storeys), forces in N·m (N there).
 ///
 /// # Errors
 /// [`OutputError`] with path and reason.
@@ -302,93 +302,90 @@ pub fn member_columns(summary: &Summary, building: Option<usize>) -> Vec<(&'stat
     columns
 }
 
-/// The columns of the table of demands over capacities: one row per member and rule, the governing rule first; no rows where no
-/// capacity is known. `building`: those of one building only.
+/// A row of the table of demands over capacities.
+struct CapacityRow<'a> {
+    member: &'a str,
+    rule: &'static str,
+    shear: Option<(f64, &'a RatioPlace)>,
+    /// Of columns and beams.
+    bending: Option<(f64, &'a RatioPlace)>,
+    axial_failure: Option<AxialFailureSummary>,
+}
+
+/// The columns of the table of demands over capacities: one row per member and rule, the governing rule first, then one per
+/// beam–column joint and rule, building by building; no rows where no capacity is known. Joints have no bending. `building`:
+/// those of one building only.
 #[must_use]
 pub fn capacity_columns(summary: &Summary, building: Option<usize>) -> Vec<(&'static str, Values)> {
-    let mut rows: Vec<(&MemberSummary, &RatioSummary)> = Vec::new();
+    let mut rows: Vec<CapacityRow<'_>> = Vec::new();
     for (index, own) in summary.buildings.iter().enumerate() {
         if building.is_some_and(|building| building != index) {
             continue;
         }
         for member in &own.members {
             let ratios = member.ratio.iter().chain(&member.other_ratios);
-            rows.extend(ratios.map(|ratio| (member, ratio)));
+            rows.extend(ratios.map(|ratio| CapacityRow {
+                member: &member.name,
+                rule: ratio.rule,
+                shear: ratio.shear.zip(ratio.shear_at.as_ref()),
+                bending: Some((ratio.bending, &ratio.bending_at)),
+                axial_failure: member.axial_failure,
+            }));
+        }
+        for joint in &own.joints {
+            let ratios = joint.ratio.iter().chain(&joint.other_ratios);
+            rows.extend(ratios.map(|ratio| CapacityRow {
+                member: &joint.name,
+                rule: ratio.rule,
+                shear: Some((ratio.shear, &ratio.shear_at)),
+                bending: None,
+                axial_failure: None,
+            }));
         }
     }
-    let text = |of: fn(&MemberSummary, &RatioSummary) -> String| {
-        Values::Text(
-            rows.iter()
-                .map(|(member, ratio)| of(member, ratio))
-                .collect(),
-        )
-    };
-    let maybe = |of: fn(&MemberSummary, &RatioSummary) -> Option<f64>| {
-        Values::Instant(
-            rows.iter()
-                .map(|(member, ratio)| of(member, ratio))
-                .collect(),
-        )
-    };
-    let at =
-        |place: Option<&RatioPlace>| place.map_or_else(String::new, |place| place.at.to_owned());
+    let text = |of: fn(&CapacityRow<'_>) -> String| Values::Text(rows.iter().map(of).collect());
+    let maybe =
+        |of: fn(&CapacityRow<'_>) -> Option<f64>| Values::Instant(rows.iter().map(of).collect());
     vec![
-        ("member", text(|member, _| member.name.clone())),
-        ("rule", text(|_, ratio| ratio.rule.to_owned())),
-        ("shear_ratio", maybe(|_, ratio| ratio.shear)),
-        (
-            "shear_at_s",
-            maybe(|_, ratio| Some(ratio.shear_at.as_ref()?.at_s)),
-        ),
-        (
-            "shear_end",
-            Values::Text(rows.iter().map(|(_, r)| at(r.shear_at.as_ref())).collect()),
-        ),
-        (
-            "shear_capacity_n",
-            maybe(|_, ratio| Some(ratio.shear_at.as_ref()?.capacity)),
-        ),
-        (
-            "shear_exceeded_s",
-            maybe(|_, ratio| ratio.shear_at.as_ref()?.exceeded_s),
-        ),
-        (
-            "shear_impact_s",
-            maybe(|_, ratio| Some(ratio.shear_at.as_ref()?.impact.as_ref()?.start_s)),
-        ),
-        ("bending_ratio", maybe(|_, ratio| Some(ratio.bending))),
-        (
-            "bending_at_s",
-            maybe(|_, ratio| Some(ratio.bending_at.at_s)),
-        ),
-        (
-            "bending_end",
-            Values::Text(rows.iter().map(|(_, r)| at(Some(&r.bending_at))).collect()),
-        ),
+        ("member", text(|row| row.member.to_owned())),
+        ("rule", text(|row| row.rule.to_owned())),
+        ("shear_ratio", maybe(|row| Some(row.shear?.0))),
+        ("shear_at_s", maybe(|row| Some(row.shear?.1.at_s))),
+        ("shear_end", text(|row| end_of(row.shear))),
+        ("shear_capacity_n", maybe(|row| Some(row.shear?.1.capacity))),
+        ("shear_exceeded_s", maybe(|row| row.shear?.1.exceeded_s)),
+        ("shear_impact_s", maybe(|row| impact_of(row.shear))),
+        ("bending_ratio", maybe(|row| Some(row.bending?.0))),
+        ("bending_at_s", maybe(|row| Some(row.bending?.1.at_s))),
+        ("bending_end", text(|row| end_of(row.bending))),
         (
             "bending_capacity_n_m",
-            maybe(|_, ratio| Some(ratio.bending_at.capacity)),
+            maybe(|row| Some(row.bending?.1.capacity)),
         ),
-        (
-            "bending_exceeded_s",
-            maybe(|_, ratio| ratio.bending_at.exceeded_s),
-        ),
-        (
-            "bending_impact_s",
-            maybe(|_, ratio| Some(ratio.bending_at.impact.as_ref()?.start_s)),
-        ),
+        ("bending_exceeded_s", maybe(|row| row.bending?.1.exceeded_s)),
+        ("bending_impact_s", maybe(|row| impact_of(row.bending))),
         (
             "axial_failure_drift",
-            maybe(|member, _| Some(member.axial_failure?.drift)),
+            maybe(|row| Some(row.axial_failure?.drift)),
         ),
         (
             "axial_failure_ratio",
-            maybe(|member, _| Some(member.axial_failure?.ratio)),
+            maybe(|row| Some(row.axial_failure?.ratio)),
         ),
     ]
 }
 
-/// Writes demands over capacities of columns and beams; see [`capacity_columns`].
+/// Section of a greatest ratio: an end of a member, or the core of a joint.
+fn end_of(ratio: Option<(f64, &RatioPlace)>) -> String {
+    ratio.map_or_else(String::new, |(_, place)| place.at.to_owned())
+}
+
+/// Start of the impact during which a ratio was greatest.
+fn impact_of(ratio: Option<(f64, &RatioPlace)>) -> Option<f64> {
+    Some(ratio?.1.impact.as_ref()?.start_s)
+}
+
+/// Writes demands over capacities of columns, beams and joints; see [`capacity_columns`].
 ///
 /// # Errors
 /// [`OutputError`] when the file cannot be written.
@@ -504,6 +501,13 @@ fn parts(place: Option<SpringPlace>) -> (&'static str, Option<usize>, Option<usi
                 MemberEnd::Last => "right",
             };
             ("beam", Some(floor), Some(bay), end)
+        }
+        Some(SpringPlace::Shear { storey, line, end }) => {
+            let end = match end {
+                MemberEnd::First => "foot",
+                MemberEnd::Last => "head",
+            };
+            ("column shear", Some(storey), Some(line), end)
         }
         Some(SpringPlace::Storey { storey }) => ("storey", Some(storey), None, ""),
         Some(SpringPlace::Base { line, motion }) => {

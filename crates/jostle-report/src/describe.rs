@@ -135,6 +135,12 @@ fn building(
             ));
         }
     }
+    if let Some(failures) = summary.and_then(|summary| summary.shear_failures.as_ref()) {
+        facts.push((
+            message::columns_that_failed_in_shear(),
+            message::failed_of_all(failures.failed, failures.total),
+        ));
+    }
     facts.extend(special::facts(building));
     facts.extend(special::sections(page, index));
     html! {
@@ -244,7 +250,10 @@ fn tiers_facts(tiers: &jostle::Tiers, facts: &mut Facts) {
         let columns = columns.filter(|own| matches!(own.place, jostle::SpacePlace::Column { .. }));
         let columns = columns.count();
         let beams = frame.members.len() - columns;
-        facts.push((message::columns_and_beams(), message::columns_and_beams_count(columns, beams)));
+        facts.push((
+            message::members_of_the_frame(),
+            message::columns_and_beams_count(columns, beams),
+        ));
     }
     if tiers.storeys.is_empty() {
         return;

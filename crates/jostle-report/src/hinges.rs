@@ -44,7 +44,7 @@ pub(crate) fn places(model: &Model) -> Vec<Place> {
                     hysteresis,
                 });
             }
-            // Springs of bearings count, but are shown elsewhere.
+            // Springs of bearings and shear of columns count, but are shown elsewhere.
             count += 1;
         }
     }
@@ -77,6 +77,7 @@ pub(crate) fn slides(at: SpringPlace) -> bool {
     matches!(
         at,
         SpringPlace::Storey { .. }
+            | SpringPlace::Shear { .. }
             | SpringPlace::Base {
                 motion: BaseMotion::Sliding,
                 ..
@@ -90,6 +91,7 @@ pub(crate) fn coordinates(at: SpringPlace) -> (char, usize, usize, usize) {
     match at {
         SpringPlace::Column { storey, line, end } => ('c', storey, line, last(end)),
         SpringPlace::Beam { floor, bay, end } => ('b', floor, bay, last(end)),
+        SpringPlace::Shear { storey, line, end } => ('v', storey, line, last(end)),
         SpringPlace::Storey { storey } => ('s', storey, 0, 0),
         SpringPlace::Base { line, motion } => {
             ('f', 0, line, usize::from(motion == BaseMotion::Sliding))

@@ -32,6 +32,7 @@ mod plan_motion;
 mod pushover;
 mod section;
 mod selection;
+mod shear_failures;
 mod site_drawing;
 mod site_places;
 mod site_plan;

@@ -9,7 +9,7 @@ use crate::site_drawing::SITE_STYLE;
 use crate::verdict::{closest_approach, nearest, peak_closing, verdict};
 use crate::{
     Page, calculation, contact_box, describe, devices, floor_spectra, format, friction, grounds,
-    hinges, joints, members, method, payload, site_plan, spread, tables,
+    hinges, joints, members, method, payload, shear_failures, site_plan, spread, tables,
 };
 
 /// The scripts, in the order of their dependence; together they are one module.
@@ -80,6 +80,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                         p.note { (message::no_time_histories_were_recorded()) }
                     }
                     @if let Some(hinges) = hinges::section(page) { (hinges) }
+                    @if let Some(failures) = shear_failures::section(page) { (failures) }
                     @if let Some(devices) = devices::section(page) { (devices) }
                     section #impacts {
                         h2 { (message::impacts_title()) }

@@ -337,7 +337,11 @@ fn hinge_data(page: &Page, places: &[Place]) -> Vec<HingeData> {
         .collect();
     let short = |t: f64| (t * 1e4).round() / 1e4;
     for (place, spring) in order {
-        let entry = &mut data[place.spring];
+        // Springs shown elsewhere are counted, but have no entry.
+        let Some(index) = places.iter().position(|own| own.spring == place.spring) else {
+            continue;
+        };
+        let entry = &mut data[index];
         entry.5 = spring.cracked_s.map(short);
         entry.6 = spring.yielded_s.map(short);
         entry.7 = (spring.ductility * 1e3).round() / 1e3;

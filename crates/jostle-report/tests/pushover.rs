@@ -61,6 +61,7 @@ fn frame(name: &str) -> BuildingSystem {
         hinges: Some(Hinges::Frame(FrameHinges {
             columns: vec![vec![hinge; 3]; 2],
             beams: vec![vec![hinge; 2]; 2],
+            ..FrameHinges::default()
         })),
     };
     let mut system = BuildingSystem::new(name, Discretization::new(&building));

@@ -58,6 +58,7 @@ fn write_all(text: &mut String, summary: &Summary, result: Option<&Path>) -> std
     write_isolation(text, summary)?;
     write_foundations(text, summary)?;
     write_hinges(text, &summary.buildings)?;
+    write_shear_failures(text, &summary.buildings)?;
     write_capacity(text, &summary.buildings)?;
     for gap in &summary.gaps {
         write_gap(text, gap, summary)?;
@@ -306,6 +307,44 @@ fn write_hinges(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::R
             "{between}{} yields at {} of {} places{first}; cracked: {}",
             building.name, hinges.yielded, hinges.total, hinges.cracked
         )?;
+        between = "";
+    }
+    Ok(())
+}
+
+/// Columns that failed in shear, one line for every building where they can.
+fn write_shear_failures(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::Result {
+    let mut between = "\n";
+    for building in buildings {
+        let Some(failures) = &building.shear_failures else {
+            continue;
+        };
+        let count = format!("{} of {}", failures.failed, failures.total);
+        match failures.list.first() {
+            Some(first) => {
+                let during = first.impact.as_ref().map_or_else(String::new, |impact| {
+                    let [left, right] = &impact.between;
+                    format!(
+                        ", during the impact of {left} and {right} from {:.3} s",
+                        impact.start_s
+                    )
+                });
+                writeln!(
+                    text,
+                    "{between}{} {}, first {} at its {}, t = {:.3} s{during}",
+                    building.name,
+                    styled(LOUD, &format!("fails in shear in {count} columns")),
+                    first.column,
+                    first.at,
+                    first.failed_s
+                )?;
+            }
+            None => writeln!(
+                text,
+                "{between}{}: none of {} columns fails in shear",
+                building.name, failures.total
+            )?,
+        }
         between = "";
     }
     Ok(())

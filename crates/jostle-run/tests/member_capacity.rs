@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use jostle::{Column, EnergyTerm, Settings};
-use jostle_io::{Format, read_model_text, summary_json};
+use jostle_io::{Format, Values, read_model_text, summary_json};
 use jostle_run::{Content, Opened, Ran, summary_text};
 
 const MODEL: &str = r#"
@@ -192,6 +192,32 @@ fn a_run_says_which_member_goes_first() {
         building["members"][0]["axial_failure"]["drift"]
             .as_f64()
             .is_some_and(|d| (0.005..0.1).contains(&d))
+    );
+    // The table has the joints below the members of their building, in shear only.
+    let columns = jostle_io::capacity_columns(&summary, Some(0));
+    let of = |name: &str| {
+        let mut all = columns.iter();
+        let found = all.find(|(own, _)| *own == name);
+        &found.unwrap_or_else(|| panic!("no column {name}")).1
+    };
+    let (Values::Text(names), Values::Instant(shear), Values::Instant(bending)) =
+        (of("member"), of("shear_ratio"), of("bending_ratio"))
+    else {
+        panic!("other types")
+    };
+    let joints: Vec<usize> = (0..names.len())
+        .filter(|row| names[*row].starts_with("J1.joint."))
+        .collect();
+    // Three rules have a clause for joints.
+    assert_eq!(joints.len(), 3 * summary.buildings[0].joints.len());
+    assert_eq!(joints.first(), Some(&(names.len() - joints.len())));
+    let first = &summary.buildings[0].joints[0];
+    assert_eq!(names[joints[0]], first.name);
+    assert_eq!(shear[joints[0]], first.ratio.as_ref().map(|own| own.shear));
+    assert!(
+        joints
+            .iter()
+            .all(|row| bending[*row].is_none() && shear[*row].is_some())
     );
     let (report, names) = written(&ran, "elastic");
     assert!(

@@ -5,7 +5,7 @@ use jostle::results::in_plan::{BuildingInPlan, FloorInPlan};
 use jostle::results::response::{BuildingResponse, FloorResponse};
 use jostle::results::summary::{
     BuildingSummary, CapacitySummary, ContactSummary, EnergySummary, GapSummary, LinkSummary,
-    MotionSummary, WorkSummary,
+    MotionSummary, ShearFailureSummary, WorkSummary,
 };
 use jostle::{GroundMotion, Quantity, Summary, Wave};
 use jostle_motion::{Accelerogram, Reading, response_spectrum};
@@ -141,6 +141,10 @@ fn building_measures(list: &mut List, building: &BuildingSummary, sa: Option<f64
     if let Some(capacity) = &building.capacity {
         let place = format!("{place}capacity_");
         list.add(&place, CapacitySummary::QUANTITIES, capacity);
+    }
+    if let Some(failures) = &building.shear_failures {
+        let place = format!("{place}shear_failures_");
+        list.add(&place, ShearFailureSummary::QUANTITIES, failures);
     }
     for floor in &building.floors {
         let place = format!("{place}floor{}.", floor.floor);

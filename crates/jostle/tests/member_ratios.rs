@@ -395,6 +395,7 @@ fn ductility_lowers_the_shear_capacity() {
     model.buildings[0].hinges = Some(Hinges::Frame(FrameHinges {
         columns: vec![vec![hinge(1.5e8, 3.2); 3]; 3],
         beams: Vec::new(),
+        ..FrameHinges::default()
     }));
     let (system, outcome, summary) = run(&model, Solver::Riccati);
     let hinges = &summary.buildings[0].hinges;

@@ -104,6 +104,7 @@ impl Materials {
                 let at = backbone.side(side).yielding.deformation;
                 Ok(self.gap(backbone.initial(), at, side.sign()))
             }
+            HysteresisRule::Failing(_) => Err("shear_failure"),
             rule @ (HysteresisRule::Takeda { .. }
             | HysteresisRule::DegradingTrilinear
             | HysteresisRule::Sliding { .. }) => Err(rule.name()),

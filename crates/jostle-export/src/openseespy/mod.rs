@@ -79,6 +79,15 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
                 "is not exported yet; leave it and [soil] out to compare the buildings on rigid ground".into(),
             );
         }
+        if let Some(Hinges::Frame(hinges)) = &building.hinges
+            && !hinges.shear.is_empty()
+        {
+            refuse(
+                format!("building[{index}].shear_failure"),
+                "is not exported yet; leave it out to compare the building before its columns fail"
+                    .into(),
+            );
+        }
         let of_members = match &building.hinges {
             None => None,
             Some(Hinges::Frame(hinges)) => {

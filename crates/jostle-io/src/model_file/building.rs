@@ -8,7 +8,7 @@ use std::path::Path;
 
 use super::damper::{self, Damper};
 use super::reinforced::{self, ReinforcedMember};
-use super::{codes, frame, given, hinges, isolation, plan, shear, soil};
+use super::{codes, frame, given, hinges, isolation, plan, shear, shear_failure, soil};
 use crate::keys::{BUILDING_KINDS, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
@@ -286,8 +286,21 @@ fn read(
                 let factors = reader.quietly(|reader| frame::stiffness_factors(reader, &view));
                 warn_of_cracking_twice(reader, field, hinges, factors);
             }
+            let failing = reader
+                .get(&view, "shear_failure")
+                .map(|field| shear_failure::read(reader, &field, frame, here.as_deref()));
             members.extend(here.unwrap_or_default());
-            hinges
+            match failing.flatten() {
+                Some(shear) => {
+                    let mut all = match hinges {
+                        Some(Hinges::Frame(hinges)) => hinges,
+                        _ => FrameHinges::default(),
+                    };
+                    all.shear = shear;
+                    Some(Hinges::Frame(all))
+                }
+                None => hinges,
+            }
         }
     };
     Some(building)

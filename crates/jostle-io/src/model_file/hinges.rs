@@ -183,6 +183,7 @@ pub(super) fn read_frame(
     Some(Hinges::Frame(FrameHinges {
         columns: columns?,
         beams: beams?,
+        ..FrameHinges::default()
     }))
 }
 

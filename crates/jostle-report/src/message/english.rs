@@ -95,7 +95,7 @@ messages! {
     // describe
     grid_lines_at_x = "lines at x";
     grid_lines_at_y = "lines at y";
-    columns_and_beams = "columns and beams";
+    members_of_the_frame = "columns and beams";
     columns_and_beams_count(columns, beams) = "{columns} and {beams}";
     gap_between(left, right) = "Gap {left}–{right}";
     links_between(left, right) = "Links {left}–{right}";
@@ -576,7 +576,7 @@ messages! {
     drift = "drift [%]";
     the_load_pattern_is_constant = "The load pattern is constant and the roof displacement is prescribed; base shear is the sum of the load. Displacements are relative to the state at rest and positive in the direction of the load.";
     hinges_are_linear_between = "Hinges are linear between their corners, so the curve is linear between events and independent of any step size.";
-    the_curve_falls_where_p = "The curve falls where P-Delta exceeds the hardening of hinges. It ends at the target drift, where no resistance is left, or where a part fails although the roof is restrained.";
+    the_curve_falls_where_p = "The curve falls where P-Delta exceeds the hardening of hinges, or where columns that failed in shear lose their strength. It ends at the target drift, where no resistance is left, or where a part fails although the roof is restrained.";
     a_hinge_cracks_or_yields = "A hinge cracks or yields when it first passes that point of its backbone on either side. A hinge that reloads passes a corner.";
     a_pushover_shows_strength = "A pushover shows strength and the order of yielding under one load. It does not include higher modes, cycles or impacts.";
 
@@ -1000,4 +1000,19 @@ messages! {
     click_a_cell = "Click a cell, or use the arrow keys, to set both values.";
     cursor_of_the_map = "cursor of the map";
     no_connection_to_jostle = "No connection to jostle. If it has ended, start it again. Reconnecting …";
+
+    // shear_failures
+    columns_that_fail_in_shear = "Columns that fail in shear";
+    columns_failed_in_shear(name, failed, total, first, dissipated) = "{name}: {failed} of {total} columns fail in shear, first at {first}; {dissipated} dissipated.";
+    no_column_fails_in_shear(name, total) = "{name}: none of {total} columns fails in shear.";
+    strength_left = "strength left";
+    first_shear_failures(most_rows, all) = "The first {most_rows} of {all}; summary.json contains all of them.";
+    in_order_of_time_by_building = "In order of time, building by building.";
+    during_the_impact_of = "during the impact of";
+    both_at_height_from(left, right, height, start) = "{left} and {right} at {height} m, from {start}";
+    columns_that_failed_in_shear = "columns that failed in shear";
+    failed_of_all(failed, all) = "{failed} of {all}";
+    strength = "strength";
+    column = "column";
+    hinges_and_columns = "hinges and columns";
 }

@@ -297,7 +297,7 @@ fn events(one: &PushedBuilding, index: usize, curve: &Pushover) -> Markup {
                 div.scroll.tall {
                     table.events {
                         thead { tr {
-                            th.number { (message::roof_mm()) } th.number { (message::drift()) } th.number { (message::base_shear_kn()) } th.number { (message::of_weight()) } th { (message::hinges()) }
+                            th.number { (message::roof_mm()) } th.number { (message::drift()) } th.number { (message::base_shear_kn()) } th.number { (message::of_weight()) } th { (message::hinges_and_columns()) }
                         } }
                         tbody {
                             @for point in curve.points.iter().filter(|point| !point.events.is_empty()) {

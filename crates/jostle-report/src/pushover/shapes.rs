@@ -71,14 +71,26 @@ fn hinges(one: &PushedBuilding) -> Vec<Value> {
     ends.zip(places)
         .map(|([a, b], place)| {
             let [dx, dy] = match place {
-                Some(SpringPlace::Column {
-                    end: MemberEnd::First,
-                    ..
-                }) => [0, 1],
-                Some(SpringPlace::Column {
-                    end: MemberEnd::Last,
-                    ..
-                }) => [0, -1],
+                Some(
+                    SpringPlace::Column {
+                        end: MemberEnd::First,
+                        ..
+                    }
+                    | SpringPlace::Shear {
+                        end: MemberEnd::First,
+                        ..
+                    },
+                ) => [0, 1],
+                Some(
+                    SpringPlace::Column {
+                        end: MemberEnd::Last,
+                        ..
+                    }
+                    | SpringPlace::Shear {
+                        end: MemberEnd::Last,
+                        ..
+                    },
+                ) => [0, -1],
                 Some(SpringPlace::Beam {
                     end: MemberEnd::First,
                     ..
@@ -116,7 +128,9 @@ fn curve(one: &PushedBuilding, curve: &Pushover) -> Value {
         for event in &point.events {
             match event.kind {
                 PushEventKind::Cracks => stages[event.spring][0] = Some(point.roof),
-                PushEventKind::Yields => stages[event.spring][1] = Some(point.roof),
+                PushEventKind::Yields | PushEventKind::Fails => {
+                    stages[event.spring][1] = Some(point.roof);
+                }
                 PushEventKind::Turns => {}
             }
         }

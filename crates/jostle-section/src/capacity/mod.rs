@@ -12,10 +12,12 @@ mod interaction;
 mod joint;
 mod lines;
 mod sezen_moehle;
+mod shear_failure;
 
 pub use axial_failure::drift_at_axial_failure;
 pub use interaction::Interaction;
 pub use joint::{JointStrength, RatedJoint};
+pub use shear_failure::{NoShearLoss, ShearLoss};
 
 use crate::concrete::StrengthLevel;
 use crate::formula::{self, Member};

@@ -13,7 +13,7 @@ use members::check_members;
 use neighbours::check_neighbours;
 
 use crate::model::{
-    Base, Building, Damping, Frame, Hinges, Model, ModelFault, Shear, Structure, WALL,
+    Base, Building, Damping, Frame, Hinges, Model, ModelFault, Shear, ShearSpring, Structure, WALL,
 };
 
 /// Collects faults under the path of the part being checked.
@@ -236,6 +236,25 @@ fn check_hinges(faults: &mut Faults, path: &str, hinges: &Hinges, structure: &St
     match (hinges, structure) {
         (Hinges::Frame(hinges), Structure::Frame(frame)) => {
             let storeys = frame.storey_heights.len();
+            let fits = |rows: &[Vec<ShearSpring>]| {
+                rows.len() == storeys && rows.iter().all(|row| row.len() == frame.spans.len() + 1)
+            };
+            faults.require(
+                hinges.shear.is_empty() || fits(&hinges.shear),
+                format!("{path}.shear"),
+                || {
+                    format!(
+                        "needs {} shear springs in each of {storeys} storeys, or none at all",
+                        frame.spans.len() + 1
+                    )
+                },
+            );
+            let mut shear = hinges.shear.iter().flatten();
+            faults.require(
+                shear.all(|column| column.spring.falling_branch().is_some()),
+                format!("{path}.shear"),
+                || "takes springs that lose their strength, from Hysteresis::failing".into(),
+            );
             let members = [
                 ("column", &hinges.columns, frame.spans.len() + 1),
                 ("beam", &hinges.beams, frame.spans.len()),

@@ -25,6 +25,8 @@ pub struct HysteresisMemory {
     /// Start of the present line of a pinched spring, and the work done until there.
     pub(super) line: Corner,
     pub(super) worked: f64,
+    /// Strength of a spring that fails, once lowered; 0 before \[N\].
+    pub(super) strength: f64,
     /// Slope of the last unloading.
     pub(super) unloading: f64,
     pub(super) branch: Branch,

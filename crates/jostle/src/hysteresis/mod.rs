@@ -24,6 +24,7 @@
 
 mod backbone;
 mod degrading;
+mod failing;
 mod friction;
 mod memory;
 mod oriented;
@@ -32,6 +33,7 @@ mod rule;
 mod sliders;
 
 pub use backbone::{Backbone, BackboneSide, Corner, Corners, Quantity, Side, SpringFault};
+pub use failing::FallingBranch;
 pub use friction::Rates;
 pub use memory::{HysteresisMemory, Response, Stage};
 pub use pinched::{GREATEST_DAMAGE, Pinching, energy_to_yield};

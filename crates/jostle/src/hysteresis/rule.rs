@@ -1,8 +1,9 @@
 //! A rule on a backbone: the restoring force as a pure function of memory and deformation.
 
-use super::backbone::{Backbone, Corners, Quantity, Side, SpringFault};
+use super::backbone::{Backbone, Corner, Corners, Quantity, Side, SpringFault};
+use super::failing::{self, FallingBranch};
 use super::friction::{Rates, Strength};
-use super::memory::{HysteresisMemory, Response, Stage};
+use super::memory::{Branch, HysteresisMemory, Response, Stage};
 use super::pinched::{self, Pinching};
 use super::{degrading, oriented, sliders};
 
@@ -47,6 +48,9 @@ pub enum HysteresisRule {
     /// Loads towards the peaks in two lines, the first one softer: timber, masonry, concrete that slips (OpenSees'
     /// `Hysteretic`, Scott and Filippou).
     Pinched(Pinching),
+    /// Elastic to the yield force, then falling to a residual force: columns that fail in shear;
+    /// [`Hysteresis::failing`] makes it.
+    Failing(FallingBranch),
 }
 
 impl HysteresisRule {
@@ -78,9 +82,11 @@ impl HysteresisRule {
             | Self::Normal
             | Self::PeakOriented
             | Self::DegradingTrilinear => false,
-            Self::Takeda { .. } | Self::Sliding { .. } | Self::Stop { .. } | Self::Pinched(_) => {
-                true
-            }
+            Self::Takeda { .. }
+            | Self::Sliding { .. }
+            | Self::Stop { .. }
+            | Self::Pinched(_)
+            | Self::Failing(_) => true,
         }
     }
 
@@ -96,7 +102,8 @@ impl HysteresisRule {
             | Self::Takeda { .. }
             | Self::DegradingTrilinear
             | Self::Stop { .. }
-            | Self::Pinched(_) => false,
+            | Self::Pinched(_)
+            | Self::Failing(_) => false,
         }
     }
 
@@ -113,6 +120,7 @@ impl HysteresisRule {
             Self::Sliding { .. } => "friction",
             Self::Stop { .. } => "stop",
             Self::Pinched(_) => "pinched",
+            Self::Failing(_) => "failing",
         }
     }
 }
@@ -241,6 +249,83 @@ impl Hysteresis {
         Ok(Self { rule, backbone })
     }
 
+    /// A spring of this stiffness \[N/m\] that is elastic to a strength \[N\], equal in both directions, and loses it from
+    /// there on.
+    ///
+    /// # Errors
+    /// Numbers that are not positive, or a residual force that is not below the strength.
+    pub fn failing(
+        stiffness: f64,
+        strength: f64,
+        falling: FallingBranch,
+    ) -> Result<Self, Vec<SpringFault>> {
+        let corners = Corners::bilinear(strength, 0.0);
+        let backbone = Backbone::from_forces(stiffness, corners, corners)?;
+        match falling.fault(strength) {
+            None => Ok(Self {
+                rule: HysteresisRule::Failing(falling),
+                backbone,
+            }),
+            Some(problem) => Err(vec![SpringFault {
+                quantity: Quantity::Rule,
+                side: None,
+                problem,
+            }]),
+        }
+    }
+
+    /// What happens beyond the strength, for a spring that loses it.
+    #[must_use]
+    pub fn falling_branch(&self) -> Option<FallingBranch> {
+        match self.rule {
+            HysteresisRule::Failing(falling) => Some(falling),
+            _ => None,
+        }
+    }
+
+    /// Failure and the end of the falling branch of a spring that loses its strength, as magnitudes, with its strength as
+    /// lowered so far.
+    #[must_use]
+    pub fn failure_corners(&self, memory: &HysteresisMemory) -> Option<[Corner; 2]> {
+        let falling = self.falling_branch()?;
+        Some(failing::corners(&self.backbone, &falling, memory))
+    }
+
+    /// Force that a spring that loses its strength can still bear, as far as it was deformed \[N\]; the yield force of others.
+    #[must_use]
+    pub fn strength_left(&self, memory: &HysteresisMemory) -> f64 {
+        match self.rule {
+            HysteresisRule::Failing(falling) => {
+                failing::strength_left(&self.backbone, &falling, memory)
+            }
+            _ => self.backbone.yield_force(),
+        }
+    }
+
+    /// Lowers the strength of a spring that may fail \[N\], not below its present force, and not after failure. Other springs
+    /// stay as they are.
+    pub fn weaken(&self, memory: &mut HysteresisMemory, strength: f64) {
+        if let HysteresisRule::Failing(_) = self.rule {
+            failing::weaken(&self.backbone, memory, strength);
+        }
+    }
+
+    /// Smallest slope of any of its lines, negative where it can fall \[N·m/rad or N/m\].
+    #[must_use]
+    pub fn least_tangent(&self) -> f64 {
+        match self.rule {
+            HysteresisRule::Failing(falling) => -falling.slope,
+            HysteresisRule::Stop { .. } | HysteresisRule::Sliding { .. } => 0.0,
+            HysteresisRule::Elastic => self.backbone.initial(),
+            HysteresisRule::Bilinear
+            | HysteresisRule::Normal
+            | HysteresisRule::PeakOriented
+            | HysteresisRule::Takeda { .. }
+            | HysteresisRule::DegradingTrilinear
+            | HysteresisRule::Pinched(_) => 0.0,
+        }
+    }
+
     /// Slope at the origin \[N·m/rad or N/m\].
     #[must_use]
     pub fn initial_tangent(&self) -> f64 {
@@ -253,6 +338,7 @@ impl Hysteresis {
             | HysteresisRule::Takeda { .. }
             | HysteresisRule::DegradingTrilinear
             | HysteresisRule::Pinched(_)
+            | HysteresisRule::Failing(_)
             | HysteresisRule::Sliding { .. } => self.backbone.initial(),
         }
     }
@@ -335,6 +421,9 @@ impl Hysteresis {
             HysteresisRule::Stop { side } => stop(&self.backbone, side, memory, deformation),
             HysteresisRule::Pinched(pinching) => {
                 pinched::respond(&self.backbone, &pinching, memory, deformation)
+            }
+            HysteresisRule::Failing(falling) => {
+                failing::respond(&self.backbone, &falling, memory, deformation)
             }
         };
         let force = response.force;
@@ -428,6 +517,7 @@ impl Hysteresis {
             | HysteresisRule::Normal
             | HysteresisRule::PeakOriented
             | HysteresisRule::Sliding { .. }
+            | HysteresisRule::Failing(_)
             | HysteresisRule::Stop { .. } => self.backbone.initial(),
             HysteresisRule::Pinched(pinching) => {
                 pinched::unloading_stiffness(&self.backbone, &pinching, memory)
@@ -483,6 +573,9 @@ impl Hysteresis {
             HysteresisRule::Pinched(pinching) => {
                 pinched::next_corner(&self.backbone, &pinching, memory, towards)
             }
+            HysteresisRule::Failing(falling) => {
+                failing::next_corner(&self.backbone, &falling, memory, towards)
+            }
         }
     }
 
@@ -492,9 +585,16 @@ impl Hysteresis {
         memory.greatest(side) / self.backbone.side(side).yielding.deformation
     }
 
-    /// Largest loading stage so far, on either side. Elastic springs and stops never crack.
+    /// Largest loading stage so far, on either side. Elastic springs and stops never crack; a spring that failed has yielded.
     #[must_use]
     pub fn stage(&self, memory: &HysteresisMemory) -> Stage {
+        if let HysteresisRule::Failing(_) = self.rule {
+            return if memory.branch == Branch::Virgin {
+                Stage::Uncracked
+            } else {
+                Stage::Yielded
+            };
+        }
         if matches!(
             self.rule,
             HysteresisRule::Elastic | HysteresisRule::Stop { .. }
@@ -575,8 +675,16 @@ mod tests {
             (HysteresisRule::DegradingTrilinear, trilinear(250.0)),
             (HysteresisRule::Pinched(WORN), trilinear(180.0)),
         ];
-        for (rule, backbone) in rules {
-            let spring = Hysteresis::new(rule, backbone.expect("sound")).expect("sound");
+        let falling = FallingBranch {
+            slope: 4e4,
+            residual: 60.0,
+        };
+        let failing = Hysteresis::failing(1e5, 250.0, falling).expect("sound");
+        let springs = rules.into_iter().map(|(rule, backbone)| {
+            Hysteresis::new(rule, backbone.expect("sound")).expect("sound")
+        });
+        for spring in springs.chain([failing]) {
+            let rule = spring.rule();
             let (mut known, mut kept) = (HysteresisMemory::default(), HysteresisMemory::default());
             let mut furthest = 0.0_f64;
             for i in 0..400 {

@@ -17,6 +17,15 @@ pub(crate) struct Joined {
     pub(crate) pairs: Vec<PointPair>,
 }
 
+impl Model {
+    /// Heights of the points on the left and on the right face of a building, between its floors, where neighbours can touch
+    /// it or links end \[m\].
+    #[must_use]
+    pub fn points_between_floors(&self, building: usize) -> [Vec<f64>; 2] {
+        Row::new(self).points_between_floors(building)
+    }
+}
+
 impl Row {
     pub(crate) fn new(model: &Model) -> Self {
         let joined = |between: [Option<usize>; 2], floors: &FloorPairs, tolerance: f64| Joined {

@@ -11,6 +11,7 @@ mod isolation;
 mod link_law;
 mod members;
 mod plan_frame;
+mod shear_spring;
 mod soil;
 mod space_frame;
 mod tiers;
@@ -28,6 +29,7 @@ pub use isolation::{Isolation, Isolator, IsolatorDamping, SpeedFriction, Stop};
 pub use link_law::LinkLaw;
 pub use members::{JointRequest, MemberRequest};
 pub use plan_frame::{LumpedFloor, PlanFrame, SharedColumn};
+pub use shear_spring::{ShearEnds, ShearSpring};
 pub use soil::{Foundation, FoundationSprings, HalfSpace, Soil, SoilCoupling};
 pub use space_frame::{SpaceFrame, SpaceMember, SpacePlace, SpaceSection};
 pub use tiers::{PlanArea, PlanElement, PlanPoint, Tier, TierStorey, Tiers};
@@ -257,6 +259,8 @@ pub struct FrameHinges {
     pub columns: Vec<Vec<Hysteresis>>,
     /// Hinges of the beams by floor and bay; empty if beams are elastic.
     pub beams: Vec<Vec<Hysteresis>>,
+    /// Failure in shear of the columns by storey and column line; empty if their strength has no limit.
+    pub shear: Vec<Vec<ShearSpring>>,
 }
 
 /// Structural type of a building.

@@ -79,6 +79,8 @@ pub enum PushEventKind {
     Cracks,
     /// It yields for the first time.
     Yields,
+    /// A column fails in shear.
+    Fails,
     /// Another corner, passed when reloading.
     Turns,
 }
@@ -90,6 +92,7 @@ impl PushEventKind {
         match self {
             Self::Cracks => "cracks",
             Self::Yields => "yields",
+            Self::Fails => "fails",
             Self::Turns => "corner",
         }
     }
@@ -173,7 +176,9 @@ impl Pushover {
         self.points.iter().find(|point| {
             point.events.iter().any(|event| match stage {
                 Stage::Uncracked => false,
-                Stage::Cracked => event.kind != PushEventKind::Turns,
+                Stage::Cracked => {
+                    matches!(event.kind, PushEventKind::Cracks | PushEventKind::Yields)
+                }
                 Stage::Yielded => event.kind == PushEventKind::Yields,
             })
         })
@@ -197,6 +202,15 @@ impl Pushover {
         let stages = self.stages(springs, self.points.len());
         [Stage::Cracked, Stage::Yielded]
             .map(|least| stages.iter().filter(|stage| **stage >= least).count())
+    }
+
+    /// Number of shear springs of columns that fail, up to the end.
+    #[must_use]
+    pub fn failures(&self) -> usize {
+        let events = self.points.iter().flat_map(|point| &point.events);
+        events
+            .filter(|event| event.kind == PushEventKind::Fails)
+            .count()
     }
 
     /// Point of the greatest base shear.
@@ -224,7 +238,7 @@ impl Pushover {
             let stage = match event.kind {
                 PushEventKind::Cracks => Stage::Cracked,
                 PushEventKind::Yields => Stage::Yielded,
-                PushEventKind::Turns => continue,
+                PushEventKind::Turns | PushEventKind::Fails => continue,
             };
             stages[event.spring] = stages[event.spring].max(stage);
         }
@@ -293,6 +307,9 @@ pub fn pushover(
     })
 }
 
+/// Part of the target in which strengths that fall with ductility follow it \[–\].
+const WEAKENING_PART: f64 = 1.0 / 400.0;
+
 /// State of a pushover.
 struct Push<'a> {
     building: &'a BuildingSystem,
@@ -330,17 +347,24 @@ impl Push<'_> {
             } else {
                 f64::INFINITY
             };
-            let most = left.min(to_zero);
+            let mut most = left.min(to_zero);
+            // Strengths that fall with ductility follow it in small parts.
+            let whole = most;
+            if !self.building.weakening.is_empty() {
+                most = most.min(target * WEAKENING_PART);
+            }
             let reached = match self.walk.advance(most) {
                 Ok(reached) => reached,
                 Err(problem) => return PushEnd::Failed(problem),
             };
+            self.building.weaken(self.walk.memories_mut());
             roof += reached.length;
-            let ends = reached.length >= most;
+            let ends = reached.length >= most && most == whole;
             if ends && most == left {
                 roof = target;
             }
-            let events = self.events_of(&reached.corners, true);
+            let mut events = self.events_of(&reached.corners, true);
+            events.extend(self.overtaken());
             // Events within rounding count as simultaneous.
             match self.points.last_mut() {
                 Some(last) if !ends && reached.length <= 1e-12 * target => {
@@ -364,7 +388,10 @@ impl Push<'_> {
         for &spring in corners {
             let stage = self.stage_reached(spring, &self.walk.memories()[spring]);
             let kind = match stage {
-                Stage::Yielded if self.stages[spring] < stage => PushEventKind::Yields,
+                Stage::Yielded if self.stages[spring] < stage => match self.falls(spring) {
+                    true => PushEventKind::Fails,
+                    false => PushEventKind::Yields,
+                },
                 Stage::Cracked if self.stages[spring] < stage => PushEventKind::Cracks,
                 _ if turns => PushEventKind::Turns,
                 _ => continue,
@@ -375,9 +402,41 @@ impl Push<'_> {
         events
     }
 
+    /// Whether a spring loses its strength.
+    fn falls(&self, spring: usize) -> bool {
+        let spring = &self.building.equations.springs[spring];
+        spring.hysteresis.falling_branch().is_some()
+    }
+
+    /// Springs whose strength has fallen to the force that they bear.
+    fn overtaken(&mut self) -> Vec<PushEvent> {
+        if self.building.weakening.is_empty() {
+            return Vec::new();
+        }
+        let springs = self.building.equations.springs.iter();
+        let known = springs.zip(self.walk.memories()).enumerate();
+        let weaker = known.filter_map(|(index, (spring, memory))| {
+            let [failure, _] = spring.hysteresis.failure_corners(memory)?;
+            let bears = memory.force().abs() * (1.0 + 1e-12) >= failure.force;
+            (bears && self.stages[index] < Stage::Yielded).then_some(index)
+        });
+        let weaker: Vec<usize> = weaker.collect();
+        let fails = |spring: usize| {
+            self.stages[spring] = Stage::Yielded;
+            PushEvent {
+                spring,
+                kind: PushEventKind::Fails,
+            }
+        };
+        weaker.into_iter().map(fails).collect()
+    }
+
     /// A spring on its corner counts as beyond it.
     fn stage_reached(&self, spring: usize, memory: &HysteresisMemory) -> Stage {
         let hysteresis = &self.building.equations.springs[spring].hysteresis;
+        if self.falls(spring) {
+            return hysteresis.stage(memory);
+        }
         let stages = Side::BOTH.map(|side| {
             let (curve, greatest) = (hysteresis.backbone().side(side), memory.greatest(side));
             if greatest >= curve.yielding.deformation {

@@ -224,7 +224,7 @@ pub(super) fn acceptance(building: usize, member: usize, run: &Run) -> Vec<Accep
 }
 
 /// The strongest impact on a building in progress at an instant.
-fn impact_at(building: usize, time: f64, run: &Run) -> Option<ImpactPlace> {
+pub(super) fn impact_at(building: usize, time: f64, run: &Run) -> Option<ImpactPlace> {
     let impacts = run.outcome.impacts.iter().filter(|impact| {
         let buildings = run.system.contacts[impact.contact].ports.buildings();
         buildings.contains(&Some(building)) && (impact.start..=impact.end).contains(&time)

@@ -38,6 +38,7 @@ pub(super) fn isolation_summary(
             }
             SpringPlace::Column { .. }
             | SpringPlace::Beam { .. }
+            | SpringPlace::Shear { .. }
             | SpringPlace::Storey { .. }
             | SpringPlace::Base { .. } => {}
         }

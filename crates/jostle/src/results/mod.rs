@@ -13,6 +13,7 @@ mod isolation;
 mod members;
 pub mod registry;
 pub mod response;
+mod shear_failure;
 mod summarise;
 pub mod summary;
 

@@ -12,7 +12,8 @@ use super::summary::{
     ContactSummary, EnergySummary, ExceededSummary, FloorSummary, ForcesSummary, FoundationSummary,
     GapSummary, HingeSummary, ImpactSummary, IsolationSummary, JointRatio, JointSummary,
     LinkFloorSummary, LinkSummary, MemberComparison, MotionSummary, PromiseSummary, RatioPlace,
-    RatioSummary, SectionSummary, SpringSummary, StruckSummary, Summary, WallSummary, WorkSummary,
+    RatioSummary, SectionSummary, ShearFailure, ShearFailureSummary, SpringSummary, StruckSummary,
+    Summary, WallSummary, WorkSummary,
 };
 use crate::quantity::{Places, Quantity};
 
@@ -72,6 +73,8 @@ pub fn owners() -> Vec<Owner> {
         owner("Ground under a building", "buildings[].ground", None, "", &[entries(GroundSummary::QUANTITIES)]),
         owner("Hinges of a building", "buildings[].hinges", None, "", &[entries(HingeSummary::QUANTITIES)]),
         owner("Hinges", "buildings[].hinges.list[]", Some("hinges.parquet"), "", &[entries(SpringSummary::QUANTITIES)]),
+        owner("Columns that fail in shear", "buildings[].shear_failures", None, "J1.shear_failures_", &[entries(ShearFailureSummary::QUANTITIES)]),
+        owner("Failures in shear", "buildings[].shear_failures.list[]", None, "", &[entries(ShearFailure::QUANTITIES)]),
         owner("Sections of columns and beams", "buildings[].members[].ends[]", None, "", &[entries(SectionSummary::QUANTITIES)]),
         owner("Sections of space frames", "buildings[].members[].ends[]", None, "", &[entries(AcrossSummary::QUANTITIES)]),
         owner("Columns and beams with contact and without", "buildings[].members[].compared", None, "", &[entries(MemberComparison::QUANTITIES)]),

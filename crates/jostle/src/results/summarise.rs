@@ -19,6 +19,7 @@ use crate::results::members::members_of;
 use crate::results::response::{
     Amplification, BuildingResponse, FloorResponse, building_response, floor_responses,
 };
+use crate::results::shear_failure::shear_failures;
 use crate::results::summary::{
     BuildingSummary, ContactSummary, EnergySummary, FloorSummary, Floors, GapSummary, HingeSummary,
     ImpactSummary, LinkFloorSummary, LinkSummary, MotionSummary, PromiseSummary, SpringSummary,
@@ -171,6 +172,7 @@ fn building_summary(index: usize, run: &Run) -> BuildingSummary {
         capacity: capacity::of_building(index, &members, &joints, run),
         joints,
         members,
+        shear_failures: shear_failures(index, run),
         name: building.name.clone(),
         mass_kg: building.equations.total_mass(),
         periods_s: building
@@ -205,7 +207,7 @@ fn hinge_summary(building: &BuildingSystem, outcome: &Outcome) -> HingeSummary {
         .filter(|spring| {
             !places
                 .get(spring.index)
-                .is_some_and(SpringPlace::is_isolation)
+                .is_some_and(|place| place.is_isolation() || place.is_shear())
         })
         .collect();
     let mut summary = HingeSummary {

@@ -160,6 +160,11 @@ impl EquilibriumPath {
         &self.memories
     }
 
+    /// The same, for strengths that change between segments.
+    pub(crate) fn memories_mut(&mut self) -> &mut [HysteresisMemory] {
+        &mut self.memories
+    }
+
     /// Computes the rates from here (theory, Eqs. X2 and X3), with every spring on the line of its direction.
     ///
     /// # Errors

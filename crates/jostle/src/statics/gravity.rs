@@ -1,10 +1,13 @@
 //! Gravity: static displacements under self weight, and the axial compression it leaves in columns.
 
 use super::{PathError, Settled, settle};
+use crate::hysteresis::Hysteresis;
 use crate::linear::{NotPositive, StepMatrix};
 use crate::model::{Gravity, STANDARD_GRAVITY};
 use crate::structure::element::{self, Y};
-use crate::structure::{AssembledBuilding, StepEquations, StickModel};
+use crate::structure::{
+    AssembledBuilding, Discretization, MemberEnd, SpringPlace, StepEquations, StickModel,
+};
 use crate::transfer::riccati::{RiccatiFactor, RiccatiSweep};
 
 /// Static displacement of every degree of freedom of a building under its own weight \[m, rad\], as long as nothing
@@ -144,6 +147,7 @@ fn with_p_delta(building: &AssembledBuilding) -> Result<AssembledBuilding, Colla
             spring.softening = weight / (a - b).abs();
         }
     }
+    lean_on_shear_springs(&mut discretization);
     let leaning = AssembledBuilding::new(&building.name, discretization);
     RiccatiSweep::new(&leaning)
         .factorize(
@@ -153,6 +157,35 @@ fn with_p_delta(building: &AssembledBuilding) -> Result<AssembledBuilding, Colla
         )
         .map_err(|_| Collapse::Buckles)?;
     Ok(leaning)
+}
+
+/// P-Delta of what a column slides in its shear spring, as part of the drift of its storey.
+fn lean_on_shear_springs(discretization: &mut Discretization) {
+    let sticks = &mut discretization.stick_model;
+    let nodes = &sticks.nodes;
+    let tops: Vec<f64> = discretization.floors.iter().map(|&n| nodes[n].y).collect();
+    let places = discretization.spring_places.iter();
+    let mut places = places.filter(|place| place.is_shear());
+    for spring in &mut sticks.springs {
+        let falls = |own: Hysteresis| own.falling_branch().is_some();
+        if !spring.hysteresis.is_some_and(falls) {
+            continue;
+        }
+        let Some(&SpringPlace::Shear { storey, end, .. }) = places.next() else {
+            return;
+        };
+        let below = storey.checked_sub(2).map_or(0.0, |floor| tops[floor]);
+        let at_column = match end {
+            MemberEnd::First => spring.ends[1],
+            MemberEnd::Last => spring.ends[0],
+        };
+        let column = sticks
+            .members
+            .iter()
+            .find(|member| member.ends.contains(&at_column) && member.is_vertical(nodes));
+        let carried = column.map_or(0.0, |column| column.compression);
+        spring.softening = carried / (tops[storey - 1] - below);
+    }
 }
 
 /// Nodes closer than this lie on one column line \[m\].

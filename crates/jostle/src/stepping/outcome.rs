@@ -243,6 +243,18 @@ pub enum StepError {
         /// Where.
         source: NotPositive,
     },
+    /// Springs that lose their strength fall faster than the rest of the building holds them.
+    #[error(
+        "\"{building}\" cannot be stepped at t = {time:.6} s: what fails in shear loses more force than masses and other members hold, even over the shortest steps ({source}); use a smaller slope of shear_failure"
+    )]
+    FallsTooFast {
+        /// Name of the building.
+        building: String,
+        /// Time \[s\].
+        time: f64,
+        /// Where.
+        source: NotPositive,
+    },
     /// The contact forces did not converge.
     #[error(
         "the contact forces did not converge at t = {time:.6} s ({closed} contacts closed); a smaller contact_step may help"

@@ -11,7 +11,7 @@ use super::tiers::discretize_tiers;
 use crate::hysteresis::{Hysteresis, Side};
 use crate::model::{
     Base, Building, Frame, FrameHinges, Given, Hinges, Isolation, Joint, Section, SharedColumn,
-    Shear, Structure,
+    Shear, ShearEnds, ShearSpring, Structure,
 };
 
 /// A stick model and where its floors and faces are.
@@ -311,6 +311,45 @@ impl StickModel {
         node
     }
 
+    /// Lets an end of a column move sideways against its joint by a spring that can fail, and returns the node at the
+    /// column: `node`, if a hinge stands between it and the joint, otherwise a new one.
+    fn shearing(
+        &mut self,
+        joint: usize,
+        node: usize,
+        hysteresis: Hysteresis,
+        end: MemberEnd,
+    ) -> usize {
+        let node = if node == joint {
+            let node = self.add_node(self.nodes[joint].x, self.nodes[joint].y);
+            self.hinges.push(Hinge {
+                ends: [joint, node],
+                rotational_stiffness: None,
+                hysteresis: None,
+                translational_stiffness: [None; 2],
+                dashpots: [0.0; 3],
+                proportional_damping: false,
+            });
+            node
+        } else {
+            node
+        };
+        // The spring is parallel to the hinge, which then has no stiffness sideways.
+        if let Some(hinge) = self.hinges.last_mut() {
+            hinge.translational_stiffness[0] = Some(0.0);
+        }
+        let ends = match end {
+            MemberEnd::First => [joint, node],
+            MemberEnd::Last => [node, joint],
+        };
+        self.springs.push(Spring {
+            hysteresis: Some(hysteresis),
+            proportional_damping: false,
+            ..Spring::elastic(ends, hysteresis.backbone().initial())
+        });
+        node
+    }
+
     /// The lowest point of a column: a node fixed to the ground, or a new node beyond the springs and dashpots of a
     /// base, with the mass of the footing.
     fn add_foot(&mut self, x: f64, base: &Base) -> usize {
@@ -387,6 +426,8 @@ pub(super) fn discretize_frame(
             .spring_places
             .extend(at_the_base(BaseMotion::Rocking));
     }
+    // Springs follow the hinges.
+    let mut shear_places = Vec::new();
     let mut height = 0.0;
     for (storey, storey_height) in frame.storey_heights.iter().enumerate() {
         height += storey_height;
@@ -397,10 +438,23 @@ pub(super) fn discretize_frame(
         let column = &frame.columns[storey];
         for (line, (&from, &to)) in below.iter().zip(&joints).enumerate() {
             let mut ends = [from, to];
-            if let Some(hysteresis) = hinges.columns.get(storey).and_then(|row| row.get(line)) {
-                for (node, end) in ends.iter_mut().zip([MemberEnd::First, MemberEnd::Last]) {
-                    *node = stick_model.yielding(*node, *hysteresis, end);
+            let hinge = hinges.columns.get(storey).and_then(|row| row.get(line));
+            let shear = hinges.shear.get(storey).and_then(|row| row.get(line));
+            for (joint, end) in [(from, MemberEnd::First), (to, MemberEnd::Last)] {
+                let node = &mut ends[end as usize];
+                if let Some(hysteresis) = hinge {
+                    *node = stick_model.yielding(joint, *hysteresis, end);
                     discretization.spring_places.push(SpringPlace::Column {
+                        storey: storey + 1,
+                        line: line + 1,
+                        end,
+                    });
+                }
+                let fails =
+                    |shear: &&ShearSpring| end == MemberEnd::First || shear.ends == ShearEnds::Both;
+                if let Some(shear) = shear.filter(fails) {
+                    *node = stick_model.shearing(joint, *node, shear.spring, end);
+                    shear_places.push(SpringPlace::Shear {
                         storey: storey + 1,
                         line: line + 1,
                         end,
@@ -485,6 +539,7 @@ pub(super) fn discretize_frame(
             .spring_places
             .extend(at_the_base(BaseMotion::Sliding));
     }
+    discretization.spring_places.append(&mut shear_places);
     discretization.stick_model = stick_model;
     discretization
 }

@@ -125,6 +125,7 @@ mod tests {
                 hinges: Some(Hinges::Frame(FrameHinges {
                     columns: vec![vec![hinge; 3]; 2],
                     beams: vec![vec![hinge; 2]; 2],
+                    ..FrameHinges::default()
                 })),
             };
             let found = end_stiffnesses(&Discretization::new(&building).stick_model);

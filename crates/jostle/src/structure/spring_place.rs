@@ -33,6 +33,15 @@ pub enum SpringPlace {
         /// Which end.
         end: MemberEnd,
     },
+    /// Shear of a column, at its end.
+    Shear {
+        /// Storey.
+        storey: usize,
+        /// Column line.
+        line: usize,
+        /// Which end.
+        end: MemberEnd,
+    },
     /// A whole storey of a shear building.
     Storey {
         /// Storey.
@@ -59,6 +68,12 @@ impl SpringPlace {
     #[must_use]
     pub fn is_isolation(&self) -> bool {
         matches!(self, Self::Bearings | Self::Stop { .. })
+    }
+
+    /// Whether it is the shear of a column, which fails rather than yields.
+    #[must_use]
+    pub fn is_shear(&self) -> bool {
+        matches!(self, Self::Shear { .. })
     }
 }
 
@@ -87,6 +102,16 @@ impl std::fmt::Display for SpringPlace {
                     MemberEnd::Last => "right",
                 };
                 write!(formatter, "beam {bay}, floor {floor}, {end}")
+            }
+            Self::Shear { storey, line, end } => {
+                let end = match end {
+                    MemberEnd::First => "foot",
+                    MemberEnd::Last => "head",
+                };
+                write!(
+                    formatter,
+                    "column {line}, storey {storey}, shear at the {end}"
+                )
             }
             Self::Storey { storey } => write!(formatter, "storey {storey}"),
             Self::Base { line, motion } => {

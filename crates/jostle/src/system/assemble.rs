@@ -62,6 +62,7 @@ impl System {
                 });
                 continue;
             }
+            assembled.weaken_with_ductility(building);
             if let Some(fault) = finite::of_building(index, building, &assembled) {
                 faults.push(fault);
                 continue;

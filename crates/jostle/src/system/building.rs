@@ -4,11 +4,13 @@ use std::ops::Deref;
 use std::sync::Arc;
 
 use super::soil::FoundationPlace;
+use super::weakening::Weakening;
 use crate::eigen::{
     LATERAL_SHARE, Mode, lateral_modes_along, modes_dense, symmetric, vertical_modes_along,
 };
+use crate::hysteresis::HysteresisMemory;
 use crate::interface::DofRow;
-use crate::model::{Damping, Gravity, LEVEL_TOLERANCE, PlanPoint, usual_damping_modes};
+use crate::model::{Building, Damping, Gravity, LEVEL_TOLERANCE, PlanPoint, usual_damping_modes};
 use crate::motion::Ground;
 use crate::statics::{Collapse, Settled, under_gravity};
 use crate::structure::motion_at;
@@ -49,6 +51,8 @@ pub struct BuildingSystem {
     pub modes: Vec<Mode>,
     /// How forces of columns and beams follow from the motion; empty unless they are asked for.
     pub members: MemberForces,
+    /// Columns whose shear strength falls with the ductility of their hinges.
+    pub(crate) weakening: Vec<Weakening>,
     /// The same building without neighbours on the soil, where they act on its foundation.
     alone: Option<Arc<AssembledBuilding>>,
     /// The recursion through its equations, shared by all runs.
@@ -186,6 +190,7 @@ impl BuildingSystem {
             modal_damping: None,
             modes,
             members: MemberForces::default(),
+            weakening: Vec::new(),
             alone: None,
             sweep: Arc::new(sweep),
         }
@@ -229,6 +234,18 @@ impl BuildingSystem {
         (new.alpha, new.beta) = (old.alpha, old.beta);
         self.sweep = Arc::new(RiccatiSweep::through(&structure.equations));
         self.alone = Some(Arc::new(std::mem::replace(&mut self.structure, structure)));
+    }
+
+    /// Lets the shear strength of its columns fall with the ductility of their hinges, where the model says so.
+    pub(super) fn weaken_with_ductility(&mut self, model: &Building) {
+        self.weakening = Weakening::all(model, &self.structure);
+    }
+
+    /// Lowers shear strengths to those at the ductility so far. `memories`: those of its springs.
+    pub(crate) fn weaken(&self, memories: &mut [HysteresisMemory]) {
+        for column in &self.weakening {
+            column.apply(&self.structure, memories);
+        }
     }
 
     /// Its equations without neighbours on the soil, to which its modes belong.

@@ -8,6 +8,7 @@ mod half_space;
 mod members;
 mod rating;
 mod soil;
+mod weakening;
 
 use crate::interface::{Contact, DofRow, EdgeEnd, Friction, LinkElement, Port, PortPair};
 use crate::model::{LEVEL_TOLERANCE, WALL};

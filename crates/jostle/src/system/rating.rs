@@ -4,7 +4,8 @@ use super::BuildingSystem;
 use crate::hysteresis::{HysteresisMemory, Side};
 use crate::model::MemberCapacity;
 use crate::structure::{
-    MemberEnd, MemberPlace, MemberSection, SpringPlace, ductility, end_stiffnesses,
+    AssembledBuilding, MemberEnd, MemberPlace, MemberSection, SpringPlace, ductility,
+    end_stiffnesses,
 };
 
 /// A column, beam or joint whose demand is compared with its capacity.
@@ -33,7 +34,7 @@ pub enum RatedPart {
 
 /// A hinge at an end of a member.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct EndHinge {
+pub(super) struct EndHinge {
     end: MemberEnd,
     /// Its index among the springs of the building.
     spring: usize,
@@ -41,14 +42,9 @@ struct EndHinge {
     behind: Option<f64>,
 }
 
-impl MemberRating {
-    pub(super) fn new(
-        building: &BuildingSystem,
-        index: usize,
-        member: usize,
-        capacity: &MemberCapacity,
-    ) -> Self {
-        let place = building.members.members[member].place;
+impl EndHinge {
+    /// The hinges at the ends of a member.
+    pub(super) fn of_member(building: &AssembledBuilding, place: MemberPlace) -> Vec<Self> {
         let behind = end_stiffnesses(&building.discretization.stick_model);
         let springs = building.discretization.spring_places.iter().enumerate();
         let own = springs.filter_map(|(spring, own)| {
@@ -71,18 +67,43 @@ impl MemberRating {
                 ) => (floor == at && span == bay).then_some(end),
                 _ => None,
             };
-            Some(EndHinge {
+            Some(Self {
                 end: end?,
                 spring,
                 behind: behind.get(spring).copied().flatten(),
             })
         });
+        own.collect()
+    }
+
+    /// Its greatest ductility so far, either side \[–\]. `memories`: those of the springs of the building.
+    pub(super) fn ductility(
+        &self,
+        building: &AssembledBuilding,
+        memories: &[HysteresisMemory],
+    ) -> f64 {
+        let rule = &building.equations.springs[self.spring].hysteresis;
+        let memory = &memories[self.spring];
+        let sides =
+            Side::BOTH.map(|side| ductility(rule, memory.greatest(side), side, self.behind));
+        sides[0].max(sides[1])
+    }
+}
+
+impl MemberRating {
+    pub(super) fn new(
+        building: &BuildingSystem,
+        index: usize,
+        member: usize,
+        capacity: &MemberCapacity,
+    ) -> Self {
+        let place = building.members.members[member].place;
         Self {
             building: index,
             part: RatedPart::Member(member),
             sections: building.members.members[member].sections.clone(),
             capacity: capacity.clone(),
-            hinges: own.collect(),
+            hinges: EndHinge::of_member(building, place),
         }
     }
 
@@ -103,13 +124,7 @@ impl MemberRating {
 
     /// Greatest ductility so far of its ends, at least 1 \[–\]. `springs`: those of the building.
     pub(crate) fn ductility(&self, building: &BuildingSystem, springs: &[HysteresisMemory]) -> f64 {
-        let of = |hinge: &EndHinge| {
-            let rule = &building.equations.springs[hinge.spring].hysteresis;
-            let memory = &springs[hinge.spring];
-            let sides =
-                Side::BOTH.map(|side| ductility(rule, memory.greatest(side), side, hinge.behind));
-            sides[0].max(sides[1])
-        };
+        let of = |hinge: &EndHinge| hinge.ductility(building, springs);
         self.hinges.iter().map(of).fold(1.0, f64::max)
     }
 

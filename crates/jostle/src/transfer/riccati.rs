@@ -742,6 +742,7 @@ mod tests {
             Some(Hinges::Frame(FrameHinges {
                 columns: members(frame.spans.len() + 1),
                 beams: members(frame.spans.len()),
+                ..FrameHinges::default()
             }))
         });
         let sweep = RiccatiSweep::new(&building);

@@ -1,7 +1,7 @@
 //! Paths of springs computed by others.
 
 use jostle::hysteresis::{
-    Backbone, Corners, Hysteresis, HysteresisMemory, HysteresisRule, Pinching,
+    Backbone, Corners, FallingBranch, Hysteresis, HysteresisMemory, HysteresisRule, Pinching,
 };
 use serde_json::Value;
 
@@ -222,5 +222,38 @@ fn opensees_pinched() {
             from = to;
         }
         println!("{name}: {worst:e}");
+    }
+}
+
+/// A column and its failing spring in series are one failing spring: that of the column as a whole, at every quarter of
+/// every leg.
+#[test]
+fn opensees_column_that_fails_in_shear() {
+    let stored = document(include_str!("data/opensees_failing.json"));
+    for case in stored["cases"].as_array().expect("cases") {
+        let name = case["name"].as_str().expect("a name");
+        let of = |key: &str| case[key].as_f64().expect("a number");
+        let column = 12.0 * of("rigidity") / of("length").powi(3);
+        let stiffness = 1.0 / (1.0 / column + 1.0 / of("spring"));
+        let falling = FallingBranch {
+            slope: of("slope"),
+            residual: of("residual"),
+        };
+        let spring = Hysteresis::failing(stiffness, of("strength"), falling).expect("sound");
+        let (mut memory, mut from) = (HysteresisMemory::default(), 0.0);
+        let mut forces = numbers(&case["force"]).into_iter();
+        for (leg, to) in numbers(&case["deformation"]).into_iter().enumerate() {
+            for (quarter, force) in (1..=4).zip(forces.by_ref()) {
+                let at = from + (to - from) * f64::from(quarter) / 4.0;
+                let response = spring.respond(&memory, at);
+                assert!(
+                    (response.force - force).abs() < 1e-9 * of("strength"),
+                    "{name}, leg {leg} to {to}, quarter {quarter}: {} for {force}",
+                    response.force
+                );
+            }
+            memory = spring.respond(&memory, to).memory;
+            from = to;
+        }
     }
 }

@@ -68,6 +68,7 @@ pub(crate) fn hinged(
     let hinges = FrameHinges {
         columns: columns.map_or_else(Vec::new, |hinge| vec![vec![hinge; bays + 1]; storeys]),
         beams: beams.map_or_else(Vec::new, |hinge| vec![vec![hinge; bays]; storeys]),
+        ..FrameHinges::default()
     };
     Building {
         name: "frame".into(),

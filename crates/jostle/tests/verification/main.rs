@@ -28,6 +28,7 @@ mod riccati_equals_direct_stiffness;
 mod rows_of_buildings;
 mod same_input_same_bits;
 mod series_stepping;
+mod shear_failure;
 mod space;
 mod space_frames;
 mod storey_forces;

@@ -57,6 +57,7 @@ fn yielding(mut building: Building, rule: HysteresisRule, strength: f64) -> Buil
                 beams: (0..storeys)
                     .map(|k| row(&frame.beams[k], frame.spans[0], lines - 1, 2e5))
                     .collect(),
+                ..FrameHinges::default()
             })
         }
         Structure::Shear(shear) => Hinges::Storeys(

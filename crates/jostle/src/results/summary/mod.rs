@@ -12,6 +12,7 @@ mod isolation;
 mod joints;
 mod links;
 mod members;
+mod shear_failure;
 
 pub use super::ground::GroundSummary;
 pub use accuracy::{PromiseSummary, WorkSummary};
@@ -30,6 +31,7 @@ pub use links::{LinkFloorSummary, LinkSummary};
 pub use members::{
     AcrossSummary, ForcesSummary, MemberComparison, MemberSummary, SectionSummary, StruckSummary,
 };
+pub use shear_failure::{ShearFailure, ShearFailureSummary};
 
 use serde::Serialize;
 

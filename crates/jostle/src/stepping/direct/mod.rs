@@ -210,11 +210,7 @@ impl<E: StepEquations> Direct<E> {
                 tangents,
                 &mut run.work,
             )
-            .map_err(|(building, source)| StepError::NotPositive {
-                building: run.system.buildings[building].name.clone(),
-                time: run.time,
-                source,
-            })
+            .map_err(|(building, source)| self.not_positive(run, building, source))
     }
 
     /// Rate of change of the closing rate of a contact \[m/s²\].

@@ -2,12 +2,13 @@
 //!
 //! Every spring is linear near its last known point, m = m_r + k_t (δ − δ_r). The step is solved, contacts
 //! included, and repeated with the lines at the new deformations until every spring lies on the line it was solved
-//! with. Forces increase with deformation, so the step has one solution; the number of lines is finite, so it is
-//! reached exactly.
+//! with. Forces increase with deformation, or fall so slowly that masses outweigh it, so the step has one solution; the
+//! number of lines is finite, so it is reached exactly.
 
 use super::Direct;
 use crate::history::{SpringEvent, SpringTotals};
 use crate::hysteresis::{HysteresisMemory, Rates, Stage};
+use crate::linear::NotPositive;
 use crate::state::State;
 use crate::stepping::outcome::StepError;
 use crate::stepping::runner::RunState;
@@ -208,11 +209,36 @@ impl<E: StepEquations> Direct<E> {
                 &self.yielding.wanted,
                 &mut run.work,
             )
-            .map_err(|(building, source)| StepError::NotPositive {
-                building: run.system.buildings[building].name.clone(),
-                time: run.time,
+            .map_err(|(building, source)| self.not_positive(run, building, source))
+    }
+
+    /// The error of equations that are not positive: of a building, or of its springs that fall.
+    pub(super) fn not_positive(
+        &self,
+        run: &RunState<'_>,
+        building: usize,
+        source: NotPositive,
+    ) -> StepError {
+        let own = &run.system.buildings[building];
+        let (building, time) = (own.name.clone(), run.time);
+        let falls = |tangents: &[f64]| tangents.iter().any(|tangent| *tangent < 0.0);
+        let springs = own.spring_range();
+        let yielding = &self.yielding;
+        if [&yielding.wanted, &yielding.tangents]
+            .iter()
+            .any(|tangents| tangents.get(springs.clone()).is_some_and(falls))
+        {
+            return StepError::FallsTooFast {
+                building,
+                time,
                 source,
-            })
+            };
+        }
+        StepError::NotPositive {
+            building,
+            time,
+            source,
+        }
     }
 
     /// −(m_r − m) + k_t (δ_r − δ) + s k_t gᵀ D′ of every spring (theory, Eq. Y2).
@@ -344,6 +370,9 @@ impl<E: StepEquations> Direct<E> {
             let totals = &mut self.yielding.totals[index];
             totals.peak_force = totals.peak_force.max(memory.force().abs());
             totals.work += work;
+        }
+        for building in &run.system.buildings {
+            building.weaken(&mut self.state.springs[building.spring_range()]);
         }
     }
 

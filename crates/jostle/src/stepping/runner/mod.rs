@@ -126,7 +126,8 @@ impl<S: Stepper> Runner<'_, S> {
                 Err(
                     StepError::ContactDiverged { .. }
                     | StepError::SpringsDiverged { .. }
-                    | StepError::NotPositive { .. },
+                    | StepError::NotPositive { .. }
+                    | StepError::FallsTooFast { .. },
                 ) if next.length > shortest => {
                     self.run.work.halved_steps += 1;
                     let length = 0.5 * next.length;

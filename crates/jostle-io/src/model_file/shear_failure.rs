@@ -1,0 +1,269 @@
+//! `shear_failure`: columns that fail in shear.
+
+use jostle::hysteresis::{FallingBranch, Hysteresis, SpringFault};
+use jostle::model::CapacityLine;
+use jostle::{Frame, Hinges, Model, ShearEnds, ShearSpring};
+use jostle_section::capacity::{RatedMember, ShearRule};
+use jostle_section::formula::Member;
+
+use super::building::per_storey;
+use super::reinforced::ReinforcedMember;
+use crate::keys::{CAPACITY_RULES, SHEAR_ENDS, Section};
+use crate::quantity::Dimension;
+use crate::reader::{Field, Reader, View};
+
+/// Stiffness of a shear spring before failure, over 12 EI/L³ of its column: the column loses 10⁻⁴ of its own \[–\].
+const RIGID: f64 = 1e4;
+
+/// Reads the shear springs of all columns by storey and line; `None` after a fault. `members`: the reinforced members of the
+/// building, `None` after faults elsewhere.
+pub(super) fn read(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    frame: &Frame,
+    members: Option<&[ReinforcedMember]>,
+) -> Option<Vec<Vec<ShearSpring>>> {
+    let view = reader.open(field, &[Section::ShearFailure])?;
+    let storeys = frame.storey_heights.len();
+    let mut list = |key, dimension| {
+        let field = reader.get(&view, key)?;
+        Some(positive_per_storey(reader, &field, dimension, storeys))
+    };
+    let strength = list("strength", Dimension::Force);
+    let slope = list("slope", Dimension::Stiffness);
+    let residual = match reader.get(&view, "residual") {
+        Some(field) => {
+            let value = reader.quantity(&field, Dimension::Dimensionless)?;
+            if !(0.0..1.0).contains(&value) {
+                *reader.bad(
+                    &field,
+                    format!(
+                        "must be at least 0 and less than 1, a share of the strength; found {value}"
+                    ),
+                ) = Some("0 loses all of it".into());
+                return None;
+            }
+            value
+        }
+        None => 0.0,
+    };
+    let ends = match reader.get(&view, "ends") {
+        Some(field) => match reader.choice(&field, SHEAR_ENDS, &[])? {
+            "both" => ShearEnds::Both,
+            _ => ShearEnds::Foot,
+        },
+        None => ShearEnds::Foot,
+    };
+    let rule = reader.get(&view, "rule");
+    if let (Some(field), Some(_)) = (&rule, &strength) {
+        *reader.bad(field, "cannot be combined with strength") =
+            Some("keep either the rule or the strength".into());
+        return None;
+    }
+    let losses = match (rule, strength) {
+        (Some(field), _) => {
+            let name = reader.choice(&field, CAPACITY_RULES, &[])?;
+            let slope = match slope {
+                Some(read) => Some(read?),
+                None => None,
+            };
+            by_rule(
+                reader,
+                &field,
+                frame,
+                ShearRule::from_name(name)?,
+                slope.as_deref(),
+                members?,
+            )?
+        }
+        (None, Some(strength)) => {
+            let Some(slope) = slope else {
+                reader.missing(
+                    &view,
+                    "slope",
+                    "add slope = \"5 MN/m\", the loss of shear per drift of the column after failure",
+                );
+                return None;
+            };
+            let (strength, slope) = (strength?, slope?);
+            let stated = strength.iter().zip(slope).map(|(strength, slope)| Loss {
+                strength: *strength,
+                slope,
+                by_ductility: CapacityLine::default(),
+            });
+            stated
+                .map(|loss| vec![loss; frame.spans.len() + 1])
+                .collect()
+        }
+        (None, None) => {
+            reader.missing(
+                &view,
+                "rule",
+                "add rule = \"sezen-moehle\", or strength = \"300 kN\" with slope = \"5 MN/m\"",
+            );
+            return None;
+        }
+    };
+    springs(reader, field, frame, &losses, residual, ends)
+}
+
+/// Strength of a column and how it is lost.
+#[derive(Clone, Debug)]
+struct Loss {
+    /// \[N\]
+    strength: f64,
+    /// Of the column as a whole \[N/m\].
+    slope: f64,
+    by_ductility: CapacityLine,
+}
+
+fn positive_per_storey(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    dimension: Dimension,
+    storeys: usize,
+) -> Option<Vec<f64>> {
+    let values = per_storey(reader, field, dimension, Some(storeys))?;
+    if values.iter().any(|value| *value <= 0.0) {
+        reader.bad(field, "must be greater than zero");
+        return None;
+    }
+    Some(values)
+}
+
+/// Strengths and slopes from the reinforcement.
+fn by_rule(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    frame: &Frame,
+    rule: ShearRule,
+    slope: Option<&[f64]>,
+    members: &[ReinforcedMember],
+) -> Option<Vec<Vec<Loss>>> {
+    let columns: Vec<_> = members
+        .iter()
+        .filter(|member| member.member == Member::Column)
+        .collect();
+    let storeys = frame.storey_heights.len();
+    let per_storey = frame.spans.len() + 1;
+    if columns.len() != storeys * per_storey
+        || columns.iter().any(|column| column.section.ties.is_none())
+    {
+        *reader.bad(field, "needs bars and ties of every column") = Some(
+            "add steel = \"HRB400\", bars = \"12 d20\", ties = \"d10 @ 150 mm\" to column, or give strength and slope instead of rule"
+                .into(),
+        );
+        return None;
+    }
+    let mut rows: Vec<Vec<Loss>> = vec![Vec::with_capacity(per_storey); storeys];
+    for column in columns {
+        let rated = RatedMember {
+            section: &column.section,
+            member: column.member,
+            clear_length: column.clear_length,
+            level: column.level,
+        };
+        let loss = rated.shear_loss(rule, column.compression);
+        let storey = column.floor - 1;
+        match (loss, slope) {
+            (Ok(loss), _) => rows[storey].push(Loss {
+                strength: loss.strength,
+                slope: slope.map_or(loss.slope, |slope| slope[storey]),
+                by_ductility: loss.by_ductility,
+            }),
+            (Err(problem), _) => {
+                *reader.bad(
+                    field,
+                    format!(
+                        "column {} of storey {}: {problem}",
+                        column.place, column.floor
+                    ),
+                ) = Some("give strength and slope instead of rule".into());
+                return None;
+            }
+        }
+    }
+    Some(rows)
+}
+
+/// The springs: the column and its spring together lose shear with the given slope while the column unloads,
+/// 1/k = 1/k_column + 1/k_spring with 12 EI/L³ of a column whose ends do not turn.
+fn springs(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    frame: &Frame,
+    losses: &[Vec<Loss>],
+    residual: f64,
+    ends: ShearEnds,
+) -> Option<Vec<Vec<ShearSpring>>> {
+    let mut rows = Vec::with_capacity(losses.len());
+    for (storey, row) in losses.iter().enumerate() {
+        let (length, column) = (frame.storey_heights[storey], &frame.columns[storey]);
+        let rigidity = column.flexural_rigidity;
+        let shear = column
+            .shear_rigidity
+            .map_or(0.0, |shear| 12.0 * rigidity / (shear * length * length));
+        let stiffness = 12.0 * rigidity / (length * length * length * (1.0 + shear));
+        let mut own = Vec::with_capacity(row.len());
+        for loss in row {
+            let falling = FallingBranch {
+                slope: 1.0 / (1.0 / loss.slope + 1.0 / stiffness),
+                residual: residual * loss.strength,
+            };
+            match Hysteresis::failing(RIGID * stiffness, loss.strength, falling) {
+                Ok(spring) => own.push(ShearSpring {
+                    spring,
+                    ends,
+                    by_ductility: loss.by_ductility.clone(),
+                }),
+                Err(faults) => {
+                    let problem = faults
+                        .first()
+                        .map_or("", |fault: &SpringFault| fault.problem.as_str());
+                    reader.bad(field, problem.to_owned());
+                    return None;
+                }
+            }
+        }
+        rows.push(own);
+    }
+    Some(rows)
+}
+
+/// Gives columns that neighbours can strike between floors a second spring, unless the file says where springs stand.
+pub(super) fn add_heads(model: &mut Model, reader: &mut Reader<'_>, view: &View<'_>) {
+    let stated = |reader: &mut Reader<'_>, index: usize| {
+        let buildings = reader.get(view, "building")?;
+        let own = buildings.entries()?.into_iter().nth(index)?;
+        let own = reader.reopen(&own, &[Section::Building, Section::Frame])?;
+        let own = reader.get(&own, "shear_failure")?;
+        let own = reader.reopen(&own, &[Section::ShearFailure])?;
+        reader.get(&own, "ends")
+    };
+    for index in 0..model.buildings.len() {
+        let fails = |hinges: &Hinges| matches!(hinges, Hinges::Frame(own) if !own.shear.is_empty());
+        if !model.buildings[index].hinges.as_ref().is_some_and(fails)
+            || stated(reader, index).is_some()
+        {
+            continue;
+        }
+        let points = model.points_between_floors(index);
+        let heights = model.buildings[index].storey_heights().to_vec();
+        let Some(Hinges::Frame(hinges)) = &mut model.buildings[index].hinges else {
+            continue;
+        };
+        for (storey, row) in hinges.shear.iter_mut().enumerate() {
+            let foot: f64 = heights[..storey].iter().sum();
+            let inside = |height: &&f64| **height > foot && **height < foot + heights[storey];
+            let struck = points
+                .each_ref()
+                .map(|side| side.iter().any(|h| inside(&h)));
+            let last = row.len() - 1;
+            for (line, is_struck) in [(0, struck[0]), (last, struck[1])] {
+                if is_struck {
+                    row[line].ends = ShearEnds::Both;
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,162 @@
+//! `shear_failure`: from keys to shear springs of columns, and what is refused.
+
+use std::path::Path;
+
+use jostle::{Hinges, ShearEnds, ShearSpring};
+use jostle_io::{Format, read_model_text};
+
+const MODEL: &str = r#"
+[motion]
+kind = "sine"
+amplitude = "1 m/s2"
+period = "0.6 s"
+duration = "3 s"
+[[building]]
+name = "A"
+kind = "frame"
+storeys = 2
+storey_height = ["4 m", "3.2 m"]
+spans = ["6 m", "5 m"]
+column = { width = "500 mm", depth = "500 mm", concrete = "C30", steel = "HRB400", bars = "12 d20", cover = "30 mm"AXIALTIES }
+beam = { width = "300 mm", depth = "600 mm", concrete = "C30", steel = "HRB400", bars = "4 d20 top, 4 d20 bottom" }
+beam_mass = "3600 kg/m"
+KEY
+[[building]]
+name = "B"
+kind = "shear"
+mass = ["40 t", "40 t"]
+stiffness = ["60 MN/m", "60 MN/m"]
+storey_height = "3.0 m"
+[[gap]]
+between = ["A", "B"]
+width = "10 mm"
+floors = FLOORS
+law = "hertz"
+stiffness = "2e9 N/m^1.5"
+"#;
+
+const TIES: &str = ", ties = \"d10 @ 150 mm\"";
+
+fn read(key: &str, ties: &str, floors: &str) -> Result<Vec<Vec<ShearSpring>>, String> {
+    let text = MODEL
+        .replace("KEY", key)
+        .replace("AXIAL", ", axial_load = \"1000 kN\"")
+        .replace("TIES", ties)
+        .replace("FLOORS", floors);
+    let input = read_model_text("model.toml", &text, Format::Toml, Path::new(""));
+    let input = input.map_err(|error| error.to_string())?;
+    match &input.model.buildings[0].hinges {
+        Some(Hinges::Frame(hinges)) => Ok(hinges.shear.clone()),
+        _ => Ok(Vec::new()),
+    }
+}
+
+#[track_caller]
+fn close(value: f64, due: f64) {
+    assert!((value / due - 1.0).abs() < 3e-4, "{value} instead of {due}");
+}
+
+#[test]
+fn a_rule_gives_strength_and_slope() {
+    let rows = read(
+        "shear_failure = { rule = \"sezen-moehle\" }",
+        TIES,
+        "\"common\"",
+    );
+    let rows = rows.unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!([rows.len(), rows[0].len()], [2, 3]);
+    // Storey 2: 3.2 m between axes, 2.6 m clear; a/d = 1300/460 = 2.82609. By hand as in the test of the rule:
+    // 2.24165/2.82609 · 1.66865 · 200 000 = 264 717 N, ties 192 685 N.
+    let own = &rows[1][0];
+    let curve = own
+        .spring
+        .backbone()
+        .side(jostle::hysteresis::Side::Positive);
+    close(curve.yielding.force, 457_402.0);
+    // δs = 0.03 + 0.0083776 − (457 402/230 000)/4.48330/40 − 0.199005/40 = 0.0223131; δa = 0.048494.
+    // Kdeg = 457 402/(0.0261809 · 2.6) = 6.7196 MN/m; the column 12 · 30 GPa · 0.5⁴/12/3.2³ = 57.22 MN/m.
+    let falling = own.spring.falling_branch().expect("it fails");
+    close(falling.slope, 1.0 / (1.0 / 6.7196e6 + 1.0 / 57.220e6));
+    assert_eq!(falling.residual, 0.0);
+    close(own.spring.backbone().initial(), 1e4 * 57.220e6);
+    // k falls from 1 at ductility 2 to 0.7 at 6.
+    close(own.by_ductility.at(4.0), 0.85 * 457_402.0);
+    assert_eq!(own.ends, ShearEnds::Foot);
+    // GB 50010 does not fall with ductility.
+    let rows = read(
+        "shear_failure = { rule = \"gb50010\", slope = \"8 MN/m\", residual = 0.2 }",
+        TIES,
+        "\"common\"",
+    );
+    let rows = rows.unwrap_or_else(|error| panic!("{error}"));
+    let own = &rows[0][1];
+    assert!(own.by_ductility.points().is_empty());
+    let falling = own.spring.falling_branch().expect("it fails");
+    close(falling.slope, 1.0 / (1.0 / 8e6 + 64.0 / (12.0 * 1.5625e8)));
+    close(falling.residual, 0.2 * own.spring.backbone().yield_force());
+}
+
+#[test]
+fn columns_struck_between_floors_have_a_spring_above_and_one_below() {
+    let key = "shear_failure = { strength = [\"300 kN\", \"200 kN\"], slope = \"5 MN/m\" }";
+    let rows = read(key, "", "\"all\"").unwrap_or_else(|error| panic!("{error}"));
+    // B stands to the right: its floors at 3 and 6 m strike line 3 in both storeys.
+    for (storey, row) in rows.iter().enumerate() {
+        let ends: Vec<ShearEnds> = row.iter().map(|own| own.ends).collect();
+        assert_eq!(
+            ends,
+            [ShearEnds::Foot, ShearEnds::Foot, ShearEnds::Both],
+            "{storey}"
+        );
+        close(row[0].spring.backbone().yield_force(), [3e5, 2e5][storey]);
+    }
+    for (word, due) in [("foot", ShearEnds::Foot), ("both", ShearEnds::Both)] {
+        let key = key.replace(" }", &format!(", ends = \"{word}\" }}"));
+        let rows = read(&key, "", "\"all\"").unwrap_or_else(|error| panic!("{error}"));
+        assert!(rows.iter().flatten().all(|own| own.ends == due));
+    }
+}
+
+#[test]
+fn what_is_missing_or_contradicts_is_named() {
+    for (key, ties, said) in [
+        (
+            "shear_failure = { }",
+            TIES,
+            "shear_failure.rule: is missing",
+        ),
+        (
+            "shear_failure = { rule = \"gb50010\" }",
+            "",
+            "needs bars and ties of every column",
+        ),
+        (
+            "shear_failure = { strength = \"300 kN\" }",
+            "",
+            "shear_failure.slope: is missing",
+        ),
+        (
+            "shear_failure = { rule = \"asce41\", strength = \"300 kN\" }",
+            TIES,
+            "cannot be combined with strength",
+        ),
+        (
+            "shear_failure = { strength = \"300 kN\", slope = \"-5 MN/m\" }",
+            "",
+            "slope: must be greater than zero",
+        ),
+        (
+            "shear_failure = { strength = \"300 kN\", slope = \"5 MN/m\", residual = 1 }",
+            "",
+            "residual: must be at least 0 and less than 1",
+        ),
+        (
+            "shear_failure = { rule = \"sezen-moehle\" }",
+            ", ties = \"d6 @ 400 mm\"",
+            "it loses its axial load at a drift of",
+        ),
+    ] {
+        let found = read(key, ties, "\"common\"").expect_err(key);
+        assert!(found.contains(said), "{key}\n{found}");
+    }
+}

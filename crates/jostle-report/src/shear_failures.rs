@@ -1,0 +1,103 @@
+//! Columns that failed in shear: when, where and during which impact.
+
+use jostle::results::summary::{ShearFailure, ShearFailureSummary};
+use maud::{Markup, html};
+
+use crate::{Page, format, message};
+
+/// Most rows of the table.
+const MOST_ROWS: usize = 200;
+
+/// The section; `None` where no column can fail.
+pub(crate) fn section(page: &Page) -> Option<Markup> {
+    let buildings = page.summary.buildings.iter();
+    let own: Vec<_> = buildings
+        .filter_map(|building| Some((&building.name[..], building.shear_failures.as_ref()?)))
+        .collect();
+    if own.is_empty() {
+        return None;
+    }
+    let failed: Vec<&ShearFailure> = own.iter().flat_map(|(_, all)| &all.list).collect();
+    Some(html! {
+        section #shear-failures {
+            h2 { (message::columns_that_fail_in_shear()) }
+            @for (name, all) in &own { p { (sentence(name, all)) } }
+            @if !failed.is_empty() { (table(&failed)) }
+        }
+    })
+}
+
+fn sentence(name: &str, all: &ShearFailureSummary) -> String {
+    match all.first_s {
+        Some(first) => message::columns_failed_in_shear(
+            name,
+            all.failed,
+            all.total,
+            format::instant(first),
+            format::energy(all.dissipated_j),
+        ),
+        None => message::no_column_fails_in_shear(name, all.total),
+    }
+}
+
+fn table(failed: &[&ShearFailure]) -> Markup {
+    let columns = [
+        (message::time(), "s"),
+        (message::strength(), "kN"),
+        (message::greatest_slip(), "mm"),
+        (message::strength_left(), "%"),
+        (message::dissipated(), "kJ"),
+    ];
+    html! {
+        @if failed.len() > MOST_ROWS {
+            p.quiet { (message::first_shear_failures(MOST_ROWS, failed.len())) }
+        }
+        div.scroll {
+            table {
+                caption.quiet { (message::in_order_of_time_by_building()) }
+                thead { tr {
+                    th scope="col" { (message::column()) }
+                    th scope="col" { (message::at()) }
+                    @for (name, unit) in columns {
+                        th.number scope="col" { (name) br; span.unit { "[" (unit) "]" } }
+                    }
+                    th scope="col" { (message::during_the_impact_of()) }
+                } }
+                tbody {
+                    @for own in failed.iter().take(MOST_ROWS) {
+                        tr {
+                            th scope="row" { (own.column) }
+                            td { (own.at) }
+                            @for value in cells(own) { td.number { (value) } }
+                            td { (during(own)) }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn cells(own: &ShearFailure) -> [String; 5] {
+    [
+        format::fixed(own.failed_s, 3),
+        format::significant(own.strength_n / 1e3, 4),
+        format::significant(own.slip_peak_m * 1e3, 3),
+        format::fixed(100.0 * own.strength_left, 0),
+        format::significant(own.dissipated_j / 1e3, 3),
+    ]
+}
+
+fn during(own: &ShearFailure) -> String {
+    own.impact.as_ref().map_or_else(
+        || format::NOTHING.to_owned(),
+        |impact| {
+            message::both_at_height_from(
+                &impact.between[0],
+                &impact.between[1],
+                format::plain(impact.height_m, 4),
+                format::instant(impact.start_s),
+            )
+        },
+    )
+}

@@ -1,0 +1,70 @@
+//! Columns that failed in shear, as numbers to report.
+
+use super::capacity::impact_at;
+use super::summarise::{Run, springs_of};
+use super::summary::{ShearFailure, ShearFailureSummary};
+use crate::history::SpringEvent;
+use crate::hysteresis::Side;
+use crate::structure::{MemberEnd, SpringPlace};
+
+/// Columns of a building that failed; `None` if none can fail.
+pub(super) fn shear_failures(building: usize, run: &Run) -> Option<ShearFailureSummary> {
+    let own = &run.system.buildings[building];
+    let places = &own.discretization.spring_places;
+    if !places.iter().any(SpringPlace::is_shear) {
+        return None;
+    }
+    let (mut list, mut columns, mut failed) = (Vec::new(), Vec::new(), Vec::new());
+    let mut dissipated_j = 0.0;
+    for spring in springs_of(own, run.outcome) {
+        let Some(&SpringPlace::Shear { storey, line, end }) = places.get(spring.index) else {
+            continue;
+        };
+        dissipated_j += spring.dissipated_j;
+        if !columns.contains(&(storey, line)) {
+            columns.push((storey, line));
+        }
+        let Some(failed_s) = spring.yielded_s else {
+            continue;
+        };
+        if !failed.contains(&(storey, line)) {
+            failed.push((storey, line));
+        }
+        let global = own.spring_offset + spring.index;
+        let memory = &run.outcome.state.springs[global];
+        let rule = &own.equations.springs[spring.index].hysteresis;
+        let Some([failure, _]) = rule.failure_corners(memory) else {
+            continue;
+        };
+        list.push(ShearFailure {
+            column: format!("{}.column.{line}.{storey}", own.name),
+            at: match end {
+                MemberEnd::First => "foot",
+                MemberEnd::Last => "head",
+            },
+            failed_s,
+            strength_n: failure.force,
+            slip_peak_m: Side::BOTH
+                .map(|side| memory.greatest(side))
+                .into_iter()
+                .fold(0.0, f64::max),
+            strength_left: rule.strength_left(memory) / failure.force,
+            dissipated_j: spring.dissipated_j,
+            impact: failing_event(global, run)
+                .and_then(|event| impact_at(building, event.time, run)),
+        });
+    }
+    list.sort_by(|a, b| a.failed_s.total_cmp(&b.failed_s));
+    Some(ShearFailureSummary {
+        total: columns.len(),
+        failed: failed.len(),
+        first_s: list.first().map(|first| first.failed_s),
+        dissipated_j,
+        list,
+    })
+}
+
+fn failing_event<'a>(spring: usize, run: &'a Run) -> Option<&'a SpringEvent> {
+    let mut events = run.outcome.spring_events.iter();
+    events.find(|event| event.spring == spring)
+}
