@@ -231,7 +231,8 @@ class Shear(Part):
         polar_mass: mass moment of inertia; that of mass spread evenly over the plan by default.
         eccentricity: centre of stiffness from the centre of mass; 0 by default.
         element: columns and walls at points of the plan, instead of ``stiffness``:
-            ``[{"at": ["1 m", "1 m"], "stiffness": {"x": "10 MN/m", "y": "12 MN/m"}}]``.
+            ``[{"at": ["1 m", "1 m"], "stiffness": {"x": "10 MN/m", "y": "12 MN/m"}}]``; with ``hinges`` they yield:
+            ``{"rule": "bilinear", "post_yield": 0.05, "x": {"yield": "8 mm"}, "y": {"yield": "6 mm"}}``.
         frame: plane frames at lines of the plan, beside ``stiffness`` or ``element``, or alone; the building is then of the kind
             ``"frame"``: ``[{"name": "1", "at": ["0 m", "0 m"], "direction": "x", "spans": ["6 m", "6 m"], "column": …, "beam": …,
             "concrete": "C30", "lines": ["A1", "B1", "C1"]}]``.

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use jostle::eigen::Mode;
 use jostle::hysteresis::{Hysteresis, Side};
-use jostle::model::{Damping, Hinges, Structure, usual_damping_modes};
+use jostle::model::{Damping, Hinges, PlanAxis, PlanSpring, Structure, Tiers, usual_damping_modes};
 use jostle::structure::StepEquations;
 use jostle::system::BuildingSystem;
 use jostle::{
@@ -209,6 +209,9 @@ fn describe(text: &mut String, model: &Model, system: &System) -> std::fmt::Resu
         }
         if let Some(hinges) = &model.buildings[index].hinges {
             describe_hinges(text, hinges)?;
+        }
+        if let Structure::Tiers(tiers) = &model.buildings[index].structure {
+            describe_yielding_in_plan(text, tiers)?;
         }
         for (name, hinge, unit) in [
             (
@@ -720,6 +723,50 @@ fn describe_hinges(text: &mut String, hinges: &Hinges) -> std::fmt::Result {
                     range(yielding, 1e-3)
                 )?;
             }
+        }
+    }
+    Ok(())
+}
+
+/// What yields of a building in plan: frames, whole storeys, and every column or wall, by direction.
+fn describe_yielding_in_plan(text: &mut String, tiers: &Tiers) -> std::fmt::Result {
+    for frame in tiers.frames.iter().filter(|frame| frame.may_yield()) {
+        writeln!(text, "  frame {}:", frame.name)?;
+        describe_hinges(text, &Hinges::Frame(frame.hinges.clone()))?;
+    }
+    let mut elements: Vec<Option<usize>> = tiers.yielding.iter().map(|own| own.element).collect();
+    elements.sort_unstable();
+    elements.dedup();
+    for element in elements {
+        for axis in PlanAxis::BOTH {
+            let own: Vec<&PlanSpring> = tiers
+                .yielding
+                .iter()
+                .filter(|own| own.element == element && own.axis == axis)
+                .collect();
+            let Some(first) = own.first() else { continue };
+            let springs: Vec<&Hysteresis> = own.iter().map(|own| &own.hysteresis).collect();
+            let [cracking, yielding] = extents(&springs, Side::Positive);
+            let what = match element {
+                None => "storeys".to_owned(),
+                Some(index) => {
+                    let [x, y] = first.at.map(|value| format!("{value:.2}"));
+                    let name = tiers.element_names.get(index).cloned().flatten();
+                    let name = name.unwrap_or_else(|| format!("element {}", index + 1));
+                    format!("{name} at ({x}, {y}) m")
+                }
+            };
+            let cracks = match cracking == yielding {
+                true => String::new(),
+                false => format!("crack at {} kN, ", range(cracking, 1e-3)),
+            };
+            writeln!(
+                text,
+                "  {what}, {} by {}: {cracks}yield at {} kN",
+                axis.name(),
+                first.hysteresis.rule().name(),
+                range(yielding, 1e-3)
+            )?;
         }
     }
     Ok(())

@@ -85,6 +85,8 @@ pub(crate) enum Section {
     BaseSliding,
     /// Inelastic storeys of a shear building.
     StoreyHinges,
+    /// Those of one direction in plan.
+    StoreyHingesOfAxis,
     /// Where pinched springs stiffen.
     Pinching,
     /// Growth of their peaks.
@@ -487,6 +489,8 @@ pub(crate) const KEYS: &[Key] = &[
     required(S::Element, "at", Kind::PlanPoints, "Place, from the origin of the plan."),
     required(S::Element, "stiffness", Kind::PlanStiffness, "Along x and across."),
     default(S::Element, "storeys", Modes, "all", "First and last storey."),
+    optional(S::Element, "name", Text, "Name in results, if it can yield; without it, its number."),
+    optional(S::Element, "hinges", Kind::Table(S::StoreyHinges), "Cracking and yield along x and across; without it the element is elastic."),
     default(S::PlanFrame, "name", Text, "\"1\", \"2\", …", "Name of the frame. Frames at several places are numbered: \"1.1\", \"1.2\", …"),
     required(S::PlanFrame, "at", Kind::PlanPoints, "Foot of its first column line, from the origin of the plan; or a list of places of equal frames."),
     default(S::PlanFrame, "direction", WordOr("x", D::Dimensionless), "\"x\"", "From its first column line to its last: \"x\", \"y\" (across), or the angle from x, counter-clockwise, such as \"30 deg\"."),
@@ -506,6 +510,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::PlanFrame, "shear", ChoiceOrTable(AXIAL, S::ShearDeformation), "\"rigid\"", "Shear deformation of members (Timoshenko)."),
     default(S::PlanFrame, "poisson_ratio", Quantity(D::Dimensionless), "0.2", "Poisson's ratio, for the shear modulus."),
     optional(S::PlanFrame, "joint", Kind::Table(S::Joint), "Elastic hinge at the beam ends."),
+    optional(S::PlanFrame, "hinges", Kind::Table(S::Hinges), "Plastic hinges at the ends of its members, given by moments; without them it is elastic."),
     default(S::PlanFrame, "base", WordOrTable("fixed", &[S::ShearBase, S::FrameBase]), "\"fixed\"", "Springs and dashpots under every column."),
     required(S::SpaceFrame, "lines_x", Quantities(D::Length), "Where the grid lines across stand along x, from the origin of the plan, rising."),
     required(S::SpaceFrame, "lines_y", Quantities(D::Length), "Where the grid lines along x stand, from the origin of the plan across, rising."),
@@ -701,6 +706,12 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::StoreyHinges, "yield", PerStorey(D::Length), "Storey displacement at yield."),
     optional(S::StoreyHinges, "post_cracking", PerStorey(D::Dimensionless), "Ratio of post-cracking to initial stiffness."),
     optional(S::StoreyHinges, "post_yield", PerStorey(D::Dimensionless), "Ratio of post-yield to initial stiffness."),
+    optional(S::StoreyHinges, "x", Kind::Table(S::StoreyHingesOfAxis), "With a plan: what yields along x. Without x and y both directions yield alike; with one of them, the other direction stays elastic."),
+    optional(S::StoreyHinges, "y", Kind::Table(S::StoreyHingesOfAxis), "With a plan: what yields across."),
+    optional(S::StoreyHingesOfAxis, "cracking", PerStorey(D::Length), "Displacement at cracking in this direction; not for bilinear."),
+    optional(S::StoreyHingesOfAxis, "yield", PerStorey(D::Length), "Displacement at yield in this direction."),
+    optional(S::StoreyHingesOfAxis, "post_cracking", PerStorey(D::Dimensionless), "Ratio of post-cracking to initial stiffness."),
+    optional(S::StoreyHingesOfAxis, "post_yield", PerStorey(D::Dimensionless), "Ratio of post-yield to initial stiffness."),
 
     required(S::Pinching, "deformation", Quantity(D::Dimensionless), "Where the steep part of reloading starts: 0 at the end of unloading, 1 on the unloading line of the peak; 0.8 is usual."),
     required(S::Pinching, "force", Quantity(D::Dimensionless), "Force there over the force at the peak, 0 to 1; 0.2 is usual."),

@@ -116,7 +116,16 @@ const TABLES: &[(Section, &str, &str)] = &[
         "`positive`, `negative` of a hinge",
         "Values given here apply to that side only.",
     ),
-    (Section::StoreyHinges, "`hinges` of a shear building", ""),
+    (
+        Section::StoreyHinges,
+        "`hinges` of a shear building",
+        "And of an element in plan.",
+    ),
+    (
+        Section::StoreyHingesOfAxis,
+        "`hinges.x`, `hinges.y` of a shear building with a plan, or of an element",
+        "What is not given here is that of `hinges`.",
+    ),
     (
         Section::Pinching,
         "`pinching` of hinges",

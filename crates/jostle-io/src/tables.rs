@@ -211,9 +211,10 @@ pub fn encode_values_parquet(
 
 /// Writes what can crack and yield: one row per hinge or storey spring, building by building, touched or not.
 ///
-/// `kind` is `column`, `beam`, `column shear` or `storey`; `level` is the storey of a column, the floor of a beam; `line` is the
-/// column line or the bay, absent for storeys; `end` is `foot`, `head`, `left`, `right` or empty. Deformations are in
-/// rad (m for shear of columns and for storeys), forces in N·m (N there).
+/// `kind` is `column`, `beam`, `column shear`, `storey` or `element`; `level` is the storey of a column, the floor of a beam; `line`
+/// is the column line, the bay or the number of the element, absent for storeys; `place` names the frame in plan; `end` is `foot`, `head`,
+/// `left`, `right`, the direction `x` or `y` in plan, or empty. Deformations are in rad (m for shear of columns and for storeys),
+/// forces in N·m (N there).
 ///
 /// # Errors
 /// [`OutputError`] with path and reason.
@@ -488,14 +489,24 @@ pub fn write_members_parquet(
 /// Kind, level, line and end of a place.
 fn parts(place: Option<SpringPlace>) -> (&'static str, Option<usize>, Option<usize>, &'static str) {
     match place {
-        Some(SpringPlace::Column { storey, line, end }) => {
+        Some(
+            SpringPlace::Column { storey, line, end }
+            | SpringPlace::ColumnInPlan {
+                storey, line, end, ..
+            },
+        ) => {
             let end = match end {
                 MemberEnd::First => "foot",
                 MemberEnd::Last => "head",
             };
             ("column", Some(storey), Some(line), end)
         }
-        Some(SpringPlace::Beam { floor, bay, end }) => {
+        Some(
+            SpringPlace::Beam { floor, bay, end }
+            | SpringPlace::BeamInPlan {
+                floor, bay, end, ..
+            },
+        ) => {
             let end = match end {
                 MemberEnd::First => "left",
                 MemberEnd::Last => "right",
@@ -517,6 +528,14 @@ fn parts(place: Option<SpringPlace>) -> (&'static str, Option<usize>, Option<usi
             };
             ("base", Some(0), Some(line), motion)
         }
+        Some(SpringPlace::PlanStorey { storey, axis }) => {
+            ("storey", Some(storey), None, axis.name())
+        }
+        Some(SpringPlace::Element {
+            element,
+            storey,
+            axis,
+        }) => ("element", Some(storey), Some(element), axis.name()),
         Some(SpringPlace::Bearings) => ("isolation", Some(0), None, "bearings"),
         Some(SpringPlace::Stop { side }) => {
             let side = match side {

@@ -1,7 +1,7 @@
 //! Curves of first loading of the hinges of a building, as small plots without scripts.
 
 use jostle::hysteresis::{Hysteresis, HysteresisRule, Side};
-use jostle::model::{Building, Hinges};
+use jostle::model::{Building, Hinges, PlanAxis, Structure};
 use maud::{Markup, html};
 
 use crate::format;
@@ -35,6 +35,18 @@ pub(crate) fn curves(index: usize, building: &Building) -> Markup {
         Some(Hinges::Storeys(springs)) => vec![(message::storeys_title(), bend(springs), true)],
         None => Vec::new(),
     };
+    if let Structure::Tiers(tiers) = &building.structure {
+        let frames = || tiers.frames.iter().map(|frame| &frame.hinges);
+        let columns: Vec<_> = frames().flat_map(|own| own.columns.concat()).collect();
+        let beams: Vec<_> = frames().flat_map(|own| own.beams.concat()).collect();
+        sets.push(("Hinges of columns", bend(&columns), false));
+        sets.push(("Hinges of beams", bend(&beams), false));
+        for (axis, name) in PlanAxis::BOTH.into_iter().zip(["Along x", "Across"]) {
+            let own = tiers.yielding.iter().filter(|spring| spring.axis == axis);
+            let own: Vec<Hysteresis> = own.map(|spring| spring.hysteresis).collect();
+            sets.push((name, bend(&own), true));
+        }
+    }
     for (name, hinge, slides) in [
         (
             message::base_rocking(),

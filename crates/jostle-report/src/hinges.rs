@@ -1,7 +1,7 @@
 //! Cracking and yielding: places, selected loops, the table in order of yielding.
 
 use jostle::hysteresis::{Backbone, Hysteresis, Side};
-use jostle::model::{Building, Hinges, Model};
+use jostle::model::{Building, Hinges, Model, Structure};
 use jostle::results::summary::{HingeSummary, SpringSummary};
 use jostle::structure::{BaseMotion, Discretization, MemberEnd, SpringPlace};
 use maud::{Markup, html};
@@ -58,6 +58,35 @@ fn hysteresis_of(building: &Building, at: SpringPlace) -> Option<Hysteresis> {
             BaseMotion::Sliding => building.base.horizontal_hinge,
         };
     }
+    if let Structure::Tiers(tiers) = &building.structure {
+        let mut springs = tiers.yielding.iter();
+        let own = match at {
+            SpringPlace::PlanStorey { storey, axis } => (None, storey, axis),
+            SpringPlace::Element {
+                element,
+                storey,
+                axis,
+            } => (Some(element - 1), storey, axis),
+            SpringPlace::ColumnInPlan {
+                frame,
+                storey,
+                line,
+                ..
+            } => {
+                let hinges = &tiers.frames.get(frame - 1)?.hinges;
+                return hinges.columns.get(storey - 1)?.get(line - 1).copied();
+            }
+            SpringPlace::BeamInPlan {
+                frame, floor, bay, ..
+            } => {
+                let hinges = &tiers.frames.get(frame - 1)?.hinges;
+                return hinges.beams.get(floor - 1)?.get(bay - 1).copied();
+            }
+            _ => return None,
+        };
+        let found = springs.find(|spring| (spring.element, spring.storey + 1, spring.axis) == own);
+        return found.map(|spring| spring.hysteresis);
+    }
     match (building.hinges.as_ref()?, at) {
         (Hinges::Frame(hinges), SpringPlace::Column { storey, line, .. }) => {
             hinges.columns.get(storey - 1)?.get(line - 1).copied()
@@ -78,6 +107,8 @@ pub(crate) fn slides(at: SpringPlace) -> bool {
         at,
         SpringPlace::Storey { .. }
             | SpringPlace::Shear { .. }
+            | SpringPlace::PlanStorey { .. }
+            | SpringPlace::Element { .. }
             | SpringPlace::Base {
                 motion: BaseMotion::Sliding,
                 ..
@@ -92,7 +123,11 @@ pub(crate) fn coordinates(at: SpringPlace) -> (char, usize, usize, usize) {
         SpringPlace::Column { storey, line, end } => ('c', storey, line, last(end)),
         SpringPlace::Beam { floor, bay, end } => ('b', floor, bay, last(end)),
         SpringPlace::Shear { storey, line, end } => ('v', storey, line, last(end)),
-        SpringPlace::Storey { storey } => ('s', storey, 0, 0),
+        SpringPlace::Storey { storey }
+        | SpringPlace::PlanStorey { storey, .. }
+        | SpringPlace::Element { storey, .. }
+        | SpringPlace::ColumnInPlan { storey, .. }
+        | SpringPlace::BeamInPlan { floor: storey, .. } => ('s', storey, 0, 0),
         SpringPlace::Base { line, motion } => {
             ('f', 0, line, usize::from(motion == BaseMotion::Sliding))
         }
@@ -163,11 +198,20 @@ pub(crate) fn outline(backbone: &Backbone, reach: [f64; 2]) -> Vec<[f64; 2]> {
 
 /// Names a place, its building first where there are several.
 pub(crate) fn name(page: &Page, place: &Place) -> String {
-    let building = &page.model.buildings[place.building].name;
+    let building = &page.model.buildings[place.building];
+    let own = match &building.structure {
+        Structure::Tiers(tiers) => {
+            let frames = tiers.frames.iter().map(|frame| frame.name.clone());
+            place
+                .at
+                .named(&tiers.element_names, &frames.collect::<Vec<_>>())
+        }
+        _ => place.at.to_string(),
+    };
     if page.model.buildings.len() > 1 {
-        format!("{building}, {}", place.at)
+        format!("{}, {own}", building.name)
     } else {
-        place.at.to_string()
+        own
     }
 }
 

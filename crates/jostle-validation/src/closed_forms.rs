@@ -71,6 +71,7 @@ fn building(
         centres: Vec::new(),
         frames: Vec::new(),
         shared_columns: Vec::new(),
+        element_names: Vec::new(),
         stick_model,
         left_face: floors.clone(),
         right_face: floors.clone(),

@@ -89,6 +89,8 @@ fn building(stored: &Value) -> Building {
             floors: vec![tier],
             frames: Vec::new(),
             space_frame: None,
+            yielding: Vec::new(),
+            element_names: Vec::new(),
         }),
         damping: Damping::Rayleigh {
             alpha: 0.0,

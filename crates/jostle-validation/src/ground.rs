@@ -345,6 +345,7 @@ fn block_case(source: &str, case: &Value) -> Vec<Row> {
         centres: Vec::new(),
         frames: Vec::new(),
         shared_columns: Vec::new(),
+        element_names: Vec::new(),
     };
     let system = System::of_buildings(vec![BuildingSystem::new("block", discretization)]);
     let motion = motion(inputs);

@@ -30,6 +30,7 @@ pub mod space_frames;
 pub mod towers;
 pub mod work_precision;
 pub mod yielding;
+pub mod yielding_in_plan;
 
 mod data;
 mod files;
@@ -184,6 +185,13 @@ const FAMILIES: [(&str, &str, Make); 21] = [
          other. From model files with a tolerance of 10⁻⁴. The reference is OpenSees on the exported scripts with steps of \
          0.1 ms, near contact 0.01 ms.",
         |_| plan_in_opensees::rows(),
+    ),
+    (
+        "Walls in plan that yield, in OpenSees",
+        "Two storeys on walls at points of the plan, none of which stands at the centre of mass; each yields along x and across, under two \
+         sines. From a model file with steps of 0.5 ms. The reference is OpenSees with the same method and steps, Steel01 at points that \
+         rigidLink ties to the floors, by a script of its own.",
+        |_| yielding_in_plan::rows(),
     ),
     (
         "Automatic steps",

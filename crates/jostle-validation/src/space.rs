@@ -6,8 +6,8 @@ use jostle::contact::ForceLaw;
 use jostle::stepping::PlanPeaks;
 use jostle::{
     Analysis, Bearing, Building, ContactLaw, Damping, Gap, GroundMotion, LawKind, Model, Outcome,
-    Plan, PlanArea, PlanContact, PlanPoint, RestitutionIs, Settings, Structure, System, Tier,
-    TierStorey, Tiers, Wave, simulate,
+    Plan, PlanArea, PlanContact, PlanPoint, RestitutionIs, Settings, Solver, Structure, System,
+    Tier, TierStorey, Tiers, Wave, simulate,
 };
 use jostle_io::builtin_record;
 use serde_json::Value;
@@ -17,6 +17,8 @@ use crate::row::Row;
 
 /// Cases with contacts, and the tolerance of the program with that of the comparison: the reference is good to 1e-6.
 const RUNS: [(f64, f64); 2] = [(1e-3, 1e-3), (1e-6, 2e-6)];
+/// The same for direct steps.
+const DIRECT_RUNS: [(f64, f64); 2] = [(1e-3, 1e-3), (1e-5, 1e-5)];
 /// The reference reads sums of forces at the ends of its own steps, which miss the top by up to 9e-6; forces of points,
 /// whose tops it locates, agree to 1e-8.
 const SUMS: f64 = 1e-5;
@@ -67,7 +69,11 @@ pub fn rows() -> Vec<Row> {
     ] {
         let case = document(text);
         for (tolerance, limit) in RUNS {
-            rows.extend(compare(name, &case, tolerance, limit));
+            rows.extend(compare(name, &case, tolerance, limit, None));
+        }
+        for (tolerance, limit) in DIRECT_RUNS {
+            let solver = Some(Solver::Riccati);
+            rows.extend(compare(name, &case, tolerance, limit, solver));
         }
     }
     rows
@@ -112,6 +118,8 @@ fn building(stored: &Value) -> Building {
             storey_heights: heights.collect(),
             frames: Vec::new(),
             space_frame: None,
+            yielding: Vec::new(),
+            element_names: Vec::new(),
         }),
         damping: Damping::Rayleigh {
             alpha: number(stored, "/alpha_1_s"),
@@ -274,9 +282,21 @@ fn run(system: &System, model: &Model, motion: &GroundMotion) -> Outcome {
 }
 
 /// Everything stored of a case; peaks relative to the greatest of their kind.
-fn compare(source: &str, case: &Value, tolerance: f64, limit: f64) -> Vec<Row> {
+fn compare(
+    source: &str,
+    case: &Value,
+    tolerance: f64,
+    limit: f64,
+    solver: Option<Solver>,
+) -> Vec<Row> {
     let (inputs, expected) = (at(case, "/inputs"), at(case, "/expected"));
-    let model = model(inputs, tolerance);
+    let mut model = model(inputs, tolerance);
+    model.analysis.solver = solver;
+    let steps = if solver.is_some() {
+        "direct steps, "
+    } else {
+        ""
+    };
     let system = System::assemble(&model).expect("a sound model");
     let motion = motion(inputs);
     let outcome = run(&system, &model, &motion);
@@ -294,7 +314,7 @@ fn compare(source: &str, case: &Value, tolerance: f64, limit: f64) -> Vec<Row> {
         rows.push(Row::relative(
             source,
             format!(
-                "tolerance {tolerance:.0e}, {what}, worst of {}",
+                "{steps}tolerance {tolerance:.0e}, {what}, worst of {}",
                 pairs.len()
             ),
             greatest,
@@ -615,6 +635,8 @@ fn polygons() -> Vec<Row> {
                     storey_heights: vec![3.0],
                     frames: Vec::new(),
                     space_frame: None,
+                    yielding: Vec::new(),
+                    element_names: Vec::new(),
                 }),
                 damping: Damping::Ratio {
                     ratio: 0.05,

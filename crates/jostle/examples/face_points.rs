@@ -109,6 +109,8 @@ fn model(depth: f64, turn: f64, points: usize) -> Model {
             name: name.to_owned(),
             structure: Structure::Tiers(Tiers {
                 frames: Vec::new(),
+                yielding: Vec::new(),
+                element_names: Vec::new(),
                 floors: vec![tier],
                 storeys: vec![storey],
                 storey_heights: vec![3.0],

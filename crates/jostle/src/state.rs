@@ -150,7 +150,7 @@ impl State {
     #[must_use]
     pub fn at_rest_on(system: &System, motion: &GroundMotion) -> Self {
         let grounds = RunGrounds::new(system, motion);
-        let common = [motion.acceleration(0.0), 0.0];
+        let common = motion.components(0.0);
         Self::resting(system, |building| grounds.at(0, common).of(building))
     }
 
@@ -175,8 +175,10 @@ impl State {
                     *value = -driven / mass * ground_acceleration;
                 }
             }
-            if second != 0.0 && !building.is_in_space() {
-                let masses = equations.vertical_mass.iter().zip(&equations.mass);
+            if second != 0.0
+                && let Some(driven) = equations.driven_by_second(true)
+            {
+                let masses = driven.iter().zip(&equations.mass);
                 let own = acceleration[building.range()].iter_mut();
                 for (value, (driven, mass)) in own.zip(masses) {
                     if *mass > 0.0 {

@@ -39,7 +39,7 @@ impl StepEquations for DirectStiffness {
         }
         places.extend((0..equations.len()).map(|dof| (dof, dof)));
         let springs = equations.springs.iter();
-        let springs: Vec<_> = springs.map(|spring| (spring.dofs, spring.lever)).collect();
+        let springs: Vec<_> = springs.map(|spring| (spring.dofs, spring.levers)).collect();
         let of_springs = springs.iter().flat_map(|spring| spring_entries(*spring));
         places.extend(of_springs.map(|(row, column, _)| (row, column)));
         Self {
@@ -73,21 +73,27 @@ impl StepEquations for DirectStiffness {
     }
 }
 
-/// A spring between two degrees of freedom, and the rotation and height that add to its deformation.
-type SpringPlace = ([Option<usize>; 2], Option<(usize, f64)>);
+/// A spring between two degrees of freedom, and the rotations that add to its deformation, with their arms.
+type SpringPlace = ([Option<usize>; 2], [Option<(usize, f64)>; 2]);
 
 /// Rows, columns and factors of the entries of a spring, one triangle.
-fn spring_entries((dofs, lever): SpringPlace) -> impl Iterator<Item = (usize, usize, f64)> {
+fn spring_entries((dofs, levers): SpringPlace) -> impl Iterator<Item = (usize, usize, f64)> {
     let own = |dof: Option<usize>| dof.map(|dof| (dof, dof, 1.0));
     let between = dofs[0].zip(dofs[1]).map(|(a, b)| (a, b, -1.0));
-    let turning = lever.map(|(turning, height)| (turning, turning, height * height));
-    let beside = |dof: Option<usize>, sign: f64| {
-        let (turning, height) = lever?;
-        Some((dof?, turning, sign * height))
+    let of_lever = move |lever: Option<(usize, f64)>| {
+        let turning = lever.map(|(turning, arm)| (turning, turning, arm * arm));
+        let beside = |dof: Option<usize>, sign: f64| {
+            let (turning, arm) = lever?;
+            Some((dof?, turning, sign * arm))
+        };
+        [turning, beside(dofs[0], 1.0), beside(dofs[1], -1.0)]
     };
-    let levers = [turning, beside(dofs[0], 1.0), beside(dofs[1], -1.0)];
+    let both = levers[0].zip(levers[1]);
+    let both = both.map(|((a, arm), (b, other))| (a, b, arm * other));
     [own(dofs[0]), own(dofs[1]), between]
         .into_iter()
-        .chain(levers)
+        .chain(of_lever(levers[0]))
+        .chain(of_lever(levers[1]))
+        .chain([both])
         .flatten()
 }

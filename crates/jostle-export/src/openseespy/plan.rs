@@ -67,6 +67,27 @@ impl Script<'_> {
             if let Some(springs) = tiers.storeys.get(storey) {
                 self.add_storey_in_plan(index, building, storey, springs, true);
             }
+            let yielding = tiers.yielding.iter();
+            for spring in yielding.filter(|spring| spring.storey == storey) {
+                let Ok(material) = self.materials.yielding(&spring.hysteresis) else {
+                    let (key, rule) = match spring.element {
+                        Some(element) => (format!(".element[{element}]"), spring.hysteresis.rule()),
+                        None => (String::new(), spring.hysteresis.rule()),
+                    };
+                    return refuse(
+                        &format!("{key}.hinges.rule"),
+                        &format!(
+                            "OpenSees has no rule \"{}\"; normal, bilinear, peak-oriented and pinched can be exported",
+                            rule.name()
+                        ),
+                    );
+                };
+                let lower = storey.checked_sub(1).map(|below| floors[below]);
+                let first = self.point(index, lower, spring.at);
+                let last = self.point(index, Some(floors[storey]), spring.at);
+                let directions = [(DIRECTIONS[spring.axis.index()], material)];
+                self.spring(first, last, &directions, false);
+            }
             if own.gravity.p_delta {
                 let mut springs = tiers.softening(&lumped, storey);
                 springs.stiffness = springs.stiffness.map(|stiffness| -stiffness);

@@ -254,15 +254,13 @@ fn read(
         Structure::Shear(shear) => {
             stated.and_then(|field| hinges::read_storeys(reader, &field, shear))
         }
+        // Those of a plan are part of it.
         Structure::Tiers(_) => {
             if let (Some(field), true) = (&stated, kind == Kind::SpaceFrame) {
                 *reader.bad(
                     field,
                     "is not possible in a space frame yet: it stays elastic",
                 ) = Some("leave out hinges; plane frames and storey springs can yield".into());
-            } else if let Some(field) = &stated {
-                *reader.bad(field, "is not possible for a building with a plan yet") =
-                    Some("leave out hinges, or plan".into());
             }
             None
         }

@@ -632,16 +632,77 @@ pub(super) fn read_storeys(
     shear: &Shear,
 ) -> Option<Hinges> {
     let view = reader.open(field, &[Section::StoreyHinges])?;
+    for key in AXES {
+        if let Some(field) = reader.get(&view, key) {
+            *reader.bad(
+                &field,
+                "needs a plan: in one plane storeys have one direction",
+            ) = Some(format!(
+                "give yield and the others without {key}, or add plan"
+            ));
+        }
+    }
     let rule = read_rule(reader, &view);
-    let storeys = shear.stiffness.len();
+    storey_springs(reader, field, rule, &[&view], &shear.stiffness).map(Hinges::Storeys)
+}
+
+/// Directions in plan.
+const AXES: [&str; 2] = ["x", "y"];
+
+/// Springs of storeys or of elements in plan, along x and across; an empty list stays elastic. `stiffness`: of every storey along x
+/// and across \[N/m\].
+///
+/// A direction yields if it has a table of its own, or if neither has one; what its table lacks stands beside it.
+pub(super) fn read_in_plan(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    stiffness: [&[f64]; 2],
+) -> Option<[Vec<Hysteresis>; 2]> {
+    let view = reader.open(field, &[Section::StoreyHinges])?;
+    let rule = read_rule(reader, &view);
+    let both = !AXES.iter().any(|key| view.has(key));
+    let mut found = [Some(Vec::new()), Some(Vec::new())];
+    for ((key, stiffness), found) in AXES.into_iter().zip(stiffness).zip(&mut found) {
+        let is_held = stiffness.iter().any(|value| *value > 0.0);
+        let Some(axis) = reader.get(&view, key) else {
+            if both && is_held {
+                *found = storey_springs(reader, field, rule, &[&view], stiffness);
+            }
+            continue;
+        };
+        if !is_held {
+            *reader.bad(&axis, format!("yields without stiffness along {key}")) =
+                Some(format!("add {key} to stiffness, or remove {key} here"));
+            *found = None;
+            continue;
+        }
+        let own = reader.open(&axis, &[Section::StoreyHingesOfAxis]);
+        *found = own.and_then(|own| storey_springs(reader, &axis, rule, &[&own, &view], stiffness));
+    }
+    let [x, y] = found;
+    Some([x?, y?])
+}
+
+/// One spring per storey. Every number is that of the first view that has it.
+fn storey_springs(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    rule: Option<HysteresisRule>,
+    views: &[&View<'_>],
+    stiffness: &[f64],
+) -> Option<Vec<Hysteresis>> {
+    let storeys = stiffness.len();
     let bilinear = rule == Some(HysteresisRule::Bilinear);
     let elastic = rule == Some(HysteresisRule::Elastic);
+    let place = |reader: &mut Reader<'_>, key: &'static str| {
+        views.iter().find_map(|view| reader.get(view, key))
+    };
     let mut list = |key: &'static str, dimension, example: &str| {
-        let Some(field) = reader.get(&view, key) else {
+        let Some(field) = place(reader, key) else {
             let needless = elastic || (bilinear && key.contains("cracking"));
-            if !needless {
+            if let (false, Some(view)) = (needless, views.first()) {
                 reader.missing(
-                    &view,
+                    view,
                     key,
                     format!("add {key} = {example}, or a list from the ground up"),
                 );
@@ -673,7 +734,7 @@ pub(super) fn read_storeys(
                 post_yield: post_yield[storey],
             },
         };
-        let spring = Backbone::from_deformations(shear.stiffness[storey], corners, corners)
+        let spring = Backbone::from_deformations(stiffness[storey], corners, corners)
             .and_then(|backbone| Hysteresis::new(rule, backbone));
         match spring {
             Ok(spring) => springs.push(spring),
@@ -683,7 +744,7 @@ pub(super) fn read_storeys(
                     .into_iter()
                     .filter(|fault| fault.side != Some(Side::Negative))
                 {
-                    let given = key_of(fault.quantity).and_then(|key| reader.get(&view, key));
+                    let given = key_of(fault.quantity).and_then(|key| place(reader, key));
                     let given = given.map(|field| match field.entries() {
                         Some(entries) => entries.into_iter().nth(storey).unwrap_or(field),
                         None => field,
@@ -698,5 +759,5 @@ pub(super) fn read_storeys(
             }
         }
     }
-    (springs.len() == storeys).then_some(Hinges::Storeys(springs))
+    (springs.len() == storeys).then_some(springs)
 }

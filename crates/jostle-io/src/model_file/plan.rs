@@ -1,9 +1,14 @@
 //! Plans of buildings: floors that move in both horizontal directions and turn.
 
+use jostle::hysteresis::Hysteresis;
 use jostle::interface::narrowest_gap;
-use jostle::{Building, Gap, Model, PlanArea, PlanPoint, Structure, Tier, TierStorey, Tiers};
+use jostle::{
+    Building, Gap, Model, PlanArea, PlanAxis, PlanPoint, PlanSpring, Structure, Tier, TierStorey,
+    Tiers,
+};
 
 use super::building::{has_length, per_storey, storeys};
+use super::hinges;
 use super::plan_frames;
 use super::shear::DEFAULT_STOREY_HEIGHT;
 use super::space_frame::{self, Grid};
@@ -104,6 +109,8 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, held_by: HeldBy) ->
             }
         })
         .collect();
+    let (mut yielding, mut element_names) = (Vec::new(), Vec::new());
+    let hinges = reader.get(view, "hinges");
     let storeys = match elements {
         Some(entries) => {
             for key in ["stiffness", "eccentricity"] {
@@ -112,16 +119,34 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, held_by: HeldBy) ->
                         Some(format!("remove {key}; the elements give it"));
                 }
             }
-            of_elements(reader, &entries, count)
+            if let Some(field) = &hinges {
+                *reader.bad(field, "are those of stiffness, which elements replace") =
+                    Some("move hinges into the elements that yield".into());
+            }
+            let read = of_elements(reader, &entries, count);
+            (yielding, element_names) = (read.yielding, read.names);
+            read.storeys
         }
         None if springs_may_lack => {
             if let Some(field) = reader.get(view, "eccentricity") {
                 *reader.bad(&field, "is that of stiffness, which is not given") =
                     Some("remove eccentricity; the places of the frames give it".into());
             }
+            if let Some(field) = &hinges {
+                *reader.bad(
+                    field,
+                    "are those of stiffness, which is not given; frames have hinges of their own",
+                ) = Some("move hinges into [[building.frame]]".into());
+            }
             Vec::new()
         }
-        None => of_stiffness(reader, view, &floors, &plans),
+        None => {
+            let mut storeys = of_stiffness(reader, view, &floors, &plans);
+            if let Some(field) = &hinges {
+                yielding = of_storeys(reader, field, &mut storeys);
+            }
+            storeys
+        }
     };
     let storey_heights = heights.unwrap_or_else(|| vec![DEFAULT_STOREY_HEIGHT; count]);
     let frames = match held_by {
@@ -136,6 +161,8 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, held_by: HeldBy) ->
             storey_heights,
             frames,
             space_frame,
+            yielding,
+            element_names,
         },
         at,
     }
@@ -307,13 +334,65 @@ fn spring(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Spring> {
     Some(found)
 }
 
+/// What yields of storeys, whose springs then have no stiffness of their own in that direction. They act at the centre of
+/// stiffness.
+fn of_storeys(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    storeys: &mut [TierStorey],
+) -> Vec<PlanSpring> {
+    let stiffness: [Vec<f64>; 2] =
+        [0, 1].map(|axis: usize| storeys.iter().map(|own| own.stiffness[axis]).collect());
+    let Some(read) = hinges::read_in_plan(reader, field, stiffness.each_ref().map(|own| &own[..]))
+    else {
+        return Vec::new();
+    };
+    let mut yielding = Vec::new();
+    for (storey, own) in storeys.iter_mut().enumerate() {
+        for (axis, springs) in PlanAxis::BOTH.into_iter().zip(&read) {
+            let Some(&hysteresis) = springs.get(storey) else {
+                continue;
+            };
+            own.stiffness[axis.index()] = 0.0;
+            yielding.push(PlanSpring {
+                element: None,
+                storey,
+                at: own.centre,
+                axis,
+                hysteresis,
+            });
+        }
+    }
+    yielding
+}
+
+/// Storeys of columns and walls at points of the plan.
+struct OfElements {
+    /// What stays elastic.
+    storeys: Vec<TierStorey>,
+    yielding: Vec<PlanSpring>,
+    /// Names of all elements; `None` where they have none.
+    names: Vec<Option<String>>,
+}
+
 /// Storeys from columns and walls at points of the plan.
-fn of_elements(reader: &mut Reader<'_>, entries: &[Field<'_>], count: usize) -> Vec<TierStorey> {
+fn of_elements(reader: &mut Reader<'_>, entries: &[Field<'_>], count: usize) -> OfElements {
     let mut of_storey: Vec<Vec<(PlanPoint, [f64; 2])>> = vec![Vec::new(); count];
-    for entry in entries {
+    let mut yielding = Vec::new();
+    let mut names: Vec<Option<String>> = vec![None; entries.len()];
+    for (element, entry) in entries.iter().enumerate() {
         let Some(view) = reader.open(entry, &[Section::Element]) else {
             continue;
         };
+        if let Some(field) = reader.get(&view, "name")
+            && let Some(name) = reader.text(&field)
+        {
+            if names.contains(&Some(name.clone())) {
+                *reader.bad(&field, "is the name of another element") =
+                    Some("give every element a name of its own, or none".into());
+            }
+            names[element] = Some(name);
+        }
         let at = match reader.get(&view, "at") {
             Some(field) => pair(reader, &field),
             None => {
@@ -338,15 +417,53 @@ fn of_elements(reader: &mut Reader<'_>, entries: &[Field<'_>], count: usize) -> 
         };
         if let (Some(at), Some([x, y, _]), Some([from, to])) = (at, spring, range) {
             let x = x.unwrap_or(0.0);
-            for storey in &mut of_storey[from - 1..to] {
-                storey.push((at, [x, y.unwrap_or(x)]));
+            let whole = [x, y.unwrap_or(x)];
+            let springs = yielding_of_element(reader, &view, whole, to + 1 - from);
+            for (index, storey) in (from - 1..to).enumerate() {
+                let mut elastic = whole;
+                for (axis, list) in PlanAxis::BOTH.into_iter().zip(&springs) {
+                    if let Some(&hysteresis) = list.get(index) {
+                        elastic[axis.index()] = 0.0;
+                        yielding.push(PlanSpring {
+                            element: Some(element),
+                            storey,
+                            at,
+                            axis,
+                            hysteresis,
+                        });
+                    }
+                }
+                if elastic != [0.0; 2] || springs.iter().all(Vec::is_empty) {
+                    of_storey[storey].push((at, elastic));
+                }
             }
         }
     }
-    of_storey
-        .iter()
-        .map(|elements| TierStorey::of_elements(elements))
-        .collect()
+    // From the ground up, as storeys yield.
+    yielding.sort_by_key(|spring| spring.storey);
+    OfElements {
+        storeys: of_storey
+            .iter()
+            .map(|elements| TierStorey::of_elements(elements))
+            .collect(),
+        yielding,
+        names,
+    }
+}
+
+/// What yields of an element along x and across, storey by storey.
+fn yielding_of_element(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    stiffness: [f64; 2],
+    storeys: usize,
+) -> [Vec<Hysteresis>; 2] {
+    let field = reader.get(view, "hinges");
+    let stiffness = stiffness.map(|value| vec![value; storeys]);
+    let read = field.and_then(|field| {
+        hinges::read_in_plan(reader, &field, stiffness.each_ref().map(|own| &own[..]))
+    });
+    read.unwrap_or_default()
 }
 
 /// First and last storey.

@@ -1,9 +1,10 @@
 //! `[[building.frame]]`: plane frames at lines of a plan.
 
-use jostle::{PlanFrame, PlanPoint};
+use jostle::{FrameHinges, Hinges, PlanFrame, PlanPoint};
 
 use super::building::read_base;
 use super::frame;
+use super::hinges;
 use super::plan::pair;
 use crate::keys::Section;
 use crate::quantity::Dimension;
@@ -83,6 +84,19 @@ fn read(
     };
     let frame = frame::read_in_plan(reader, view, &storey_heights[..storeys]);
     let base = read_base(reader, view, false);
+    let hinges = reader.get(view, "hinges").and_then(|field| {
+        let table = reader.reopen(&field, &[Section::Hinges]);
+        if let Some(from) = table.and_then(|table| reader.get(&table, "from")) {
+            *reader.bad(&from, "is not possible for frames in plan yet") =
+                Some("give the moments of column and beam".into());
+            return None;
+        }
+        match hinges::read_frame(reader, &field, &frame, None)? {
+            Hinges::Frame(hinges) => Some(hinges),
+            Hinges::Storeys(_) => None,
+        }
+    });
+    let hinges: FrameHinges = hinges.unwrap_or_default();
     let lines = match reader.get(view, "lines") {
         Some(field) => {
             let names = read_lines(reader, &field);
@@ -106,6 +120,7 @@ fn read(
             direction: direction.unwrap_or([1.0, 0.0]),
             lines: lines.clone(),
             base,
+            hinges: hinges.clone(),
             frame: frame.clone(),
         })
         .collect()

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use jostle::{Structure, System, Tiers};
+use jostle::{PlanAxis, PlanPoint, Structure, System, Tiers};
 use jostle_io::{Format, Input, read_model_text};
 
 const A: &str = r#"
@@ -204,7 +204,7 @@ fn what_does_not_fit_is_refused_with_its_place() {
                 "mass = \"250 t\"",
                 "mass = \"250 t\"\nhinges = { rule = \"bilinear\", yield = \"20 mm\" }",
             ),
-            "building[0].hinges: is not possible for a building with a plan yet",
+            "building[0].hinges.post_yield: is missing",
         ),
         (
             format!(
@@ -578,4 +578,161 @@ fn walls_stand_on_the_site() {
         let said = said(&text(wall));
         assert!(said.contains(expected), "{wall}:\n{said}");
     }
+}
+
+const WALLS: &str = r#"
+[[building]]
+name = "A"
+kind = "shear"
+storeys = 3
+plan = ["20 m", "12 m"]
+at = ["100 m", "50 m"]
+mass = "250 t"
+
+[[building.element]]
+name = "core"
+at = ["4 m", "3 m"]
+stiffness = { x = "50 MN/m", y = "70 MN/m" }
+storeys = [1, 2]
+hinges = { rule = "bilinear", post_yield = 0.05, x = { yield = ["8 mm", "6 mm"] }, y = { yield = "5 mm", post_yield = 0.02 } }
+
+[[building.element]]
+at = ["18 m", "2 m"]
+stiffness = { x = "40 MN/m", y = "30 MN/m" }
+hinges = { rule = "bilinear", post_yield = 0.05, y = { yield = "7 mm" } }
+
+[[building.element]]
+at = ["10 m", "11 m"]
+stiffness = "20 MN/m"
+"#;
+
+/// Each wall yields in its own directions and storeys; what stays elastic makes the springs of the storey.
+#[test]
+fn walls_yield_by_storey_and_direction() {
+    let input = read(WALLS).expect("a sound model");
+    let tiers = tiers(&input, 0);
+    let found: Vec<(Option<usize>, usize, PlanAxis, PlanPoint)> = tiers
+        .yielding
+        .iter()
+        .map(|own| (own.element, own.storey, own.axis, own.at))
+        .collect();
+    let (core, wall) = ([104.0, 53.0], [118.0, 52.0]);
+    assert_eq!(
+        found,
+        [
+            (Some(0), 0, PlanAxis::X, core),
+            (Some(0), 0, PlanAxis::Y, core),
+            (Some(1), 0, PlanAxis::Y, wall),
+            (Some(0), 1, PlanAxis::X, core),
+            (Some(0), 1, PlanAxis::Y, core),
+            (Some(1), 1, PlanAxis::Y, wall),
+            (Some(1), 2, PlanAxis::Y, wall),
+        ]
+    );
+    let yielding = |index: usize| {
+        let side = tiers.yielding[index].hysteresis;
+        side.backbone()
+            .side(jostle::hysteresis::Side::Positive)
+            .yielding
+    };
+    assert!((yielding(0).force / 50e6 - 8e-3).abs() < 1e-12);
+    assert!((yielding(3).deformation - 6e-3).abs() < 1e-15);
+    assert_eq!(tiers.element_names, [Some("core".to_owned()), None, None]);
+    // The second wall along x and the third in both directions.
+    assert_eq!(tiers.storeys[0].stiffness[..2], [60e6, 20e6]);
+    assert_eq!(tiers.storeys[2].stiffness[..2], [60e6, 20e6]);
+    let together = tiers.initial_storey(0).expect("springs");
+    assert!((together.stiffness[0] / 110e6 - 1.0).abs() < 1e-12);
+    assert!((together.stiffness[1] / 120e6 - 1.0).abs() < 1e-12);
+    let system = System::assemble(&input.model).expect("a sound model");
+    let own = &system.buildings[0];
+    assert_eq!(own.equations.springs.len(), 7);
+    let places: Vec<String> = own
+        .discretization
+        .spring_places
+        .iter()
+        .map(|place| place.named(&own.discretization.element_names, &[]))
+        .collect();
+    assert_eq!(places[0], "core, storey 1, x");
+    assert_eq!(places[6], "element 2, storey 3, y");
+}
+
+/// A yielding storey is elastic in torsion alone.
+#[test]
+fn storeys_in_plan_yield_along_both_directions_or_one() {
+    let with = |hinges: &str| {
+        A.replace(
+            "mass = \"250 t\"",
+            &format!("mass = \"250 t\"\nhinges = {hinges}"),
+        )
+    };
+    let both = "{ rule = \"bilinear\", yield = \"20 mm\", post_yield = 0.05 }";
+    let input = read(&with(both)).expect("a sound model");
+    let own = tiers(&input, 0);
+    assert_eq!(own.yielding.len(), 2);
+    assert_eq!(own.storeys[0].stiffness[..2], [0.0, 0.0]);
+    assert_eq!(own.yielding[1].at, [11.0, 5.5]);
+    let one = "{ rule = \"bilinear\", x = { yield = \"20 mm\", post_yield = 0.05 } }";
+    let input = read(&with(one)).expect("a sound model");
+    let own = tiers(&input, 0);
+    assert_eq!((own.yielding.len(), own.yielding[0].axis), (1, PlanAxis::X));
+    assert_eq!(own.storeys[0].stiffness[..2], [0.0, 85e6]);
+}
+
+#[test]
+fn hinges_in_plan_that_do_not_fit_are_refused_with_the_remedy() {
+    let changed = |from: &str, to: &str| {
+        assert!(WALLS.contains(from), "{from}");
+        said(&WALLS.replacen(from, to, 1))
+    };
+    for (from, to, expected) in [
+        ("post_yield = 0.05, x", "x", "add post_yield"),
+        (
+            "[\"8 mm\", \"6 mm\"]",
+            "[\"8 mm\"]",
+            "1 entry for 2 storeys",
+        ),
+        (
+            "{ x = \"50 MN/m\", y",
+            "{ x = \"0 MN/m\", y",
+            "without stiffness along x",
+        ),
+        (
+            "mass = \"250 t\"",
+            "mass = \"250 t\"\nhinges = { rule = \"bilinear\" }",
+            "move hinges into the elements",
+        ),
+        (
+            "at = [\"18 m\", \"2 m\"]",
+            "name = \"core\"\nat = [\"18 m\", \"2 m\"]",
+            "another element",
+        ),
+    ] {
+        let said = changed(from, to);
+        assert!(said.contains(expected), "{from} → {to}:\n{said}");
+    }
+    let plane = "[[building]]\nkind = \"shear\"\nmass = \"1 t\"\nstiffness = \"1 MN/m\"\nhinges = { rule = \"bilinear\", yield = \"9 mm\", post_yield = 0.1, x = { yield = \"9 mm\" } }\n";
+    assert!(said(plane).contains("needs a plan"), "{}", said(plane));
+}
+
+/// Hinges of frames in plan come before springs, and are named after their frame.
+#[test]
+fn frames_in_plan_yield_at_their_members() {
+    let hinges = "name = \"1\"\nhinges = { rule = \"bilinear\", column = { yield = \"300 kN.m\", post_yield = 0.02 } }";
+    let text = FRAMES.replacen("name = \"1\"", hinges, 1);
+    let input = read(&text).unwrap_or_else(|error| panic!("{error}"));
+    let system = System::assemble(&input.model).expect("a sound model");
+    let own = &system.buildings[0];
+    let frame = &tiers(&input, 0).frames[0];
+    let count = 2 * frame.frame.storey_heights.len() * frame.column_lines();
+    assert_eq!(own.equations.springs.len(), count);
+    assert_eq!(own.discretization.spring_places.len(), count);
+    let first = own.discretization.spring_places[0].named(&[], &own.discretization.frames);
+    assert!(first.starts_with("frame 1, column 1, storey 1"), "{first}");
+    let from = text.replacen(
+        "column = { yield = \"300 kN.m\", post_yield = 0.02 }",
+        "from = \"section\"",
+        1,
+    );
+    assert!(said(&from).contains("give the moments"), "{}", said(&from));
 }

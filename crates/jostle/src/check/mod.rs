@@ -13,7 +13,8 @@ use members::check_members;
 use neighbours::check_neighbours;
 
 use crate::model::{
-    Base, Building, Damping, Frame, Hinges, Model, ModelFault, Shear, ShearSpring, Structure, WALL,
+    Base, Building, Damping, Frame, FrameHinges, Hinges, Model, ModelFault, Shear, ShearSpring,
+    Structure, WALL,
 };
 
 /// Collects faults under the path of the part being checked.
@@ -235,39 +236,7 @@ fn check_base(faults: &mut Faults, path: &str, base: &Base, is_shear: bool) {
 fn check_hinges(faults: &mut Faults, path: &str, hinges: &Hinges, structure: &Structure) {
     match (hinges, structure) {
         (Hinges::Frame(hinges), Structure::Frame(frame)) => {
-            let storeys = frame.storey_heights.len();
-            let fits = |rows: &[Vec<ShearSpring>]| {
-                rows.len() == storeys && rows.iter().all(|row| row.len() == frame.spans.len() + 1)
-            };
-            faults.require(
-                hinges.shear.is_empty() || fits(&hinges.shear),
-                format!("{path}.shear"),
-                || {
-                    format!(
-                        "needs {} shear springs in each of {storeys} storeys, or none at all",
-                        frame.spans.len() + 1
-                    )
-                },
-            );
-            let mut shear = hinges.shear.iter().flatten();
-            faults.require(
-                shear.all(|column| column.spring.falling_branch().is_some()),
-                format!("{path}.shear"),
-                || "takes springs that lose their strength, from Hysteresis::failing".into(),
-            );
-            let members = [
-                ("column", &hinges.columns, frame.spans.len() + 1),
-                ("beam", &hinges.beams, frame.spans.len()),
-            ];
-            for (name, hinges, per_storey) in members {
-                let fits =
-                    hinges.len() == storeys && hinges.iter().all(|row| row.len() == per_storey);
-                faults.require(hinges.is_empty() || fits, format!("{path}.{name}"), || {
-                    format!(
-                        "needs {per_storey} hinges in each of {storeys} storeys, or none at all"
-                    )
-                });
-            }
+            check_frame_hinges(faults, path, hinges, frame);
         }
         (Hinges::Storeys(springs), Structure::Shear(shear)) => {
             let storeys = shear.stiffness.len();
@@ -283,6 +252,39 @@ fn check_hinges(faults: &mut Faults, path: &str, hinges: &Hinges, structure: &St
             }
         }
         _ => faults.add(path, "are those of another kind of building"),
+    }
+}
+
+fn check_frame_hinges(faults: &mut Faults, path: &str, hinges: &FrameHinges, frame: &Frame) {
+    let storeys = frame.storey_heights.len();
+    let fits = |rows: &[Vec<ShearSpring>]| {
+        rows.len() == storeys && rows.iter().all(|row| row.len() == frame.spans.len() + 1)
+    };
+    faults.require(
+        hinges.shear.is_empty() || fits(&hinges.shear),
+        format!("{path}.shear"),
+        || {
+            format!(
+                "needs {} shear springs in each of {storeys} storeys, or none at all",
+                frame.spans.len() + 1
+            )
+        },
+    );
+    let mut shear = hinges.shear.iter().flatten();
+    faults.require(
+        shear.all(|column| column.spring.falling_branch().is_some()),
+        format!("{path}.shear"),
+        || "takes springs that lose their strength, from Hysteresis::failing".into(),
+    );
+    let members = [
+        ("column", &hinges.columns, frame.spans.len() + 1),
+        ("beam", &hinges.beams, frame.spans.len()),
+    ];
+    for (name, hinges, per_storey) in members {
+        let fits = hinges.len() == storeys && hinges.iter().all(|row| row.len() == per_storey);
+        faults.require(hinges.is_empty() || fits, format!("{path}.{name}"), || {
+            format!("needs {per_storey} hinges in each of {storeys} storeys, or none at all")
+        });
     }
 }
 

@@ -32,7 +32,7 @@ pub(super) fn check_tiers(faults: &mut Faults, path: &str, tiers: &Tiers, buildi
         ("stiffness", tiers.storeys.len()),
         ("storey_height", tiers.storey_heights.len()),
     ] {
-        let none = has_frames && field == "stiffness" && count == 0;
+        let none = (has_frames || !tiers.yielding.is_empty()) && field == "stiffness" && count == 0;
         faults.require(count == n || none, at(field), || {
             format!("has {count} entries for {n} floors; give one per storey from the ground up")
         });
@@ -70,7 +70,22 @@ pub(super) fn check_tiers(faults: &mut Faults, path: &str, tiers: &Tiers, buildi
             )
         });
     }
-    for (index, storey) in tiers.storeys.iter().enumerate() {
+    for (index, spring) in tiers.yielding.iter().enumerate() {
+        faults.require(
+            spring.storey < n && spring.at.iter().all(|value| value.is_finite()),
+            at(&format!("yielding[{index}]")),
+            || {
+                format!(
+                    "must have a storey from 0 to {} and a place that is finite, found storey {} at {:?}",
+                    n.saturating_sub(1),
+                    spring.storey,
+                    spring.at
+                )
+            },
+        );
+    }
+    let together = (0..n).filter_map(|index| Some((index, tiers.initial_storey(index)?)));
+    for (index, storey) in together {
         let field = if n > 1 {
             format!("{path}.stiffness[{index}]")
         } else {
@@ -102,7 +117,7 @@ pub(super) fn check_tiers(faults: &mut Faults, path: &str, tiers: &Tiers, buildi
         "is not possible for a building with a plan yet; leave it out, or give it to a frame".into()
     });
     faults.require(building.hinges.is_none(), at("hinges"), || {
-        "are not possible for a building with a plan yet; leave them out".into()
+        "are those of frames and of storeys in one plane; a building with a plan has its own, Tiers::yielding".into()
     });
 }
 

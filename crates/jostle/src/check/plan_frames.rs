@@ -1,6 +1,6 @@
 //! Faults of plane frames at lines of a plan.
 
-use super::{Faults, check_base, check_members_of};
+use super::{Faults, check_base, check_frame_hinges, check_members_of};
 use crate::model::{Building, PlanFrame, SharedColumn, TierStorey, Tiers};
 
 /// Storey heights of a frame and of its building may differ by rounding only \[m\].
@@ -55,6 +55,7 @@ fn check_one(faults: &mut Faults, at: &str, own: &PlanFrame, tiers: &Tiers) {
     let frame = &own.frame;
     check_members_of(faults, at, frame);
     check_base(faults, &format!("{at}.base"), &own.base, false);
+    check_frame_hinges(faults, &format!("{at}.hinges"), &own.hinges, frame);
     let yields = own.base.rotational_hinge.is_some() || own.base.horizontal_hinge.is_some();
     faults.require(!yields, format!("{at}.base"), || {
         "cannot yield under a frame in a plan yet; leave its hinges out".into()
@@ -146,7 +147,7 @@ fn check_held(faults: &mut Faults, path: &str, tiers: &Tiers) {
     for (storey, floor) in tiers.floors.iter().enumerate() {
         let length = floor.plan_radius();
         let mut sum = tiers.held(storey, floor.centre, length);
-        if let Some(springs) = tiers.storeys.get(storey) {
+        if let Some(springs) = &tiers.initial_storey(storey) {
             add_springs(&mut sum, springs, floor.centre, length);
         }
         if is_positive(sum) {

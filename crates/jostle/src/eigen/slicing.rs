@@ -81,8 +81,8 @@ impl Search<'_> {
             for dof in spring.dofs.into_iter().flatten() {
                 held[dof] += spring.hysteresis.initial_tangent();
             }
-            if let Some((turning, height)) = spring.lever {
-                held[turning] += height * height * spring.hysteresis.initial_tangent();
+            for (turning, arm) in spring.levers.iter().flatten() {
+                held[*turning] += arm * arm * spring.hysteresis.initial_tangent();
             }
         }
         let slowest = self

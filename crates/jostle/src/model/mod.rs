@@ -11,6 +11,7 @@ mod isolation;
 mod link_law;
 mod members;
 mod plan_frame;
+mod plan_spring;
 mod shear_spring;
 mod soil;
 mod space_frame;
@@ -29,6 +30,7 @@ pub use isolation::{Isolation, Isolator, IsolatorDamping, SpeedFriction, Stop};
 pub use link_law::LinkLaw;
 pub use members::{JointRequest, MemberRequest};
 pub use plan_frame::{LumpedFloor, PlanFrame, SharedColumn};
+pub use plan_spring::{PlanAxis, PlanSpring};
 pub use shear_spring::{ShearEnds, ShearSpring};
 pub use soil::{Foundation, FoundationSprings, HalfSpace, Soil, SoilCoupling};
 pub use space_frame::{SpaceFrame, SpaceMember, SpacePlace, SpaceSection};
@@ -127,6 +129,7 @@ impl Building {
             || self.base.rotational_hinge.is_some()
             || self.base.horizontal_hinge.is_some()
             || self.base.isolation.is_some_and(|own| !own.is_linear())
+            || matches!(&self.structure, Structure::Tiers(own) if own.may_yield())
     }
 }
 

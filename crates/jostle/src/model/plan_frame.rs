@@ -1,6 +1,6 @@
 //! Plane frames standing at lines of a plan, tied together by rigid floors.
 
-use super::{Base, Frame, PlanArea, PlanPoint, Tier, Tiers};
+use super::{Base, Frame, FrameHinges, PlanArea, PlanPoint, Tier, Tiers};
 
 /// Column lines closer than this stand at one point \[m\].
 const SAME_POINT: f64 = 0.01;
@@ -15,7 +15,7 @@ const PARALLEL: f64 = 1e-9;
 /// (E. L. Wilson, H. H. Dovey, Three dimensional analysis of building systems: TABS, UCB/EERC 72-8, 1972).
 ///
 /// ```
-/// use jostle::{Axial, Base, Frame, Joint, PlanFrame, Section};
+/// use jostle::{Axial, Base, Frame, FrameHinges, Joint, PlanFrame, Section};
 ///
 /// let section = |width: f64, depth: f64| Section {
 ///     flexural_rigidity: 30e9 * width * depth.powi(3) / 12.0,
@@ -29,6 +29,7 @@ const PARALLEL: f64 = 1e-9;
 ///     direction: [1.0, 0.0],
 ///     lines: vec![Some("A2".to_owned()), None, Some("C2".to_owned())],
 ///     base: Base::default(),
+///     hinges: FrameHinges::default(), // elastic
 ///     frame: Frame {
 ///         storey_heights: vec![3.2; 2],
 ///         spans: vec![6.0, 5.0],
@@ -57,6 +58,8 @@ pub struct PlanFrame {
     pub lines: Vec<Option<String>>,
     /// Springs and dashpots under every column.
     pub base: Base,
+    /// Hinges at the ends of columns and beams; empty lists are elastic.
+    pub hinges: FrameHinges,
     /// Columns, beams and masses; its storeys are the lowest ones of the building.
     pub frame: Frame,
 }
@@ -123,6 +126,12 @@ impl PlanFrame {
     pub fn has_masses_between_floors(&self) -> bool {
         let heavy = self.frame.columns.iter().any(|own| own.line_mass > 0.0);
         heavy && self.frame.column_segments > 1
+    }
+
+    /// Whether columns or beams may crack or yield.
+    #[must_use]
+    pub fn may_yield(&self) -> bool {
+        self.hinges != FrameHinges::default()
     }
 
     /// Whether it stands along x or across.

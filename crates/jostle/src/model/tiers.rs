@@ -1,5 +1,6 @@
 //! A building in space: floors that move in both horizontal directions and turn about a vertical axis.
 
+use super::plan_spring::PlanSpring;
 use super::{LumpedFloor, PlanFrame, STANDARD_GRAVITY, SpaceFrame};
 
 /// A point or a vector in plan: x along the row, y across it \[m\].
@@ -26,6 +27,8 @@ pub type PlanPoint = [f64; 2];
 ///     storey_heights: vec![3.2],
 ///     frames: Vec::new(),
 ///     space_frame: None,
+///     yielding: Vec::new(),
+///     element_names: Vec::new(),
 /// };
 /// assert_eq!(tiers.floors.len(), tiers.storeys.len());
 /// ```
@@ -41,6 +44,10 @@ pub struct Tiers {
     pub frames: Vec<PlanFrame>,
     /// Space frame that holds the floors, beside the springs of the storeys.
     pub space_frame: Option<SpaceFrame>,
+    /// Springs that yield, which hold the floors beside these.
+    pub yielding: Vec<PlanSpring>,
+    /// Names of the columns and walls to which such springs belong, as far as they have one.
+    pub element_names: Vec<Option<String>>,
 }
 
 /// A floor in plan.
@@ -58,7 +65,7 @@ pub struct Tier {
 
 /// Springs of a storey.
 ///
-/// Beside frames some of them may be 0.
+/// Beside frames and springs that yield some of them may be 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TierStorey {
     /// Along x, across, and in torsion about the centre of stiffness, > 0 \[N/m, N/m, N·m/rad\].
@@ -145,6 +152,42 @@ impl Tiers {
         if let Some(frame) = &mut self.space_frame {
             shift(&mut frame.at);
         }
+        self.yielding
+            .iter_mut()
+            .for_each(|spring| shift(&mut spring.at));
+    }
+
+    /// Whether springs or frames may crack or yield.
+    #[must_use]
+    pub fn may_yield(&self) -> bool {
+        !self.yielding.is_empty() || self.frames.iter().any(PlanFrame::may_yield)
+    }
+
+    /// The springs of a storey, counted from 0, before anything yields: those that stay elastic and those that yield together, about
+    /// their common centre of stiffness; `None` where neither are.
+    #[must_use]
+    pub fn initial_storey(&self, storey: usize) -> Option<TierStorey> {
+        let elastic = self.storeys.get(storey);
+        let own = self.yielding.iter().filter(|own| own.storey == storey);
+        let mut elements: Vec<PlanElement> = own
+            .map(|spring| {
+                let mut stiffness = [0.0; 2];
+                stiffness[spring.axis.index()] = spring.hysteresis.initial_tangent();
+                (spring.at, stiffness)
+            })
+            .collect();
+        if elements.is_empty() {
+            return elastic.copied();
+        }
+        let mut torsion = 0.0;
+        if let Some(storey) = elastic {
+            let [x, y, turning] = storey.stiffness;
+            elements.push((storey.centre, [x, y]));
+            torsion = turning;
+        }
+        let mut together = TierStorey::of_elements(&elements);
+        together.stiffness[2] += torsion;
+        Some(together)
     }
 
     /// What the weight above a storey, counted from 0, takes from its stiffness where P-Delta is included: (P/h) diag(1, 1, ρ²) at
@@ -202,9 +245,14 @@ impl TierStorey {
     pub fn of_elements(elements: &[PlanElement]) -> Self {
         let sum = |of: &dyn Fn(&PlanElement) -> f64| elements.iter().map(of).sum::<f64>();
         let [kx, ky] = [0, 1].map(|axis| sum(&|(_, k)| k[axis]));
+        // What has no stiffness in a direction has no centre there either: any place serves.
+        let mean = |moment: f64, whole: f64, axis: usize| match whole == 0.0 && moment == 0.0 {
+            true => elements.first().map_or(0.0, |(at, _)| at[axis]),
+            false => moment / whole,
+        };
         let centre = [
-            sum(&|(at, k)| k[1] * at[0]) / ky,
-            sum(&|(at, k)| k[0] * at[1]) / kx,
+            mean(sum(&|(at, k)| k[1] * at[0]), ky, 0),
+            mean(sum(&|(at, k)| k[0] * at[1]), kx, 1),
         ];
         let torsion =
             sum(&|(at, k)| k[0] * (at[1] - centre[1]).powi(2) + k[1] * (at[0] - centre[0]).powi(2));

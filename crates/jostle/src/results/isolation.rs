@@ -40,7 +40,11 @@ pub(super) fn isolation_summary(
             | SpringPlace::Beam { .. }
             | SpringPlace::Shear { .. }
             | SpringPlace::Storey { .. }
-            | SpringPlace::Base { .. } => {}
+            | SpringPlace::Base { .. }
+            | SpringPlace::ColumnInPlan { .. }
+            | SpringPlace::BeamInPlan { .. }
+            | SpringPlace::PlanStorey { .. }
+            | SpringPlace::Element { .. } => {}
         }
     }
     let (max, min) = (peaks.displacement_max.value, peaks.displacement_min.value);

@@ -27,7 +27,7 @@ use crate::results::summary::{
 };
 use crate::results::{CountedImpact, counted, find_simultaneous};
 use crate::stepping::{Accuracy, Outcome, Plan, RunEnd};
-use crate::structure::SpringPlace;
+use crate::structure::{Discretization, SpringPlace};
 use crate::structure::{ductility, end_stiffnesses};
 use crate::system::{BuildingSystem, System};
 
@@ -247,7 +247,17 @@ pub fn springs_of(building: &BuildingSystem, outcome: &Outcome) -> Vec<SpringSum
         let totals = &outcome.springs[global];
         let place = building.discretization.spring_places.get(index);
         SpringSummary {
-            place: place.map_or_else(|| format!("spring {index}"), ToString::to_string),
+            place: place.map_or_else(
+                || format!("spring {index}"),
+                |place| {
+                    let Discretization {
+                        element_names,
+                        frames,
+                        ..
+                    } = &building.discretization;
+                    place.named(element_names, frames)
+                },
+            ),
             index,
             cracked_s: when(global, rule.stage(memory), Stage::Cracked),
             yielded_s: when(global, rule.stage(memory), Stage::Yielded),

@@ -331,7 +331,7 @@ fn holding_spring(dof: usize, stiffness: f64) -> Option<YieldingSpring> {
     let backbone = Backbone::from_deformations(stiffness, corners, corners).ok()?;
     Some(YieldingSpring {
         dofs: [Some(dof), None],
-        lever: None,
+        levers: [None; 2],
         hysteresis: Hysteresis::new(HysteresisRule::Elastic, backbone).ok()?,
         carries_base_shear: false,
     })

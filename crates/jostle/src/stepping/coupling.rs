@@ -94,6 +94,10 @@ pub(crate) struct ContactEquations {
 }
 
 const ITERATIONS: usize = 60;
+/// How often limits of friction are found anew, and to what they agree, relative to the greatest contact force.
+const MOST_LIMITS: usize = 100;
+const LIMITS_AGREE: f64 = 1e-13;
+const ROUNDING: f64 = 1e-6;
 
 impl ContactEquations {
     /// Removes all closed contacts.
@@ -117,6 +121,37 @@ impl ContactEquations {
     /// The same, starting from given indentations.
     pub(in crate::stepping) fn solve_from_here(&mut self) -> Option<u64> {
         self.newton().or_else(|| self.settle())
+    }
+
+    /// The same as [`ContactEquations::solve`] with friction, whose limits follow from contact forces: they are held, and found anew from
+    /// the forces, until both agree. With limits held the forces are unique, and what the limits change of contact forces falls with the
+    /// square of the step.
+    pub(in crate::stepping) fn solve_with_friction(&mut self) -> Option<u64> {
+        let mut iterations = self.solve()?;
+        let mut last = f64::INFINITY;
+        for _ in 0..MOST_LIMITS {
+            let (mut change, mut greatest) = (0.0_f64, 0.0_f64);
+            for index in 0..self.closed.len() {
+                let Some(friction) = self.closed[index].friction else {
+                    continue;
+                };
+                let pressed = self.closed[friction.normal].force;
+                change = change.max((pressed - friction.pressed).abs());
+                greatest = greatest.max(pressed.abs());
+                self.closed[index].friction = Some(StepFriction {
+                    pressed,
+                    ..friction
+                });
+            }
+            // Indentations have the rounding of slips, which may be a thousand times greater.
+            let only_rounding = change >= 0.5 * last && change <= ROUNDING * greatest;
+            if change <= LIMITS_AGREE * greatest || only_rounding {
+                return Some(iterations);
+            }
+            last = change;
+            iterations += self.solve_from_here()?;
+        }
+        None
     }
 
     /// Sets the indentations to those under known forces.

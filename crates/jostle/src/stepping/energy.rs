@@ -11,6 +11,8 @@ pub(crate) struct EnergyAudit {
     pub(crate) input: f64,
     pub(crate) damped: f64,
     pub(crate) contact: f64,
+    /// Work of friction along contacts.
+    pub(crate) friction: f64,
     /// Work of the grounds on contacts and links.
     pub(crate) ground: f64,
     /// Work done on yielding springs, recoverable energy included.
@@ -139,7 +141,7 @@ impl EnergyAudit {
             links,
             hysteretic: self.springs - stored.springs + self.yielding_links - stored.yielding_links,
             contact: self.contact,
-            friction: 0.0,
+            friction: self.friction,
             worst_imbalance: 0.0,
         })
     }

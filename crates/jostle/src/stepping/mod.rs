@@ -8,6 +8,7 @@ mod clock;
 mod collapse;
 mod contact_parabola;
 mod control;
+mod corner_distances;
 mod coupling;
 mod direct;
 mod energy;

@@ -171,6 +171,24 @@ pub struct PlanPeaks {
     pub corner_displacement: Vec<f64>,
 }
 
+impl PlanPeaks {
+    /// Splits peaks along x, across and in rotation, each from the ground up; those along x remain. Without the last two, as in one
+    /// plane, all is empty.
+    pub(super) fn split_off(
+        peaks: &mut Vec<FloorPeaks>,
+        floors: usize,
+        corner_displacement: Vec<f64>,
+    ) -> Self {
+        let mut across = peaks.split_off(floors.min(peaks.len()));
+        let turning = across.split_off(across.len() / 2);
+        Self {
+            across,
+            turning,
+            corner_displacement,
+        }
+    }
+}
+
 /// An a-posteriori estimate of the errors of reported peaks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Accuracy {

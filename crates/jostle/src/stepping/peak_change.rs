@@ -8,6 +8,9 @@ use crate::system::System;
 /// Weight of differences between parts of runs, which are usually larger than those of the peaks.
 const IN_PARTS: f64 = 0.25;
 
+/// Least scale of rotations, in those of displacements over the radius of gyration \[–\].
+pub(super) const LEAST_ROTATION: f64 = 1e-3;
+
 /// Axial force, shear, moment.
 const MEMBER_FORCES: usize = 3;
 
@@ -27,18 +30,33 @@ pub(super) fn change_of_peaks(system: &System, [a, b]: [&Outcome; 2]) -> f64 {
     for (index, (a_floors, b_floors)) in a.floors.iter().zip(&b.floors).enumerate() {
         let shears = [a.base_shear[index], b.base_shear[index]];
         worst = worst.max(relative([shears].into_iter()));
-        for kind in kinds {
-            let pairs = a_floors.iter().zip(b_floors);
-            worst = worst.max(relative(pairs.map(|(a, b)| [kind(a), kind(b)])));
+        // Along x and, in space, across.
+        let in_plan = [a, b].map(|run| &run.in_plan[index]);
+        let lateral = || {
+            let along = a_floors.iter().zip(b_floors);
+            along.chain(in_plan[0].across.iter().zip(&in_plan[1].across))
+        };
+        let turning = || in_plan[0].turning.iter().zip(&in_plan[1].turning);
+        let radius = system.buildings[index].radius_of_gyration();
+        for (number, kind) in kinds.into_iter().enumerate() {
+            let values = |(a, b): (&FloorPeaks, &FloorPeaks)| [kind(a), kind(b)];
+            worst = worst.max(relative(lateral().map(values)));
+            // Of displacements per radius, of forces times radius.
+            let unit = if number < 4 { 1.0 / radius } else { radius };
+            let least = LEAST_ROTATION * unit * greatest_of(lateral().map(values));
+            worst = worst.max(relative_to(least, turning().map(values)));
         }
-        let both = a_floors.iter().chain(b_floors);
-        let greatest = both.fold(0.0, |most: f64, floor| most.max(floor.total_acceleration));
+        let corners = in_plan.map(|own| own.corner_displacement.iter());
+        let [a_corners, b_corners] = corners;
+        worst = worst.max(relative(a_corners.zip(b_corners).map(|(a, b)| [*a, *b])));
+        let greatest = greatest_of(lateral().map(|(a, b)| [a, b].map(|f| f.total_acceleration)));
+        let count = lateral().count();
         if greatest > 0.0 {
             let parts = [&a.acceleration_parts, &b.acceleration_parts];
-            let change = parts[0].change(parts[1], floors_before, a_floors.len());
+            let change = parts[0].change(parts[1], floors_before, count);
             worst = worst.max(IN_PARTS * change / greatest);
         }
-        floors_before += a_floors.len();
+        floors_before += count + turning().count();
         let [one, other] = [a, b].map(|run| run.foundations[index]);
         let both = |of: fn(&FoundationPeaks) -> [Extreme; 2]| {
             let pairs = of(&one).into_iter().zip(of(&other));
@@ -94,8 +112,19 @@ fn change_of_link(system: &System, [a, b]: [&Outcome; 2], model: usize) -> f64 {
         .fold(0.0, f64::max)
 }
 
+fn greatest_of(pairs: impl Iterator<Item = [f64; 2]>) -> f64 {
+    pairs
+        .flatten()
+        .fold(0.0, |most, value| most.max(value.abs()))
+}
+
 fn relative(pairs: impl Iterator<Item = [f64; 2]>) -> f64 {
-    let (mut greatest, mut change) = (0.0_f64, 0.0_f64);
+    relative_to(0.0, pairs)
+}
+
+/// Greatest difference of pairs over the greatest of their magnitudes, which counts as at least `least`.
+fn relative_to(least: f64, pairs: impl Iterator<Item = [f64; 2]>) -> f64 {
+    let (mut greatest, mut change) = (least, 0.0_f64);
     for [a, b] in pairs {
         greatest = greatest.max(a.abs()).max(b.abs());
         change = change.max((a - b).abs());

@@ -2,11 +2,13 @@
 
 use super::expected_work::too_long;
 use super::{modal, series};
+use crate::eigen::Mode;
 use crate::interface::Contact;
 use crate::model::Integrator;
 use crate::model::{Analysis, ModelFault, Solver};
 use crate::motion::{GroundMotion, Wave};
-use crate::system::{BuildingSystem, System};
+use crate::simd;
+use crate::system::{BuildingSystem, Direction, System};
 use crate::transfer::{ProductEquations, ProductRefusal};
 
 /// Step sizes and solver of a run.
@@ -414,11 +416,16 @@ fn solver_for(system: &System, motion: &GroundMotion, analysis: &Analysis) -> So
     let usual = || {
         let automatic = analysis.step.is_none() && analysis.contact_step.is_none();
         let mut buildings = system.buildings.iter();
-        if system.is_in_space()
-            || buildings.any(|building| building.modal_damping.is_some())
-            || automatic
-                && modal::refusals(system, analysis.integrator).is_empty()
-                && resolves_links(system, analysis.tolerance)
+        let can_go_by_modes = || modal::refusals(system, analysis.integrator).is_empty();
+        if system.is_in_space() {
+            // Those that yield have no modes.
+            if can_go_by_modes() || buildings.any(|building| building.modal_damping.is_some()) {
+                Solver::Modal
+            } else {
+                Solver::Riccati
+            }
+        } else if buildings.any(|building| building.modal_damping.is_some())
+            || automatic && can_go_by_modes() && resolves_links(system, analysis.tolerance)
         {
             Solver::Modal
         } else if automatic
@@ -501,17 +508,14 @@ fn check_solver(
     let in_all_modes = |building: &BuildingSystem| building.modal_damping.is_some();
     let damped = system.buildings.iter().position(in_all_modes);
     if solver != Solver::Modal {
-        if system.is_in_space() {
-            faults.push(ModelFault {
-                path: "analysis.solver".into(),
-                problem: "must be \"modal\" for buildings with a plan, which other solvers cannot step yet; leave it out".into(),
-            });
+        if system.is_in_space() && solver != Solver::Series {
+            faults.extend(refused_in_space(solver, system));
         }
         faults.extend(damped.map(|index| ModelFault {
             path: format!("building[{index}].damping.modes"),
             problem: "\"all\" needs solver = \"modal\" under [analysis], or none named there; other solvers know Rayleigh damping of one or two modes".into(),
         }));
-        if solver == Solver::Series && damped.is_none() && !system.is_in_space() {
+        if solver == Solver::Series && damped.is_none() {
             let reasons = series::refusals(system, analysis.integrator);
             faults.extend(reasons.into_iter().map(|reason| ModelFault {
                 path: "analysis.solver".into(),
@@ -534,6 +538,25 @@ fn check_solver(
             },
         });
     }
+}
+
+/// What direct steps of buildings with a plan do not support.
+fn refused_in_space(solver: Solver, system: &System) -> Vec<ModelFault> {
+    let mut faults = Vec::new();
+    if solver == Solver::Product {
+        faults.push(ModelFault {
+            path: "analysis.solver".into(),
+            problem: "product cannot be used: no path of transfer matrices leads through buildings with a plan; leave it out, or take solver = \"riccati\"".into(),
+        });
+    }
+    let mut buildings = system.buildings.iter();
+    if buildings.any(|own| own.is_in_space() && !own.members.forms.is_empty()) {
+        faults.push(ModelFault {
+            path: "output.members".into(),
+            problem: "forces of columns and beams of buildings with a plan need modal stepping, which buildings that yield cannot have; leave members out, or let the buildings stay elastic and leave solver and integrator out".into(),
+        });
+    }
+    faults
 }
 
 /// The free-vibration step where motion is exact over a step. Only the search for contacts and peaks needs it: cubics must
@@ -577,17 +600,12 @@ fn shortest_vertical_periods(system: &System) -> impl Iterator<Item = f64> {
         let strong = modes
             .iter()
             .filter(|mode| mode.effective_mass_ratio_y >= VERTICAL_SHARE * all);
-        strong
-            .map(crate::eigen::Mode::period)
-            .min_by(f64::total_cmp)
+        strong.map(Mode::period).min_by(f64::total_cmp)
     })
 }
 
 fn lateral_period(building: &BuildingSystem, number: usize) -> Option<f64> {
-    let periods: Vec<f64> = building
-        .lateral_modes()
-        .map(crate::eigen::Mode::period)
-        .collect();
+    let periods: Vec<f64> = building.lateral_modes().map(Mode::period).collect();
     periods.get(number - 1).or(periods.last()).copied()
 }
 
@@ -595,7 +613,9 @@ fn automatic_step(system: &System, motion: &GroundMotion, refinement: f64) -> f6
     let mut step = LONGEST_STEP;
     // Walls follow the ground, damped by the soil: errors of their frequencies decide.
     for building in system.structures() {
-        for (number, steps) in [(1, STEPS_PER_FIRST_PERIOD), (3, STEPS_PER_THIRD_PERIOD)] {
+        // In space a mode of one plane is one of three.
+        let third = if building.is_in_space() { 9 } else { 3 };
+        for (number, steps) in [(1, STEPS_PER_FIRST_PERIOD), (third, STEPS_PER_THIRD_PERIOD)] {
             step = lateral_period(building, number)
                 .map_or(step, |period| step.min(refinement * period / steps));
         }
@@ -646,9 +666,26 @@ fn frequency_errors<'a>(
         let cycles = 0.5 / damping.max(1.0 / (omega * duration));
         let floors = mode.floors.iter();
         let largest = floors.fold(0.0, |most: f64, floor| most.max(floor.abs()));
-        let share = (mode.participation * largest).min(1.0);
+        let share = match building.is_in_space() {
+            true => share_in_space(building, mode).min(1.0),
+            false => (mode.participation * largest).min(1.0),
+        };
         (omega * omega / 12.0 * cycles * share, omega)
     })
+}
+
+/// Participation of a mode along x or across, whichever is greater, times its greatest displacement of a floor \[–\].
+fn share_in_space(building: &BuildingSystem, mode: &Mode) -> f64 {
+    let across = simd::dot(&building.equations.driven_across, &mode.shape);
+    let radius = building.radius_of_gyration();
+    let moved = building.tracks.iter().map(|track| {
+        let value = mode.shape[track.dof - building.offset].abs();
+        match track.direction {
+            Direction::Turning => radius * value,
+            Direction::Along | Direction::Across => value,
+        }
+    });
+    mode.participation.abs().max(across.abs()) * moved.fold(0.0, f64::max)
 }
 
 fn check_step(step: f64, system: &System, motion: &GroundMotion, faults: &mut Vec<ModelFault>) {

@@ -1,15 +1,17 @@
 //! Histories and peaks, taken after every accepted step.
 
 use super::acceleration_parts::AccelerationParts;
+use super::corner_distances::CornerDistances;
 use super::energy::EnergyAudit;
 use super::events::Cubic;
 use super::member_peaks::MemberPeaks;
+use super::outcome::PlanPeaks;
 use crate::history::{
     Column, Energy, EnergyTerm, Extreme, FloorPeaks, FoundationPeaks, History, SpringHistory,
     SupportPeaks,
 };
 use crate::state::{ContactPhase, State};
-use crate::system::{GroundsAt, RunGrounds, System};
+use crate::system::{Direction, GroundsAt, RunGrounds, System};
 
 /// Recorder of histories and peaks.
 pub(crate) struct Recorder {
@@ -18,7 +20,9 @@ pub(crate) struct Recorder {
     pub(crate) springs: Option<SpringHistory>,
     interval: f64,
     due: f64,
+    /// Of every displacement of the floors, direction by direction.
     pub(crate) floors: Vec<Vec<FloorPeaks>>,
+    corners: CornerDistances,
     pub(crate) closing: Vec<Extreme>,
     pub(crate) base_shear: Vec<f64>,
     pub(crate) supports: Vec<SupportPeaks>,
@@ -116,7 +120,7 @@ impl Recorder {
         interval: Option<f64>,
     ) -> Self {
         let buildings = system.buildings.iter();
-        let floors: usize = buildings.map(|building| building.floors.len()).sum();
+        let floors: usize = buildings.map(|building| building.tracks.len()).sum();
         let supports = system.buildings.iter().filter(|own| own.support.is_some());
         let foundations = system.buildings.iter().filter_map(|own| own.foundation);
         let tracked = floors + system.contacts.len() + supports.count() + 2 * foundations.count();
@@ -134,8 +138,9 @@ impl Recorder {
             floors: system
                 .buildings
                 .iter()
-                .map(|b| vec![FloorPeaks::default(); b.floors.len()])
+                .map(|b| vec![FloorPeaks::default(); b.tracks.len()])
                 .collect(),
+            corners: CornerDistances::new(system),
             closing: vec![Extreme::default(); system.contacts.len()],
             base_shear: vec![0.0; system.buildings.len()],
             supports: vec![SupportPeaks::default(); system.buildings.len()],
@@ -170,6 +175,21 @@ impl Recorder {
         self.members.reserve(rows);
     }
 
+    /// Peaks of the floors along x, and further ones of buildings in space.
+    pub(crate) fn take_floors(
+        &mut self,
+        system: &System,
+    ) -> (Vec<Vec<FloorPeaks>>, Vec<PlanPeaks>) {
+        let mut floors = std::mem::take(&mut self.floors);
+        let buildings = floors.iter_mut().zip(&system.buildings).enumerate();
+        let in_plan = buildings.map(|(index, (own, building))| {
+            let corners = self.corners.finish(index);
+            PlanPeaks::split_off(own, building.floors.len(), corners)
+        });
+        let in_plan = in_plan.collect();
+        (floors, in_plan)
+    }
+
     pub(crate) fn into_history(self) -> Option<History> {
         self.history
     }
@@ -178,13 +198,11 @@ impl Recorder {
     pub(crate) fn before_step(&mut self, system: &System, state: &State, grounds: &RunGrounds<'_>) {
         self.before.clear();
         let (u, v) = (&state.displacement, &state.velocity);
-        for floor in system
-            .buildings
-            .iter()
-            .flat_map(|building| &building.floors)
-        {
-            self.before.push((u[floor.dof], v[floor.dof]));
+        let buildings = system.buildings.iter();
+        for track in buildings.flat_map(|building| &building.tracks) {
+            self.before.push((u[track.dof], v[track.dof]));
         }
+        self.corners.before_step(system, state);
         for (index, contact) in system.contacts.iter().enumerate() {
             let ports = &contact.ports;
             let [moved, rate, _] = grounds.closing(index, 0);
@@ -217,11 +235,14 @@ impl Recorder {
         let mut floor_of_all = 0;
         let mut before = self.before.iter();
         for (index, building) in system.buildings.iter().enumerate() {
-            let ground = all.of(index)[0];
+            let ground = all.of(index);
             let mut below = building.foot.map_or(0.0, |dof| u[dof]);
             let turned = building.rocking(u);
-            for (peaks, floor) in self.floors[index].iter_mut().zip(&building.floors) {
-                let now = (u[floor.dof], v[floor.dof]);
+            for (peaks, track) in self.floors[index].iter_mut().zip(&building.tracks) {
+                let now = (u[track.dof], v[track.dof]);
+                if track.is_lowest && track.direction != Direction::Along {
+                    below = 0.0;
+                }
                 if let Some(&then) = before.next() {
                     take_extremes(
                         [&mut peaks.displacement_max, &mut peaks.displacement_min],
@@ -230,13 +251,14 @@ impl Recorder {
                         step,
                     );
                 }
-                let total = (state.acceleration[floor.dof] + ground).abs();
+                let ground = track.direction.of_ground(ground);
+                let total = (state.acceleration[track.dof] + ground).abs();
                 peaks.total_acceleration = peaks.total_acceleration.max(total);
                 self.parts.take(floor_of_all, total);
                 floor_of_all += 1;
                 peaks.storey_drift = peaks
                     .storey_drift
-                    .max(((now.0 - below) / floor.storey_height + turned).abs());
+                    .max(((now.0 - below) / track.storey_height + turned).abs());
                 below = now.0;
             }
             let floors = &mut self.floors[index];
@@ -248,6 +270,7 @@ impl Recorder {
             let shear = building.base_shear(state);
             self.base_shear[index] = self.base_shear[index].max(shear.abs());
         }
+        self.corners.after_step(system, state, start, step);
         let contacts = system.contacts.iter().zip(&mut self.closing);
         for (index, (contact, closing)) in contacts.enumerate() {
             if let Some(&then) = before.next() {
@@ -319,9 +342,10 @@ impl Recorder {
         let mut floor_of_all = 0;
         let buildings = system.buildings.iter().zip(&mut self.floors);
         for (index, (building, floors)) in buildings.enumerate() {
-            let ground = grounds.of(index)[0];
-            for (peaks, floor) in floors.iter_mut().zip(&building.floors) {
-                let total = (state.acceleration[floor.dof] + ground).abs();
+            let ground = grounds.of(index);
+            for (peaks, track) in floors.iter_mut().zip(&building.tracks) {
+                let ground = track.direction.of_ground(ground);
+                let total = (state.acceleration[track.dof] + ground).abs();
                 peaks.total_acceleration = peaks.total_acceleration.max(total);
                 self.parts.take(floor_of_all, total);
                 floor_of_all += 1;
@@ -369,15 +393,23 @@ impl Recorder {
         };
         put(state.time);
         put(ground.common[0]);
+        let in_space = system.is_in_space();
+        if in_space {
+            put(ground.common[1]);
+        }
         for (index, building) in system.structures().iter().enumerate() {
-            let ground = ground.of(index)[0];
-            for floor in &building.floors {
-                put(state.displacement[floor.dof]);
-                put(state.velocity[floor.dof]);
-                put(state.acceleration[floor.dof] + ground);
+            let ground = ground.of(index);
+            for track in &building.tracks {
+                put(state.displacement[track.dof]);
+                put(state.velocity[track.dof]);
+                put(state.acceleration[track.dof] + track.direction.of_ground(ground));
             }
         }
-        contacts.iter().for_each(|phase| put(phase.force()));
+        if in_space {
+            forces_of_faces(system, contacts, &mut put);
+        } else {
+            contacts.iter().for_each(|phase| put(phase.force()));
+        }
         let contacts = system.contacts.iter().enumerate();
         contacts
             .filter(|(_, contact)| grounds.part || contact.is_between_floors())
@@ -419,6 +451,22 @@ impl Recorder {
                 .for_each(put);
         }
         debug_assert!(row.next().is_none(), "every column has a value");
+    }
+}
+
+/// Calls `put` with the force of every face of buildings in space, the sum of those of its points \[N\].
+pub(crate) fn forces_of_faces(system: &System, phases: &[ContactPhase], mut put: impl FnMut(f64)) {
+    // The points of a face follow each other.
+    let mut points = system.contacts.iter().zip(phases).peekable();
+    while let Some((contact, phase)) = points.next() {
+        let face = contact.plan.map(|place| place.face);
+        let mut force = phase.force();
+        while let Some((_, phase)) =
+            points.next_if(|(next, _)| next.plan.map(|place| place.face) == face)
+        {
+            force += phase.force();
+        }
+        put(force);
     }
 }
 

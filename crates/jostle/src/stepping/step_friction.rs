@@ -23,6 +23,18 @@ pub(super) struct FrictionPath {
 }
 
 impl FrictionPath {
+    /// Straight between forces at both ends \[N\].
+    pub(super) fn straight(start: f64, end: f64) -> Self {
+        let part = |index: usize| (index + 1) as f64 / FRICTION_PARTS as f64;
+        let mut ends = std::array::from_fn(|index| start + part(index) * (end - start));
+        ends[FRICTION_PARTS - 1] = end;
+        Self {
+            start,
+            ends,
+            corners: [None; CORNERS],
+        }
+    }
+
     /// Force at a share of the step, straight between the ends of parts and corners \[N\].
     fn at(&self, share: f64) -> f64 {
         let scaled = share * FRICTION_PARTS as f64;

@@ -41,6 +41,8 @@ pub struct Discretization {
     pub shared_columns: Vec<SharedColumn>,
     /// The space frame that holds the floors.
     pub space_frame: Option<Arc<CondensedFrame>>,
+    /// Names of the columns and walls at points of a plan, as far as they have one.
+    pub element_names: Vec<Option<String>>,
 }
 
 /// A mat on bearings.
@@ -122,6 +124,7 @@ impl Discretization {
             frames: Vec::new(),
             shared_columns: Vec::new(),
             space_frame: None,
+            element_names: Vec::new(),
         }
     }
 
@@ -417,6 +420,7 @@ pub(super) fn discretize_frame(
         frames: Vec::new(),
         shared_columns: Vec::new(),
         space_frame: None,
+        element_names: Vec::new(),
     };
     // Hinges come before springs, in the order of the stick model.
     let at_the_base =
@@ -624,6 +628,7 @@ fn discretize_given(given: &Given) -> Discretization {
         frames: Vec::new(),
         shared_columns: Vec::new(),
         space_frame: None,
+        element_names: Vec::new(),
         foot: Some(ground),
         mat: None,
         left_face: floors.clone(),
@@ -709,5 +714,6 @@ fn discretize_shear(shear: &Shear, base: &Base, springs: &[Hysteresis]) -> Discr
         frames: Vec::new(),
         shared_columns: Vec::new(),
         space_frame: None,
+        element_names: Vec::new(),
     }
 }

@@ -32,7 +32,7 @@ pub struct Equations {
     pub undamped: SparseSymmetric,
     /// C′: base dashpots.
     pub dashpots: SparseSymmetric,
-    /// Springs that yield: hinges first, then storey springs, each in the order of the stick model. They are not part of
+    /// Springs that yield: hinges first, then storey springs, then those in plan, each in the order of the stick model. They are not part of
     /// K, and stiffness-proportional damping does not act on them.
     pub springs: Vec<YieldingSpring>,
     /// Mass-proportional damping α \[1/s\].
@@ -51,8 +51,9 @@ pub struct Equations {
 pub struct YieldingSpring {
     /// The deformation is the first minus the second; `None` moves with the ground.
     pub dofs: [Option<usize>; 2],
-    /// Rotation of the foundation under a storey, and the height by which it adds to the deformation \[m\].
-    pub lever: Option<(usize, f64)>,
+    /// Rotations that add to the deformation, and by how much: that of the foundation under a storey, or of two floors in plan
+    /// \[m\].
+    pub levers: [Option<(usize, f64)>; 2],
     /// Rule and backbone.
     pub hysteresis: Hysteresis,
     /// Whether its force is part of the base shear.
@@ -66,10 +67,8 @@ impl YieldingSpring {
     pub fn deformation(&self, displacement: &[f64]) -> f64 {
         let at = |dof: Option<usize>| dof.map_or(0.0, |dof| displacement[dof]);
         let between = at(self.dofs[0]) - at(self.dofs[1]);
-        match self.lever {
-            Some((turning, height)) => between + height * displacement[turning],
-            None => between,
-        }
+        let turned = |sum: f64, lever: &(usize, f64)| sum + lever.1 * displacement[lever.0];
+        self.levers.iter().flatten().fold(between, turned)
     }
 
     /// Adds a force conjugate to the deformation to loads of the building.
@@ -81,8 +80,8 @@ impl YieldingSpring {
         if let Some(dof) = self.dofs[1] {
             load[dof] -= force;
         }
-        if let Some((turning, height)) = self.lever {
-            load[turning] += height * force;
+        for (turning, arm) in self.levers.iter().flatten() {
+            load[*turning] += arm * force;
         }
     }
 }
@@ -235,6 +234,18 @@ impl Equations {
         }
     }
 
+    /// Masses on which the second component of the ground acceleration acts: across the row in space, upwards in one plane if it is
+    /// shaken vertically; `None` where nothing is \[kg\].
+    pub(crate) fn driven_by_second(&self, vertical: bool) -> Option<&[f64]> {
+        if !self.driven_across.is_empty() {
+            Some(&self.driven_across)
+        } else if vertical {
+            Some(&self.vertical_mass)
+        } else {
+            None
+        }
+    }
+
     /// Initial stiffness of every spring that yields \[N·m/rad, N/m\].
     pub fn initial_tangents(&self) -> Vec<f64> {
         let springs = self.springs.iter();
@@ -326,7 +337,7 @@ fn yielding_springs(stick_model: &StickModel, path: &Path) -> Vec<YieldingSpring
         let dofs = [first, second].map(|node| path.dof(node, component));
         YieldingSpring {
             dofs,
-            lever: None,
+            levers: [None; 2],
             hysteresis,
             carries_base_shear: component == X && dofs.contains(&sway),
         }
@@ -339,9 +350,20 @@ fn yielding_springs(stick_model: &StickModel, path: &Path) -> Vec<YieldingSpring
     let storeys = stick_model.springs.iter().filter_map(|storey| {
         let [lower, upper] = storey.ends;
         Some(YieldingSpring {
-            lever: turning.zip(storey.lever),
+            levers: [turning.zip(storey.lever), None],
             ..spring([upper, lower], X, storey.hysteresis?)
         })
     });
-    hinges.chain(storeys).collect()
+    let in_plan = stick_model.plan_springs.iter().map(|own| {
+        let [lower, upper] = own.ends;
+        let lever = |node: usize, arm: f64| {
+            let turning = path.dof(node, element::THETA)?;
+            (arm != 0.0).then_some((turning, arm))
+        };
+        YieldingSpring {
+            levers: [lever(upper, own.levers[1]), lever(lower, -own.levers[0])],
+            ..spring([upper, lower], own.component, own.hysteresis)
+        }
+    });
+    hinges.chain(storeys).chain(in_plan).collect()
 }

@@ -31,7 +31,8 @@ pub use space_frame::{Bending, CondensedFrame, CondensedJoint, CondensedMember};
 pub use spring_place::{BaseMotion, MemberEnd, SpringPlace};
 pub use step_equations::{StepEquations, solve_once};
 pub use stick_model::{
-    Coupling, FrameNode, Hinge, Member, Node, RigidFoundation, Spring, StickModel, Support,
+    Coupling, FrameNode, Hinge, Member, Node, RigidFoundation, Spring, StickModel, StickPlanSpring,
+    Support,
 };
 pub use storey_forces::{StoreyForce, StoreyForces};
 pub(crate) use tiers::motion_at;

@@ -6,7 +6,7 @@ use super::discretization::{Discretization, discretize_frame};
 use super::element::{X, Y};
 use super::member_forces::FrameMember;
 use super::stick_model::{FrameNode, Node, StickModel, Support};
-use crate::model::{Frame, FrameHinges, LEVEL_TOLERANCE, LumpedFloor, PlanFrame, Tiers};
+use crate::model::{Frame, LEVEL_TOLERANCE, LumpedFloor, PlanFrame, Tiers};
 
 /// Distance between frames in the elevation that shows them side by side, so that no two column lines coincide \[m\].
 const APART: f64 = 1.0;
@@ -27,7 +27,7 @@ pub(super) fn add_frames(
     let sticks = &mut discretization.stick_model;
     sticks.frame_nodes = vec![None; sticks.nodes.len()];
     let shared = tiers.shared_columns();
-    let mut offset = 0.0;
+    let (mut offset, mut hinge_places) = (0.0, Vec::new());
     for (index, plan_frame) in tiers.frames.iter().enumerate() {
         let own = discretize(plan_frame, &plan_frame.frame);
         let mut without_columns = plan_frame.frame.clone();
@@ -47,6 +47,8 @@ pub(super) fn add_frames(
             doubled: &doubled,
             light: &light,
         };
+        let hinges = own.spring_places.iter();
+        hinge_places.extend(hinges.filter_map(|hinge| hinge.in_frame(index + 1)));
         let elements = sticks.append(own.stick_model, &place);
         let members = own.members.into_iter().map(|member| FrameMember {
             frame: Some(index),
@@ -66,12 +68,14 @@ pub(super) fn add_frames(
             }
         }
     }
+    // Hinges come before springs.
+    discretization.spring_places.splice(0..0, hinge_places);
     discretization.frames = tiers.frames.iter().map(|own| own.name.clone()).collect();
     discretization.shared_columns = shared;
 }
 
 fn discretize(plan_frame: &PlanFrame, frame: &Frame) -> Discretization {
-    discretize_frame(frame, &plan_frame.base, &FrameHinges::default(), [&[], &[]])
+    discretize_frame(frame, &plan_frame.base, &plan_frame.hinges, [&[], &[]])
 }
 
 /// Where a frame stands.

@@ -1,6 +1,7 @@
 //! Places of the springs of a building that yield.
 
 use crate::hysteresis::Side;
+use crate::model::PlanAxis;
 
 /// Which end of a member a hinge is at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,6 +43,28 @@ pub enum SpringPlace {
         /// Which end.
         end: MemberEnd,
     },
+    /// At an end of a column of a frame in plan.
+    ColumnInPlan {
+        /// Its frame.
+        frame: usize,
+        /// Storey.
+        storey: usize,
+        /// Column line.
+        line: usize,
+        /// Which end.
+        end: MemberEnd,
+    },
+    /// At an end of a beam of a frame in plan.
+    BeamInPlan {
+        /// Its frame.
+        frame: usize,
+        /// Floor.
+        floor: usize,
+        /// Bay.
+        bay: usize,
+        /// Which end.
+        end: MemberEnd,
+    },
     /// A whole storey of a shear building.
     Storey {
         /// Storey.
@@ -54,6 +77,22 @@ pub enum SpringPlace {
         /// Which way it gives.
         motion: BaseMotion,
     },
+    /// A whole storey of a building in plan, in one direction.
+    PlanStorey {
+        /// Storey.
+        storey: usize,
+        /// Its direction.
+        axis: PlanAxis,
+    },
+    /// A column or wall at a point of a plan, in one direction.
+    Element {
+        /// Its number in the order of the model.
+        element: usize,
+        /// Storey.
+        storey: usize,
+        /// Its direction.
+        axis: PlanAxis,
+    },
     /// The bearings of an isolated building, all together.
     Bearings,
     /// A stop of its mat.
@@ -64,6 +103,61 @@ pub enum SpringPlace {
 }
 
 impl SpringPlace {
+    /// In words; a column or wall in plan by its name, if the list of [`Tiers::element_names`](crate::Tiers::element_names) has
+    /// one, and a frame in plan by its name in a list of those of all frames.
+    #[must_use]
+    pub fn named(&self, elements: &[Option<String>], frames: &[String]) -> String {
+        let of_frame = |frame: usize| frames.get(frame.wrapping_sub(1));
+        match *self {
+            Self::Element {
+                element,
+                storey,
+                axis,
+            } => match elements.get(element.wrapping_sub(1)) {
+                Some(Some(name)) => format!("{name}, storey {storey}, {}", axis.name()),
+                _ => self.to_string(),
+            },
+            Self::ColumnInPlan {
+                frame,
+                storey,
+                line,
+                end,
+            } => match of_frame(frame) {
+                Some(name) => format!("frame {name}, {}", Self::Column { storey, line, end }),
+                None => self.to_string(),
+            },
+            Self::BeamInPlan {
+                frame,
+                floor,
+                bay,
+                end,
+            } => match of_frame(frame) {
+                Some(name) => format!("frame {name}, {}", Self::Beam { floor, bay, end }),
+                None => self.to_string(),
+            },
+            _ => self.to_string(),
+        }
+    }
+
+    /// The place of a hinge of a plane frame, as one of a frame in plan; `None` for other places.
+    pub(crate) fn in_frame(self, frame: usize) -> Option<Self> {
+        match self {
+            Self::Column { storey, line, end } => Some(Self::ColumnInPlan {
+                frame,
+                storey,
+                line,
+                end,
+            }),
+            Self::Beam { floor, bay, end } => Some(Self::BeamInPlan {
+                frame,
+                floor,
+                bay,
+                end,
+            }),
+            _ => None,
+        }
+    }
+
     /// Whether it belongs to the isolation of a building rather than to its structure.
     #[must_use]
     pub fn is_isolation(&self) -> bool {
@@ -88,7 +182,7 @@ pub enum BaseMotion {
 
 impl std::fmt::Display for SpringPlace {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
+        match *self {
             Self::Column { storey, line, end } => {
                 let end = match end {
                     MemberEnd::First => "foot",
@@ -113,6 +207,24 @@ impl std::fmt::Display for SpringPlace {
                     "column {line}, storey {storey}, shear at the {end}"
                 )
             }
+            Self::ColumnInPlan {
+                frame,
+                storey,
+                line,
+                end,
+            } => {
+                let own = Self::Column { storey, line, end };
+                write!(formatter, "frame {frame}, {own}")
+            }
+            Self::BeamInPlan {
+                frame,
+                floor,
+                bay,
+                end,
+            } => {
+                let own = Self::Beam { floor, bay, end };
+                write!(formatter, "frame {frame}, {own}")
+            }
             Self::Storey { storey } => write!(formatter, "storey {storey}"),
             Self::Base { line, motion } => {
                 let motion = match motion {
@@ -121,6 +233,18 @@ impl std::fmt::Display for SpringPlace {
                 };
                 write!(formatter, "base {line}, {motion}")
             }
+            Self::PlanStorey { storey, axis } => {
+                write!(formatter, "storey {storey}, {}", axis.name())
+            }
+            Self::Element {
+                element,
+                storey,
+                axis,
+            } => write!(
+                formatter,
+                "element {element}, storey {storey}, {}",
+                axis.name()
+            ),
             Self::Bearings => formatter.write_str("bearings"),
             Self::Stop {
                 side: Side::Positive,

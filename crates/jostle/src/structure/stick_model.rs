@@ -15,6 +15,8 @@ pub struct StickModel {
     pub springs: Vec<Spring>,
     /// Entries of given matrices.
     pub couplings: Vec<Coupling>,
+    /// Springs between floors in plan that yield.
+    pub plan_springs: Vec<StickPlanSpring>,
     /// Whether nodes are floors in plan: their vertical displacement is then the one across the row, and their rotation is
     /// about a vertical axis.
     pub in_plan: bool,
@@ -192,6 +194,21 @@ impl Spring {
             lever: None,
         }
     }
+}
+
+/// A spring at a point of a plan that yields.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StickPlanSpring {
+    /// The floor below, or the ground, and the floor above.
+    pub ends: [usize; 2],
+    /// Displacement there: 0 along x, 1 across.
+    pub component: usize,
+    /// How far a rotation of either end moves the point in that direction \[m\].
+    pub levers: [f64; 2],
+    /// Place on the site \[m\].
+    pub at: [f64; 2],
+    /// What it remembers; positive is the displacement of the upper end against the lower one.
+    pub hysteresis: Hysteresis,
 }
 
 /// A spring and dashpot between any two displacements, as an entry of a given matrix off its diagonal stands for one. Its

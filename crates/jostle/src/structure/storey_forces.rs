@@ -134,6 +134,25 @@ impl StoreyForces {
                 let force = share * value;
                 storey.of_displacements.push((dof, [force, arm * force]));
             }
+            let others = equations.springs.len() - stick_model.plan_springs.len();
+            for (index, spring) in stick_model.plan_springs.iter().enumerate() {
+                let [x, y] = spring.at;
+                // A force at a point has a torque about the axis of its own.
+                let share = match (direction, spring.component) {
+                    (THETA, X) => axis[1] - y,
+                    (THETA, _) => x - axis[0],
+                    (own, component) if own == component => 1.0,
+                    _ => continue,
+                };
+                for (node, sign) in spring.ends.into_iter().zip([-1.0, 1.0]) {
+                    let force = sign * share;
+                    if let Some((storey, arm)) = own.arm(tops, stick_model.nodes[node].y) {
+                        storey
+                            .of_springs
+                            .push((others + index, [force, arm * force]));
+                    }
+                }
+            }
             for storey in &mut own.storeys {
                 storey.of_displacements = merged(&storey.of_displacements);
             }

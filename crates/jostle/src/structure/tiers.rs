@@ -6,7 +6,8 @@ use super::discretization::Discretization;
 use super::element::{THETA, X, Y};
 use super::plan_frames::add_frames;
 use super::space_frame::condense;
-use super::stick_model::{Coupling, Node, StickModel, Support};
+use super::spring_place::SpringPlace;
+use super::stick_model::{Coupling, Node, StickModel, StickPlanSpring, Support};
 use crate::model::{Gravity, LumpedFloor, PlanPoint, TierStorey, Tiers};
 
 /// Displacements of a floor.
@@ -60,6 +61,28 @@ pub(super) fn discretize_tiers(tiers: &Tiers, gravity: Gravity) -> Discretizatio
         Some(Arc::new(own))
     });
     stick_model.couplings = matrix.couplings(ground, &floors);
+    let mut spring_places = Vec::with_capacity(tiers.yielding.len());
+    for own in &tiers.yielding {
+        let (storey, axis) = (own.storey, own.axis);
+        let arm = |floor: usize| motion_at(own.at, lumped[floor].tier.centre)[axis.index()][2];
+        let below = storey.checked_sub(1);
+        stick_model.plan_springs.push(StickPlanSpring {
+            ends: [below.map_or(ground, |below| floors[below]), floors[storey]],
+            component: [X, Y][axis.index()],
+            levers: [below.map_or(0.0, arm), arm(storey)],
+            at: own.at,
+            hysteresis: own.hysteresis,
+        });
+        let storey = storey + 1;
+        spring_places.push(match own.element {
+            Some(element) => SpringPlace::Element {
+                element: element + 1,
+                storey,
+                axis,
+            },
+            None => SpringPlace::PlanStorey { storey, axis },
+        });
+    }
     let mut discretization = Discretization {
         stick_model,
         foot: None,
@@ -68,7 +91,8 @@ pub(super) fn discretize_tiers(tiers: &Tiers, gravity: Gravity) -> Discretizatio
         right_face: Vec::new(),
         centres: lumped.iter().map(|floor| floor.tier.centre).collect(),
         floors,
-        spring_places: Vec::new(),
+        spring_places,
+        element_names: tiers.element_names.clone(),
         members: Vec::new(),
         frames: Vec::new(),
         shared_columns: Vec::new(),

@@ -391,6 +391,10 @@ impl BuildingSystem {
             column.fill(0.0);
             equations.stiffness.multiply_add(&unit, &mut column);
             equations.undamped.multiply_add(&unit, &mut column);
+            for spring in &equations.springs {
+                let force = spring.hysteresis.initial_tangent() * spring.deformation(&unit);
+                spring.push(force, &mut column);
+            }
             for (i, &row) in along.iter().enumerate().skip(j) {
                 lower[i][j] = column[row] / (equations.mass[row] * equations.mass[dof]).sqrt();
             }
@@ -445,6 +449,15 @@ impl BuildingSystem {
         let n = self.floors.len();
         let dofs = [0, 1, 2].map(|block| self.tracks[block * n + floor].dof);
         self.point(floor, dofs, at, direction)
+    }
+
+    /// Radius of gyration of its lowest floor about a vertical axis; 1 in one plane \[m\].
+    pub(crate) fn radius_of_gyration(&self) -> f64 {
+        let mass = |track: &Track| self.equations.mass[track.dof - self.offset];
+        match self.tracks.get(2 * self.floors.len()) {
+            Some(turning) => (mass(turning) / mass(&self.tracks[0])).sqrt(),
+            None => 1.0,
+        }
     }
 
     /// Springs that yield of this building in the list of a [`crate::State`].

@@ -10,6 +10,8 @@ mod rating;
 mod soil;
 mod weakening;
 
+use std::ops::Range;
+
 use crate::interface::{Contact, DofRow, EdgeEnd, Friction, LinkElement, Port, PortPair};
 use crate::model::{LEVEL_TOLERANCE, WALL};
 
@@ -144,6 +146,15 @@ impl System {
             let on_mat = own.discretization.mat.is_some() && port.height == 0.0;
             if on_mat { Some(0) } else { port.floor }
         })
+    }
+
+    /// Of every contact, the ends of the edge that its corner touches, among [`System::edge_ends`].
+    pub(crate) fn edge_ends_of_contacts(&self) -> Vec<Range<usize>> {
+        let ends = &self.edge_ends;
+        let first = |contact: usize| ends.partition_point(|end| end.contact < contact);
+        (0..self.contacts.len())
+            .map(|contact| first(contact)..first(contact + 1))
+            .collect()
     }
 
     /// Contacts with friction along their faces.

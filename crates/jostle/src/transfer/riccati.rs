@@ -107,14 +107,17 @@ struct SpringPlace {
     diagonal: [Option<usize>; 2],
     /// Index among the entries before the diagonal.
     between: Option<usize>,
-    /// Of the rotation that adds to its deformation.
-    lever: Option<LeverPlace>,
+    /// Of rotations that add to its deformation.
+    levers: [Option<LeverPlace>; 2],
+    /// Between two such rotations.
+    between_levers: Option<usize>,
 }
 
-/// Positions of the tangent of a yielding storey on a foundation: on the diagonal of the rotation, and between it and the ends.
+/// Positions of the tangent of a yielding spring at a rotation that adds to its deformation: on the diagonal, and between it and
+/// the ends.
 #[derive(Clone, Copy, Debug)]
 struct LeverPlace {
-    height: f64,
+    arm: f64,
     turning: usize,
     between: [Option<usize>; 2],
 }
@@ -124,8 +127,9 @@ struct LeverPlace {
 struct SpringEntries {
     diagonal: [f64; 2],
     between: f64,
-    /// At its rotation: on the diagonal, and between it and the ends.
-    lever: [f64; 3],
+    /// At its rotations: on the diagonal, and between it and the ends.
+    levers: [[f64; 3]; 2],
+    between_levers: f64,
 }
 
 /// Parts of an entry of the step matrix.
@@ -252,13 +256,19 @@ impl RiccatiSweep {
                 [Some(a), Some(b)] => entry_between(a, b),
                 _ => None,
             },
-            lever: spring.lever.map(|(turning, height)| LeverPlace {
-                height,
-                turning,
-                between: spring
-                    .dofs
-                    .map(|dof| dof.and_then(|dof| entry_between(dof, turning))),
+            levers: spring.levers.map(|lever| {
+                lever.map(|(turning, arm)| LeverPlace {
+                    arm,
+                    turning,
+                    between: spring
+                        .dofs
+                        .map(|dof| dof.and_then(|dof| entry_between(dof, turning))),
+                })
             }),
+            between_levers: match spring.levers {
+                [Some((a, _)), Some((b, _))] => entry_between(a, b),
+                _ => None,
+            },
         });
         Self {
             packed: PackedFactor::new(places, rows.len(), n),
@@ -335,12 +345,17 @@ impl RiccatiSweep {
                 .diagonal
                 .map(|dof| dof.map_or(0.0, |dof| factor.diagonal[dof])),
             between: spring.between.map_or(0.0, |entry| factor.before[entry]),
-            lever: spring.lever.map_or([0.0; 3], |lever| {
-                let [first, second] = lever
-                    .between
-                    .map(|entry| entry.map_or(0.0, |entry| factor.before[entry]));
-                [factor.diagonal[lever.turning], first, second]
+            levers: spring.levers.map(|lever| {
+                lever.map_or([0.0; 3], |lever| {
+                    let [first, second] = lever
+                        .between
+                        .map(|entry| entry.map_or(0.0, |entry| factor.before[entry]));
+                    [factor.diagonal[lever.turning], first, second]
+                })
             }),
+            between_levers: spring
+                .between_levers
+                .map_or(0.0, |entry| factor.before[entry]),
         });
         factor.bare.clear();
         factor.bare.extend(entries);
@@ -358,14 +373,18 @@ impl RiccatiSweep {
             if let Some(entry) = spring.between {
                 factor.before[entry] = bare.between;
             }
-            if let Some(lever) = spring.lever {
-                let [turning, first, second] = bare.lever;
+            for (lever, bare) in spring.levers.iter().zip(bare.levers) {
+                let Some(lever) = lever else { continue };
+                let [turning, first, second] = bare;
                 factor.diagonal[lever.turning] = turning;
                 for (entry, value) in lever.between.into_iter().zip([first, second]) {
                     if let Some(entry) = entry {
                         factor.before[entry] = value;
                     }
                 }
+            }
+            if let Some(entry) = spring.between_levers {
+                factor.before[entry] = bare.between_levers;
             }
         }
         self.add_springs(tangents, factor);
@@ -379,13 +398,16 @@ impl RiccatiSweep {
             if let Some(entry) = spring.between {
                 factor.before[entry] -= tangent;
             }
-            if let Some(lever) = spring.lever {
-                factor.diagonal[lever.turning] += tangent * lever.height * lever.height;
+            for lever in spring.levers.iter().flatten() {
+                factor.diagonal[lever.turning] += tangent * lever.arm * lever.arm;
                 for (entry, sign) in lever.between.into_iter().zip([1.0, -1.0]) {
                     if let Some(entry) = entry {
-                        factor.before[entry] += sign * tangent * lever.height;
+                        factor.before[entry] += sign * tangent * lever.arm;
                     }
                 }
+            }
+            if let (Some(entry), [Some(a), Some(b)]) = (spring.between_levers, &spring.levers) {
+                factor.before[entry] += tangent * a.arm * b.arm;
             }
         }
     }
@@ -519,8 +541,8 @@ impl StepEquations for RiccatiSweep {
         factor.touched.fill(false);
         for &spring in changed {
             let own = &self.springs[spring];
-            let turning = own.lever.map(|lever| lever.turning);
-            for dof in own.diagonal.into_iter().chain([turning]).flatten() {
+            let turning = own.levers.map(|lever| lever.map(|lever| lever.turning));
+            for dof in own.diagonal.into_iter().chain(turning).flatten() {
                 let mut at = dof;
                 while !factor.touched[at] {
                     factor.touched[at] = true;
@@ -617,10 +639,15 @@ fn rows_before_diagonal(equations: &Equations) -> (Vec<usize>, Vec<(u32, Parts)>
         {
             entries.push((a.max(b) as u32, a.min(b) as u32, Parts::default()));
         }
-        if let Some((turning, _)) = spring.lever {
-            for dof in spring.dofs.into_iter().flatten() {
-                let (row, column) = (dof.max(turning) as u32, dof.min(turning) as u32);
-                entries.push((row, column, Parts::default()));
+        let turning = spring.levers.map(|lever| lever.map(|(turning, _)| turning));
+        let [first, second] = turning;
+        let pairs = spring
+            .dofs
+            .into_iter()
+            .flat_map(|dof| [(first, dof), (second, dof)]);
+        for pair in pairs.chain([(first, second)]) {
+            if let (Some(a), Some(b)) = pair {
+                entries.push((a.max(b) as u32, a.min(b) as u32, Parts::default()));
             }
         }
     }

@@ -56,6 +56,8 @@ impl Site {
                 storey_heights: vec![3.0],
                 frames: Vec::new(),
                 space_frame: None,
+                yielding: Vec::new(),
+                element_names: Vec::new(),
             }),
             damping: Damping::Rayleigh {
                 alpha: 0.5,

@@ -82,7 +82,7 @@ pub(crate) fn monolith(
         springs.extend(equations.springs.iter().map(|spring| {
             let ends = spring.dofs.into_iter().zip([1.0, -1.0]);
             let ends = ends.filter_map(|(dof, sign)| Some((dof?, sign)));
-            let shares = ends.chain(spring.lever);
+            let shares = ends.chain(spring.levers.into_iter().flatten());
             let shares: Vec<(usize, f64)> =
                 shares.map(|(dof, share)| (dof + offset, share)).collect();
             (shares, spring.hysteresis)

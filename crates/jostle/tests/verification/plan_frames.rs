@@ -48,6 +48,7 @@ fn standing(name: &str, at: PlanPoint, angle: f64, frame: Frame) -> PlanFrame {
         direction: [angle.cos(), angle.sin()],
         lines: Vec::new(),
         base: Base::default(),
+        hinges: Default::default(),
         frame,
     }
 }
@@ -60,6 +61,8 @@ fn in_plan(slab: f64, plan: &[PlanPoint], storeys: usize, frames: Vec<PlanFrame>
         storey_heights: vec![3.2; storeys],
         frames,
         space_frame: None,
+        yielding: Vec::new(),
+        element_names: Vec::new(),
     })
 }
 
@@ -506,6 +509,8 @@ fn without_symmetry(columns_flexible: bool) -> (Tiers, Vec<PlanFrame>) {
         storey_heights: vec![3.2; n],
         frames: frames.clone(),
         space_frame: None,
+        yielding: Vec::new(),
+        element_names: Vec::new(),
     };
     (tiers, frames)
 }

@@ -72,6 +72,8 @@ fn tower(
             storey_heights: vec![3.0; storeys],
             frames: Vec::new(),
             space_frame: None,
+            yielding: Vec::new(),
+            element_names: Vec::new(),
         }),
     )
 }

@@ -1,6 +1,7 @@
 //! Stepping of all degrees of freedom, building by building (theory, Eqs. N2 to N4).
 
 mod factors;
+mod friction;
 mod integrator;
 mod joints;
 mod kernels;
@@ -12,6 +13,9 @@ mod within_tolerance;
 
 pub(super) use within_tolerance::within_tolerance;
 
+use std::ops::Range;
+
+use crate::interface::PortPair;
 use crate::model::Integrator;
 use crate::motion::{Ground, GroundMotion};
 use crate::simd;
@@ -22,13 +26,13 @@ use crate::stepping::collapse::check_collapse;
 use crate::stepping::control::{Observed, half_cycle, next_division};
 use crate::stepping::energy::EnergyAudit;
 use crate::stepping::events::Cubic;
-use crate::stepping::outcome::{
-    Accuracy, Observer, Outcome, PlanPeaks, RunEnd, Settings, StepError,
-};
+use crate::stepping::gap_forces::StepForce;
+use crate::stepping::outcome::{Accuracy, Observer, Outcome, RunEnd, Settings, StepError};
 use crate::stepping::plan::Plan;
 use crate::stepping::recorder::{Instant, Recorder};
 use crate::stepping::refined::Refined;
 use crate::stepping::runner::{ContactTrial, Jump, LinkTouch, RunState, Runner, Stepper};
+use crate::stepping::step_friction::FrictionPath;
 use crate::structure::StepEquations;
 use crate::system::System;
 use factors::StepFactors;
@@ -81,6 +85,10 @@ pub(super) struct Direct<E: StepEquations> {
     recorder: Recorder,
     /// Short steps left after a jump of velocities.
     struck_steps: u32,
+    /// How far corners are inside of the ends of edges at the end of the tried step, and its rate \[m, m/s\].
+    edge_ends: Vec<[f64; 2]>,
+    /// Ends of the edge that the corner of every contact touches.
+    ends_of: Vec<Range<usize>>,
 }
 
 /// Parts of a free-vibration step after a jump of velocities, and the number of such steps. Average acceleration turns
@@ -123,6 +131,8 @@ impl<E: StepEquations> Direct<E> {
             recorder,
             state,
             struck_steps: 0,
+            edge_ends: vec![[0.0; 2]; system.edge_ends.len()],
+            ends_of: system.edge_ends_of_contacts(),
         }
     }
 
@@ -140,13 +150,14 @@ impl<E: StepEquations> Direct<E> {
         });
         (self.state.time, self.state.contacts) = (run.time, run.phases);
         run.work.coupling_operations = run.coupling.operations;
+        let (floors, in_plan) = self.recorder.take_floors(run.system);
         Outcome {
             impacts: run.impacts,
-            floors: std::mem::take(&mut self.recorder.floors),
+            floors,
             closing: std::mem::take(&mut self.recorder.closing),
             gap_forces: run.gap_forces.peaks,
             face_impacts: run.face_forces.impacts,
-            in_plan: vec![PlanPeaks::default(); run.system.buildings.len()],
+            in_plan,
             supports: std::mem::take(&mut self.recorder.supports),
             foundations: std::mem::take(&mut self.recorder.foundations),
             base_shear: std::mem::take(&mut self.recorder.base_shear),
@@ -234,6 +245,17 @@ impl<E: StepEquations> Direct<E> {
         response.by_indentation * rate + response.by_rate * acceleration
     }
 
+    /// M Δa of a force that separates two points \[N\].
+    fn push_accelerations(&mut self, run: &RunState<'_>, ports: &PortPair, change: f64) {
+        for (port, sign) in ports.sides() {
+            let building = &run.system.buildings[port.building];
+            for &(dof, share) in port.row.entries() {
+                let mass = building.equations.mass[dof - building.offset];
+                self.state.acceleration[dof] += share * sign * change / mass;
+            }
+        }
+    }
+
     /// What will be out of balance at the end of the step (theory, Eq. N4): nothing, unless equilibrium is shifted.
     fn carry_unbalanced(&mut self, run: &RunState<'_>, slot: usize) {
         if run.plan.integrator.balances_at_ends() {
@@ -276,9 +298,9 @@ impl<E: StepEquations> Direct<E> {
             }
             let [now, end] = [now, end].map(|ground| ground.of(index));
             self.audit.input -= 0.5 * (now[0] + end[0]) * driven_rise;
-            if run.plan.vertical {
-                let risen = simd::dot(&equations.vertical_mass, rises);
-                self.audit.input -= 0.5 * (now[1] + end[1]) * risen;
+            if let Some(driven) = equations.driven_by_second(run.plan.vertical) {
+                let moved = simd::dot(driven, rises);
+                self.audit.input -= 0.5 * (now[1] + end[1]) * moved;
             }
             let strained = if equations.beta > 0.0 {
                 equations.stiffness.quadratic_form(rises)
@@ -318,6 +340,19 @@ impl<E: StepEquations> Stepper for Direct<E> {
     fn closing_rate(&self, run: &RunState<'_>, contact: usize) -> f64 {
         let ports = &run.system.contacts[contact].ports;
         ports.closing(&self.state.velocity) + run.grounds.closing(contact, 0)[1]
+    }
+
+    fn edge_ends(&self, contact: usize) -> Range<usize> {
+        self.ends_of[contact].clone()
+    }
+
+    fn edge_end(&self, run: &RunState<'_>, end: usize, tried: bool) -> [f64; 2] {
+        if tried {
+            return self.edge_ends[end];
+        }
+        let own = &run.system.edge_ends[end];
+        let (u, v) = (&self.state.displacement, &self.state.velocity);
+        [own.inside + own.ports.closing(u), own.ports.closing(v)]
     }
 
     fn division(&self, run: &RunState<'_>) -> u32 {
@@ -398,6 +433,7 @@ impl<E: StepEquations> Stepper for Direct<E> {
         episode.work += work;
         self.audit.contact += work;
         self.audit.ground += mean * moved_by_grounds(run, index);
+        self.gather_friction(run, index, episode, step);
         let acceleration = self.relative_acceleration(run, index);
         let slope = self.force_slope(run, index, curve.start, curve.start_rise / step, episode);
         let closed = &mut run.coupling.closed[closed];
@@ -483,15 +519,30 @@ impl<E: StepEquations> Stepper for Direct<E> {
         check_collapse(run.system, &self.recorder.floors, run.time)
     }
 
+    fn slip(&self, run: &RunState<'_>, contact: usize) -> [f64; 2] {
+        self.slip_now(run, contact)
+    }
+
+    fn follow_friction(
+        &mut self,
+        run: &RunState<'_>,
+        contact: usize,
+        episode: &mut Episode,
+        pressed: &StepForce,
+        span: [f64; 2],
+    ) -> Option<FrictionPath> {
+        self.finish_friction(run, contact, episode, pressed, span)
+    }
+
+    fn change_friction(&mut self, run: &RunState<'_>, contact: usize, change: f64) {
+        if let Some(friction) = &run.system.contacts[contact].friction {
+            self.push_accelerations(run, &friction.ports, change);
+        }
+    }
+
     /// Changes the accelerations of the two faces (theory, Eq. H2).
     fn change_force(&mut self, run: &RunState<'_>, contact: usize, change: f64) {
-        for (port, sign) in run.system.contacts[contact].ports.sides() {
-            let building = &run.system.buildings[port.building];
-            for &(dof, share) in port.row.entries() {
-                let mass = building.equations.mass[dof - building.offset];
-                self.state.acceleration[dof] += share * sign * change / mass;
-            }
-        }
+        self.push_accelerations(run, &run.system.contacts[contact].ports, change);
     }
 
     fn jump_velocities(
@@ -522,10 +573,10 @@ impl<E: StepEquations> Stepper for Direct<E> {
                 *value -= driven / mass * change[0];
             }
         }
-        if !run.plan.vertical {
+        let Some(driven) = own.equations.driven_by_second(run.plan.vertical) else {
             return;
-        }
-        let masses = own.equations.vertical_mass.iter().zip(&own.equations.mass);
+        };
+        let masses = driven.iter().zip(&own.equations.mass);
         let accelerations = self.state.acceleration[own.range()].iter_mut();
         for (value, (driven, mass)) in accelerations.zip(masses) {
             if *mass > 0.0 {
@@ -578,7 +629,11 @@ fn unbalanced_load(
             } else {
                 STANDARD_GRAVITY * equations.vertical_mass[k]
             } + upwards * equations.vertical_mass[k];
-            let driven = equations.driven_mass[k] * ground + weight;
+            let across = match equations.driven_across.get(k) {
+                Some(driven) => driven * second,
+                None => 0.0,
+            };
+            let driven = equations.driven_mass[k] * ground + weight + across;
             load[dof] = -driven - inertia - resisted[k];
             largest = largest
                 .max(driven.abs())

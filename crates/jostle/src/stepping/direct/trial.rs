@@ -2,12 +2,14 @@
 
 use super::Direct;
 use super::kernels::Loads;
+use crate::interface::PortPair;
 use crate::simd;
 use crate::state::ContactPhase;
 use crate::stepping::clock::Clock;
 use crate::stepping::coupling::Closed;
 use crate::stepping::outcome::StepError;
 use crate::stepping::runner::RunState;
+use crate::stepping::step_friction::StepFriction;
 use crate::structure::StepEquations;
 
 impl<E: StepEquations> Direct<E> {
@@ -76,13 +78,11 @@ impl<E: StepEquations> Direct<E> {
                 out: &mut self.increment[range.clone()],
             };
             simd::in_wide_registers(range.len(), loads);
-            let upwards = end.of(index)[1] - now.of(index)[1];
-            if run.plan.vertical && upwards != 0.0 {
-                simd::add(
-                    &mut self.increment[range],
-                    -upwards,
-                    &equations.vertical_mass,
-                );
+            let second = end.of(index)[1] - now.of(index)[1];
+            if let Some(driven) = equations.driven_by_second(run.plan.vertical)
+                && second != 0.0
+            {
+                simd::add(&mut self.increment[range], -second, driven);
             }
         }
         self.add_undamped_loads(run, slot);
@@ -94,6 +94,10 @@ impl<E: StepEquations> Direct<E> {
             let force = phase.force();
             if force != 0.0 {
                 contact.ports.push_apart(-force, &mut self.increment);
+            }
+            if let (Some(friction), ContactPhase::Closed(episode)) = (&contact.friction, phase) {
+                let rubbed = -episode.friction.force;
+                friction.ports.push_apart(rubbed, &mut self.increment);
             }
         }
         self.add_link_loads(run);
@@ -139,8 +143,10 @@ impl<E: StepEquations> Direct<E> {
         let contacts = contacts.map(|contact| (&contact.ports, contact.width));
         let links = run.system.links.iter();
         let links = links.map(|link| (&link.ports, link.closing_at_rest));
-        let joints = contacts.chain(links).zip(&mut run.trials).enumerate();
-        for (index, ((ports, at_rest), trial)) in joints {
+        let friction = run.system.frictions().map(|own| (&own.ports, 0.0));
+        let joints = contacts.chain(links).chain(friction);
+        let joints = joints.zip(&mut run.trials).enumerate();
+        let moved = |ports: &PortPair| {
             let mut closed_by = 0.0;
             for (port, sign) in ports.sides() {
                 let shift = factors.buildings[port.building].shift;
@@ -150,15 +156,24 @@ impl<E: StepEquations> Direct<E> {
                     closed_by -= sign * share * increment;
                 }
             }
-            trial.indentation = ports.closing(u) - at_rest + closed_by;
-            trial.rate =
+            let rate =
                 k.c * closed_by + (1.0 + k.d_v) * ports.closing(v) + k.d_a * ports.closing(a);
+            [closed_by, rate]
+        };
+        for (index, ((ports, at_rest), trial)) in joints {
+            let [closed_by, rate] = moved(ports);
+            trial.indentation = ports.closing(u) - at_rest + closed_by;
+            trial.rate = rate;
             trial.force = 0.0;
             if run.grounds.part {
                 let [moved, rate, _] = run.grounds.closing(index, 1);
                 trial.indentation += moved;
                 trial.rate += rate;
             }
+        }
+        for (end, tried) in run.system.edge_ends.iter().zip(&mut self.edge_ends) {
+            let [closed_by, rate] = moved(&end.ports);
+            *tried = [end.inside + end.ports.closing(u) + closed_by, rate];
         }
     }
 
@@ -170,6 +185,11 @@ impl<E: StepEquations> Direct<E> {
         for (place, &index) in self.joints.graph.order.iter().enumerate() {
             let closed = if self.joints.is_link(index) {
                 self.link_in_step(run, index, rate_gain, step)
+            } else if let Some(contact) = self.joints.rubbed(index) {
+                match self.friction_in_step(run, index, contact, rate_gain) {
+                    Some(closed) => closed,
+                    None => continue,
+                }
             } else if let ContactPhase::Closed(episode) = &run.phases[index] {
                 let trial = &run.trials[index];
                 Closed {
@@ -193,6 +213,14 @@ impl<E: StepEquations> Direct<E> {
             run.coupling.closed.push(closed);
             run.coupling.places.push(place);
         }
+        for own in 0..run.coupling.closed.len() {
+            if let Some(friction) = run.coupling.closed[own].friction {
+                let mut all = run.coupling.closed.iter();
+                let normal = all.position(|closed| closed.contact == friction.contact);
+                run.coupling.closed[own].friction =
+                    normal.map(|normal| StepFriction { normal, ..friction });
+            }
+        }
     }
 
     /// Solves for the forces of closed contacts and links and lets them push (theory, Eqs. P1–P5, L2).
@@ -203,7 +231,7 @@ impl<E: StepEquations> Direct<E> {
             let closed = run.coupling.closed.len();
             run.work.iterations += run
                 .coupling
-                .solve()
+                .solve_with_friction()
                 .ok_or(StepError::ContactDiverged { time, closed })?;
         } else {
             if !self.factors[slot].links.is_known() {

@@ -89,6 +89,17 @@ impl JumpScratch {
     }
 }
 
+/// Change of the closing rate of a contact by a unit impulse, gᵀ M⁻¹ g \[1/kg\].
+fn compliance_at_once(system: &System, contact: usize) -> f64 {
+    let sides = system.contacts[contact].ports.sides();
+    let gives = sides.map(|(port, _)| {
+        let own = &system.buildings[port.building];
+        let row = port.row.moved_down(own.offset);
+        1.0 / row.moving_mass(&own.equations.mass)
+    });
+    gives.sum()
+}
+
 impl<E: StepEquations> Direct<E> {
     /// A contact closing at `rate` opens at once with `restitution` times that.
     pub(super) fn strike(
@@ -104,13 +115,20 @@ impl<E: StepEquations> Direct<E> {
         for (port, sign) in contact.ports.sides() {
             self.push_at_once(run, port, sign * impulse);
         }
-        let dissipated = 0.5 * mass * rate * rate * (1.0 - restitution * restitution);
+        let (dissipated, separation_speed) = if contact.plan.is_some() {
+            // The mass of a point is its share of that of the face: it gives way more than that mass would.
+            let slowed = impulse * compliance_at_once(run.system, index);
+            (impulse * (rate - 0.5 * slowed), slowed - rate)
+        } else {
+            let dissipated = 0.5 * mass * rate * rate * (1.0 - restitution * restitution);
+            (dissipated, restitution * rate)
+        };
         self.audit.contact += dissipated;
         self.audit.ground += impulse * run.grounds.closing(index, 0)[1];
         Jump {
             impulse,
             dissipated,
-            separation_speed: restitution * rate,
+            separation_speed,
         }
     }
 

@@ -5,7 +5,8 @@ use super::peaks::{Peaks, Watched};
 use super::reduced::{Reduced, ReducedBuilding};
 use super::turning::NEAR_GREATEST;
 use crate::history::FloorPeaks;
-use crate::system::{BuildingSystem, Direction, GroundsAt, System, Track};
+use crate::stepping::peak_change::LEAST_ROTATION;
+use crate::system::{BuildingSystem, Direction, GroundsAt, System};
 
 /// Kinds of peaks of a building: displacements, drifts, total accelerations, base shear, storey shears, overturning moments.
 const KINDS: usize = 6;
@@ -291,9 +292,6 @@ impl Estimate {
     }
 }
 
-/// Least scale of rotations, in those of displacements over the radius of gyration \[–\].
-const LEAST_ROTATION: f64 = 1e-3;
-
 /// The greatest of every kind, of the direction whose floors begin at `first`: along x and across together, and rotations,
 /// which count as at least [`LEAST_ROTATION`].
 fn scales_in_space(
@@ -307,11 +305,7 @@ fn scales_in_space(
     if first < 2 * n {
         return lateral;
     }
-    let gyration = |track: &Track| {
-        let mass = building.equations.mass[building.tracks[0].dof - building.offset];
-        (building.equations.mass[track.dof - building.offset] / mass).sqrt()
-    };
-    let radius = gyration(&building.tracks[first]);
+    let radius = building.radius_of_gyration();
     let own = scales(&floors[first..], 0.0);
     let units = [
         1.0 / radius,

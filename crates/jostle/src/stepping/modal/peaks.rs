@@ -13,7 +13,7 @@ use crate::history::{Energy, Extreme, FloorPeaks, History};
 use crate::motion::Ground;
 use crate::stepping::events::Cubic;
 use crate::stepping::outcome::PlanPeaks;
-use crate::stepping::recorder::{columns, greatest_in_step};
+use crate::stepping::recorder::{columns, forces_of_faces, greatest_in_step};
 use crate::system::{Direction, GroundsAt, RunGrounds, System};
 
 /// Recorder of histories and peaks.
@@ -161,16 +161,11 @@ impl Peaks {
         let corners = std::mem::take(&mut self.corners);
         let mut in_plan = Vec::with_capacity(floors.len());
         for ((own, building), corners) in floors.iter_mut().zip(&system.buildings).zip(corners) {
-            let mut across = own.split_off(building.floors.len().min(own.len()));
-            let turning = across.split_off(across.len() / 2);
-            in_plan.push(PlanPeaks {
-                across,
-                turning,
-                corner_displacement: match building.is_in_space() {
-                    true => corners.finish(),
-                    false => Vec::new(),
-                },
-            });
+            let corners = match building.is_in_space() {
+                true => corners.finish(),
+                false => Vec::new(),
+            };
+            in_plan.push(PlanPeaks::split_off(own, building.floors.len(), corners));
         }
         (floors, in_plan)
     }
@@ -593,17 +588,7 @@ impl Peaks {
         if reduced.across.is_empty() {
             phases.iter().for_each(|phase| put(phase.force()));
         } else {
-            // The points of a face follow each other.
-            let mut points = system.contacts.iter().zip(phases).peekable();
-            while let Some((contact, phase)) = points.next() {
-                let mut force = phase.force();
-                while let Some((_, phase)) = points
-                    .next_if(|(next, _)| next.plan.map(|p| p.face) == contact.plan.map(|p| p.face))
-                {
-                    force += phase.force();
-                }
-                put(force);
-            }
+            forces_of_faces(system, phases, &mut put);
         }
         let contacts = system.contacts.iter().enumerate();
         contacts

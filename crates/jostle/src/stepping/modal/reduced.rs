@@ -230,7 +230,7 @@ impl Reduced {
             ports: vec![[None; 2]; contact_of.len()],
             friction,
             edge_ends: vec![[None; 2]; system.edge_ends.len()],
-            ends_of: ends_of_contacts(system),
+            ends_of: system.edge_ends_of_contacts(),
             contact_of,
             unit_forces: Vec::new(),
             links: Vec::new(),
@@ -659,15 +659,6 @@ impl Reduced {
             offset += building.size;
         }
     }
-}
-
-/// Ends of edges of every contact.
-fn ends_of_contacts(system: &System) -> Vec<Range<usize>> {
-    let ends = &system.edge_ends;
-    let first = |contact: usize| ends.partition_point(|end| end.contact < contact);
-    (0..system.contacts.len())
-        .map(|contact| first(contact)..first(contact + 1))
-        .collect()
 }
 
 /// Monitored displacements of a building: its floors from the ground up, then other points of contacts, links and

@@ -608,7 +608,7 @@ impl Stepper for ModalStepper<'_> {
         self.finish_friction(run, contact, episode, pressed, span)
     }
 
-    fn change_friction(&mut self, contact: usize, change: f64) {
+    fn change_friction(&mut self, _: &RunState<'_>, contact: usize, change: f64) {
         if let Some(place) = self.reduced.friction[contact] {
             self.reduced.push_apart(place, change, &mut self.p[0]);
         }

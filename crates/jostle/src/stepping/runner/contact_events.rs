@@ -261,7 +261,7 @@ impl<S: Stepper> Runner<'_, S> {
             self.stepper
                 .change_force(&self.run, contact, -episode.force);
             self.stepper
-                .change_friction(contact, -episode.friction.force);
+                .change_friction(&self.run, contact, -episode.friction.force);
             self.stepper.restart(&self.run, false);
         }
         episode.end = self.run.time;
@@ -344,7 +344,8 @@ impl<S: Stepper> Runner<'_, S> {
                     let own = &mut episode.friction;
                     let [slip, _] = self.stepper.slip(&self.run, index);
                     let (force, _) = friction.law.force(slip, own.origin, episode.force);
-                    self.stepper.change_friction(index, force - own.force);
+                    self.stepper
+                        .change_friction(&self.run, index, force - own.force);
                     (own.origin, own.force) = (friction.law.origin(slip, force), force);
                 }
                 self.run.phases[index] = ContactPhase::Closed(episode);

@@ -75,8 +75,8 @@ pub(in crate::stepping) trait Stepper {
     }
 
     /// A sudden change of the friction along a contact \[N\].
-    fn change_friction(&mut self, contact: usize, change: f64) {
-        let _ = (contact, change);
+    fn change_friction(&mut self, run: &RunState<'_>, contact: usize, change: f64) {
+        let _ = (run, contact, change);
     }
 
     /// Into how many parts the free-vibration step is divided now.

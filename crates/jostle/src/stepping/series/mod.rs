@@ -30,7 +30,7 @@ use power_series::LANES;
 pub fn refusals(system: &System, integrator: Integrator) -> Vec<String> {
     let mut reasons = Vec::new();
     if system.is_in_space() {
-        reasons.push("buildings with a plan are stepped by their modes".to_owned());
+        reasons.push("buildings with a plan move in more than one direction".to_owned());
     }
     for building in &system.buildings {
         let name = &building.name;

@@ -1,0 +1,121 @@
+//! Friction along closed contacts in direct steps.
+
+use super::Direct;
+use crate::contact::ForceLaw;
+use crate::interface::{Friction, PortPair};
+use crate::state::{ContactPhase, Episode};
+use crate::stepping::coupling::Closed;
+use crate::stepping::events::Cubic;
+use crate::stepping::gap_forces::StepForce;
+use crate::stepping::runner::RunState;
+use crate::stepping::step_friction::{FrictionPath, StepFriction};
+use crate::structure::StepEquations;
+
+impl<E: StepEquations> Direct<E> {
+    /// Friction along a contact, and its place among the trials.
+    fn friction_along<'a>(
+        &self,
+        run: &RunState<'a>,
+        contact: usize,
+    ) -> Option<(usize, &'a Friction)> {
+        let friction = run.system.contacts[contact].friction.as_ref()?;
+        Some((self.joints.friction_of(contact)?, friction))
+    }
+
+    /// Slip along a contact and its rate now \[m, m/s\].
+    pub(super) fn slip_now(&self, run: &RunState<'_>, contact: usize) -> [f64; 2] {
+        let moved = |ports: &PortPair| {
+            [&self.state.displacement, &self.state.velocity].map(|list| ports.closing(list))
+        };
+        let along = self.friction_along(run, contact);
+        along.map_or([0.0; 2], |(_, friction)| moved(&friction.ports))
+    }
+
+    /// Friction along a closed contact among the unknowns of the step; `index`: its place among the trials.
+    pub(super) fn friction_in_step(
+        &self,
+        run: &RunState<'_>,
+        index: usize,
+        contact: usize,
+        rate_gain: f64,
+    ) -> Option<Closed> {
+        let ContactPhase::Closed(episode) = &run.phases[contact] else {
+            return None;
+        };
+        let law = run.system.contacts[contact].friction?.law;
+        let trial = &run.trials[index];
+        Some(Closed {
+            contact: index,
+            law: ForceLaw::Hertz {
+                stiffness: 0.0,
+                damping: 0.0,
+            },
+            memory: episode.memory,
+            free: trial.indentation,
+            free_rate: trial.rate,
+            rate_gain,
+            indentation: trial.indentation,
+            force: 0.0,
+            start_slope: 0.0,
+            turn: None,
+            start_acceleration: 0.0,
+            friction: Some(StepFriction {
+                contact,
+                // Known once all are listed.
+                normal: 0,
+                law,
+                origin: episode.friction.origin,
+                pressed: episode.force,
+            }),
+            link: None,
+        })
+    }
+
+    /// Adds impulse and work of friction along a contact over the tried step to its episode.
+    pub(super) fn gather_friction(
+        &mut self,
+        run: &RunState<'_>,
+        contact: usize,
+        episode: &mut Episode,
+        step: f64,
+    ) {
+        let Some((place, friction)) = self.friction_along(run, contact) else {
+            return;
+        };
+        let trial = &run.trials[place];
+        let own = &mut episode.friction;
+        let mean = 0.5 * (own.force + trial.force);
+        let slipped = trial.indentation - friction.ports.closing(&self.state.displacement);
+        own.impulse += step * mean;
+        own.work += mean * slipped;
+        self.audit.friction += mean * slipped;
+        let (from, rate) = (
+            trial.indentation - slipped,
+            friction.ports.closing(&self.state.velocity),
+        );
+        let slip = Cubic::new(from, rate, trial.indentation, trial.rate, step);
+        for at in slip.turning_points().chain([1.0]) {
+            own.slip_peak = own.slip_peak.max((slip.value(at) - own.touched_at).abs());
+        }
+    }
+
+    /// Brings friction along a contact to the end of an accepted step with its start and length \[s\].
+    pub(super) fn finish_friction(
+        &self,
+        run: &RunState<'_>,
+        contact: usize,
+        episode: &mut Episode,
+        pressed: &StepForce,
+        span: [f64; 2],
+    ) -> Option<FrictionPath> {
+        let (place, friction) = self.friction_along(run, contact)?;
+        let (law, trial) = (friction.law, &run.trials[place]);
+        let own = &mut episode.friction;
+        let greatest = pressed.ends[0].max(pressed.ends[1]).max(pressed.peak.value);
+        let path = FrictionPath::straight(own.force, trial.force);
+        own.peak.widen(&[path], law.coefficient * greatest, span);
+        own.origin = law.origin(trial.indentation, trial.force);
+        own.force = trial.force;
+        Some(path)
+    }
+}

@@ -1,0 +1,263 @@
+//! Buildings in space by direct steps: the same peaks as by their modes, and the same steps by two eliminations.
+
+use std::ops::ControlFlow;
+
+use jostle::{
+    Analysis, Bearing, Building, ContactLaw, Damping, Gap, GroundMotion, LawKind, Model, Outcome,
+    Plan, PlanArea, PlanPoint, RestitutionIs, Settings, Solver, Structure, System, Tier,
+    TierStorey, Tiers, simulate,
+};
+
+const LAW: ContactLaw = ContactLaw {
+    kind: LawKind::HertzDamp,
+    stiffness: 2e9,
+    restitution: 0.65,
+    restitution_is: RestitutionIs::Input,
+};
+
+/// A shaking without symmetry, 6 s long.
+fn shaking(name: &str, rate: f64) -> GroundMotion {
+    let at = |i: u32| {
+        let t = 0.02 * f64::from(i);
+        3.0 * (rate * t).sin() * (-0.1 * t).exp() + 1.2 * (3.1 * rate * t).cos() * (-0.3 * t).exp()
+    };
+    GroundMotion::sampled(name, 0.02, (0..=300).map(at).collect())
+}
+
+fn rectangle(x: f64, y: f64, a: f64, b: f64) -> Vec<PlanPoint> {
+    vec![[x, y], [x + a, y], [x + a, y + b], [x, y + b]]
+}
+
+fn tower(
+    name: &str,
+    storeys: usize,
+    [mass, stiffness]: [f64; 2],
+    plan: &[PlanPoint],
+    eccentricity: PlanPoint,
+) -> Building {
+    let tier = Tier::uniform(mass, plan.to_vec()).expect("an area");
+    let sides = [stiffness, 1.3 * stiffness];
+    let torsion = TierStorey::torsion_of_even(sides, &PlanArea::new(plan));
+    let storey = TierStorey {
+        stiffness: [sides[0], sides[1], torsion],
+        centre: [
+            tier.centre[0] + eccentricity[0],
+            tier.centre[1] + eccentricity[1],
+        ],
+    };
+    Building {
+        name: name.to_owned(),
+        structure: Structure::Tiers(Tiers {
+            floors: vec![tier; storeys],
+            storeys: vec![storey; storeys],
+            storey_heights: vec![3.0; storeys],
+            frames: Vec::new(),
+            yielding: Vec::new(),
+            element_names: Vec::new(),
+        }),
+        damping: Damping::Ratio {
+            ratio: 0.05,
+            modes: Vec::new(),
+        },
+        base: Default::default(),
+        gravity: Default::default(),
+        hinges: None,
+    }
+}
+
+/// Three eccentric towers around a corner, shaken along a bearing and across it.
+fn around_a_corner(law: ContactLaw) -> (Model, GroundMotion) {
+    let plans = [
+        rectangle(0.0, 0.0, 12.0, 10.0),
+        rectangle(12.02, 2.0, 9.0, 7.0),
+        rectangle(1.0, 10.02, 10.0, 8.0),
+    ];
+    let buildings = vec![
+        tower("corner", 3, [150e3, 60e6], &plans[0], [1.0, -0.5]),
+        tower("right", 2, [100e3, 150e6], &plans[1], [-0.4, 0.3]),
+        tower("behind", 3, [110e3, 170e6], &plans[2], [0.5, 0.6]),
+    ];
+    let gap = |a: usize, b: usize| Gap::between([Some(a), Some(b)], 0.02, law);
+    let mut motion = shaking("along", 7.0);
+    motion.bearing = Some(Box::new(Bearing {
+        angle: 0.4,
+        across: Some(shaking("across", 5.3)),
+    }));
+    let model = Model {
+        title: "corner".to_owned(),
+        buildings,
+        gaps: vec![gap(0, 1), gap(0, 2)],
+        links: Vec::new(),
+        walls: Vec::new(),
+        soil: None,
+        analysis: Analysis::default(),
+    };
+    (model, motion)
+}
+
+fn run(model: &Model, motion: &GroundMotion, analysis: Analysis) -> (System, Outcome) {
+    let system = System::assemble(model).unwrap_or_else(|faults| panic!("{faults:?}"));
+    let plan = Plan::choose(&system, motion, &analysis).unwrap_or_else(|f| panic!("{f:?}"));
+    let settings = Settings {
+        record_interval: None,
+        ..Settings::default()
+    };
+    let outcome = simulate(&system, motion, &plan, settings, |_| {
+        ControlFlow::Continue(())
+    });
+    assert!(
+        outcome.energy.worst_imbalance < 1e-4,
+        "{}",
+        outcome.energy.worst_imbalance
+    );
+    (system, outcome)
+}
+
+/// Peaks of every kind of every building, and forces of faces.
+fn peaks(outcome: &Outcome) -> Vec<Vec<f64>> {
+    let mut kinds = Vec::new();
+    for (along, plan) in outcome.floors.iter().zip(&outcome.in_plan) {
+        for floors in [&along[..], &plan.across, &plan.turning] {
+            kinds.push(floors.iter().map(|f| f.displacement_max.value).collect());
+            kinds.push(floors.iter().map(|f| f.displacement_min.value).collect());
+            kinds.push(floors.iter().map(|f| f.storey_drift).collect());
+            kinds.push(floors.iter().map(|f| f.total_acceleration).collect());
+            kinds.push(floors.iter().map(|f| f.storey_shear).collect());
+            kinds.push(floors.iter().map(|f| f.overturning_moment).collect());
+        }
+        kinds.push(plan.corner_displacement.clone());
+    }
+    kinds.push(outcome.base_shear.clone());
+    let faces = outcome.face_impacts.iter();
+    kinds.push(faces.map(|impact| impact.peak_force.value).collect());
+    kinds
+}
+
+fn apart(a: &Outcome, b: &Outcome) -> f64 {
+    let mut worst = 0.0_f64;
+    for (own, other) in peaks(a).iter().zip(&peaks(b)) {
+        assert_eq!(own.len(), other.len());
+        let greatest = own
+            .iter()
+            .fold(0.0_f64, |most, value| most.max(value.abs()));
+        for (a, b) in own.iter().zip(other) {
+            worst = worst.max((a - b).abs() / greatest);
+        }
+    }
+    worst
+}
+
+/// Modes and direct steps share neither equations nor steps.
+#[test]
+fn direct_steps_have_the_peaks_of_modes() {
+    for kind in [LawKind::HertzDamp, LawKind::Linear, LawKind::Kelvin] {
+        let (model, motion) = around_a_corner(ContactLaw {
+            kind,
+            stiffness: if kind == LawKind::HertzDamp { 2e9 } else { 3e8 },
+            ..LAW
+        });
+        let modal = Analysis {
+            tolerance: 1e-6,
+            ..Analysis::default()
+        };
+        let (_, reference) = run(&model, &motion, modal);
+        assert!(reference.face_impacts.len() > 5);
+        for tolerance in [1e-3, 1e-4] {
+            let direct = Analysis {
+                tolerance,
+                solver: Some(Solver::Riccati),
+                ..Analysis::default()
+            };
+            let (_, outcome) = run(&model, &motion, direct);
+            let error = apart(&reference, &outcome);
+            assert!(error < tolerance, "{kind:?}, {tolerance}: {error}");
+        }
+    }
+}
+
+/// The same matrices, factorised along the transfer path and by a general sparse elimination.
+#[test]
+fn two_eliminations_have_the_same_steps() {
+    let (model, motion) = around_a_corner(LAW);
+    let [one, other] = [Solver::Riccati, Solver::Stiffness].map(|solver| {
+        let analysis = Analysis {
+            step: Some(2e-3),
+            contact_step: Some(5e-5),
+            solver: Some(solver),
+            ..Analysis::default()
+        };
+        run(&model, &motion, analysis).1
+    });
+    let error = apart(&one, &other);
+    assert!(error < 1e-8, "{error}");
+}
+
+/// Bodies that hit at single points by the momentum law lose energy, and steps account for it.
+#[test]
+fn momentum_laws_act_in_space() {
+    let (model, motion) = around_a_corner(ContactLaw {
+        kind: LawKind::Restitution,
+        stiffness: 1e8,
+        ..LAW
+    });
+    let [one, other] = [Solver::Riccati, Solver::Modal].map(|solver| {
+        let analysis = Analysis {
+            solver: Some(solver),
+            tolerance: 1e-4,
+            ..Analysis::default()
+        };
+        run(&model, &motion, analysis).1
+    });
+    assert!(one.energy.contact > 0.0 && one.energy.worst_imbalance < 1e-9);
+    let [a, b] = [&one, &other].map(|run| run.impacts.first().map(|own| (own.start, own.impulse)));
+    let (Some((a, impulse)), Some((b, expected))) = (a, b) else {
+        panic!("no impacts")
+    };
+    assert!((a - b).abs() < 1e-4 && (impulse - expected).abs() < 1e-3 * expected);
+}
+
+/// Friction along faces, by modes with predicted paths and by steps that hold its limits.
+#[test]
+fn friction_is_that_of_modes() {
+    let (mut model, motion) = around_a_corner(LAW);
+    for gap in &mut model.gaps {
+        gap.in_plan.friction = 0.4;
+    }
+    // Where sticking turns into slipping within a step, steps are of lower order: they are given.
+    let steps = Analysis {
+        step: Some(1e-3),
+        contact_step: Some(1.25e-5),
+        solver: Some(Solver::Riccati),
+        ..Analysis::default()
+    };
+    let modes = Analysis {
+        tolerance: 1e-5,
+        ..Analysis::default()
+    };
+    let [direct, modal] = [steps, modes].map(|analysis| run(&model, &motion, analysis).1);
+    let error = apart(&modal, &direct);
+    assert!(error < 1e-3, "{error}");
+    let [a, b] = [&direct, &modal].map(|run| run.energy.friction);
+    assert!(b > 100.0 && (a / b - 1.0).abs() < 1e-3, "{a} against {b} J");
+    let peak = |run: &Outcome| {
+        let faces = run.face_impacts.iter();
+        faces.fold(0.0_f64, |most, own| most.max(own.peak_friction.value))
+    };
+    let (a, b) = (peak(&direct), peak(&modal));
+    assert!((a / b - 1.0).abs() < 1e-3, "{a} against {b} N");
+}
+
+#[test]
+fn what_direct_steps_cannot_do_in_space_is_refused() {
+    let (model, motion) = around_a_corner(LAW);
+    let system = System::assemble(&model).expect("a sound model");
+    let said = |solver: Solver| {
+        let analysis = Analysis {
+            solver: Some(solver),
+            ..Analysis::default()
+        };
+        Plan::choose(&system, &motion, &analysis).expect_err("refused")
+    };
+    assert!(said(Solver::Product)[0].problem.contains("riccati"));
+    assert!(said(Solver::Series)[0].problem.contains("plan"));
+}

@@ -1,0 +1,511 @@
+//! Buildings in space that yield: the plane as their limit, an eccentric storey against an integration of its own, and the site that
+//! may be turned.
+
+use std::f64::consts::PI;
+use std::ops::ControlFlow;
+
+use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
+use jostle::{
+    Analysis, Bearing, Building, ContactLaw, Damping, Gap, Gravity, GroundMotion, Hinges, LawKind,
+    Model, Outcome, Plan, PlanArea, PlanAxis, PlanPoint, PlanSpring, RestitutionIs, RunEnd,
+    Settings, Shear, Solver, Structure, System, Tier, TierStorey, Tiers, simulate,
+};
+
+const LAW: ContactLaw = ContactLaw {
+    kind: LawKind::HertzDamp,
+    stiffness: 2e9,
+    restitution: 0.65,
+    restitution_is: RestitutionIs::Input,
+};
+
+/// A shaking without symmetry, 8 s long.
+fn shaking(name: &str, rate: f64, scale: f64) -> GroundMotion {
+    let at = |i: u32| {
+        let t = 0.02 * f64::from(i);
+        let slow = 3.0 * (rate * t).sin() * (-0.1 * t).exp();
+        scale * (slow + 1.2 * (3.1 * rate * t).cos() * (-0.3 * t).exp())
+    };
+    GroundMotion::sampled(name, 0.02, (0..=400).map(at).collect())
+}
+
+fn spring(rule: HysteresisRule, stiffness: f64, yielding: f64) -> Hysteresis {
+    let corners = match rule {
+        HysteresisRule::Bilinear => Corners::bilinear(yielding, 0.05),
+        _ => Corners {
+            cracking: 0.3 * yielding,
+            yielding,
+            post_cracking: 0.5,
+            post_yield: 0.05,
+        },
+    };
+    let backbone = Backbone::from_deformations(stiffness, corners, corners).expect("sound");
+    Hysteresis::new(rule, backbone).expect("sound")
+}
+
+fn building(name: &str, structure: Structure, hinges: Option<Hinges>) -> Building {
+    Building {
+        name: name.to_owned(),
+        structure,
+        damping: Damping::Ratio {
+            ratio: 0.04,
+            modes: Vec::new(),
+        },
+        base: Default::default(),
+        gravity: Gravity {
+            preload: false,
+            p_delta: true,
+        },
+        hinges,
+    }
+}
+
+fn model(buildings: Vec<Building>, gaps: Vec<Gap>) -> Model {
+    Model {
+        title: "yielding in space".to_owned(),
+        buildings,
+        gaps,
+        links: Vec::new(),
+        walls: Vec::new(),
+        soil: None,
+        analysis: Analysis {
+            step: Some(1e-3),
+            contact_step: Some(5e-5),
+            ..Analysis::default()
+        },
+    }
+}
+
+fn run(model: &Model, motion: &GroundMotion) -> (System, Outcome) {
+    let system = System::assemble(model).unwrap_or_else(|faults| panic!("{faults:?}"));
+    let plan = Plan::choose(&system, motion, &model.analysis).unwrap_or_else(|f| panic!("{f:?}"));
+    assert_eq!(plan.solver, Solver::Riccati);
+    let settings = Settings {
+        record_interval: Some(0.0),
+        ..Settings::default()
+    };
+    let outcome = simulate(&system, motion, &plan, settings, |_| {
+        ControlFlow::Continue(())
+    });
+    assert_eq!(outcome.end, RunEnd::Completed);
+    (system, outcome)
+}
+
+fn rectangle(x: f64, y: f64, a: f64, b: f64) -> Vec<PlanPoint> {
+    vec![[x, y], [x + a, y], [x + a, y + b], [x, y + b]]
+}
+
+/// Storeys that yield along both directions about their centre of stiffness, and stay elastic in torsion.
+fn tiers(
+    storeys: usize,
+    [mass, stiffness]: [f64; 2],
+    plan: &[PlanPoint],
+    eccentricity: PlanPoint,
+    rule: HysteresisRule,
+) -> Tiers {
+    let tier = Tier::uniform(mass, plan.to_vec()).expect("an area");
+    let sides = [stiffness, 1.3 * stiffness];
+    let torsion = TierStorey::torsion_of_even(sides, &PlanArea::new(plan));
+    let centre = [
+        tier.centre[0] + eccentricity[0],
+        tier.centre[1] + eccentricity[1],
+    ];
+    let springs = (0..storeys).flat_map(|storey| {
+        PlanAxis::BOTH.map(|axis| PlanSpring {
+            element: None,
+            storey,
+            at: centre,
+            axis,
+            hysteresis: spring(rule, sides[axis.index()], [8e-3, 6e-3][axis.index()]),
+        })
+    });
+    Tiers {
+        floors: vec![tier; storeys],
+        storeys: vec![
+            TierStorey {
+                stiffness: [0.0, 0.0, torsion],
+                centre,
+            };
+            storeys
+        ],
+        storey_heights: vec![3.0; storeys],
+        frames: Vec::new(),
+        yielding: springs.collect(),
+        element_names: Vec::new(),
+    }
+}
+
+/// Without eccentricity and across no shaking, a building in space is the one in the plane, step by step, along either direction.
+#[test]
+fn plans_without_eccentricity_yield_as_in_the_plane() {
+    let parts = [(5, [150e3, 90e6], 12.0), (3, [110e3, 200e6], 9.0)];
+    for rule in [HysteresisRule::Bilinear, HysteresisRule::PeakOriented] {
+        let plane: Vec<Building> = parts
+            .iter()
+            .map(|&(storeys, [mass, stiffness], _)| {
+                let shear = Shear {
+                    mass: vec![mass; storeys],
+                    stiffness: vec![stiffness; storeys],
+                    storey_heights: vec![3.0; storeys],
+                };
+                let own = spring(rule, stiffness, 8e-3);
+                building(
+                    "plane",
+                    Structure::Shear(shear),
+                    Some(Hinges::Storeys(vec![own; storeys])),
+                )
+            })
+            .collect();
+        let mut x = 0.0;
+        let space: Vec<Building> = parts
+            .iter()
+            .map(|&(storeys, properties, width)| {
+                let plan = rectangle(x, 0.0, width, 10.0);
+                x += width + 0.02;
+                let own = tiers(storeys, properties, &plan, [0.0; 2], rule);
+                building("space", Structure::Tiers(own), None)
+            })
+            .collect();
+        let name = |mut list: Vec<Building>| {
+            list.iter_mut()
+                .zip(["A", "B"])
+                .for_each(|(own, name)| own.name = name.to_owned());
+            list
+        };
+        let gap = || vec![Gap::after(0, 0.02, LAW)];
+        let motion = shaking("along", 7.0, 1.5);
+        let mut flat_model = model(name(plane), gap());
+        flat_model.analysis.solver = Some(Solver::Riccati);
+        let (_, flat) = run(&flat_model, &motion);
+        let (system, deep) = run(&model(name(space), gap()), &motion);
+        assert!(flat.impacts.len() > 3 && flat.energy.hysteretic > 1e3);
+        let close = |a: f64, b: f64, scale: f64, what: &str| {
+            assert!((a - b).abs() <= 1e-9 * scale, "{what}: {a} against {b}");
+        };
+        let most = |of: &dyn Fn(&jostle::history::FloorPeaks) -> f64| {
+            flat.floors.iter().flatten().map(of).fold(0.0, f64::max)
+        };
+        for (own, other) in flat.floors.iter().zip(&deep.floors) {
+            for (a, b) in own.iter().zip(other) {
+                let u = most(&|f| f.displacement_max.value);
+                close(a.displacement_max.value, b.displacement_max.value, u, "u");
+                close(
+                    a.storey_drift,
+                    b.storey_drift,
+                    most(&|f| f.storey_drift),
+                    "drift",
+                );
+                close(
+                    a.storey_shear,
+                    b.storey_shear,
+                    most(&|f| f.storey_shear),
+                    "shear",
+                );
+                let moments = most(&|f| f.overturning_moment);
+                close(
+                    a.overturning_moment,
+                    b.overturning_moment,
+                    moments,
+                    "moment",
+                );
+            }
+        }
+        for (a, b) in flat.base_shear.iter().zip(&deep.base_shear) {
+            close(*a, *b, *a, "base shear");
+        }
+        close(
+            flat.energy.hysteretic,
+            deep.energy.hysteretic,
+            flat.energy.hysteretic,
+            "hysteretic energy",
+        );
+        let [left, right] = [&flat, &deep].map(|run| run.gap_forces[0].value);
+        close(left, right, left, "force of the gap");
+        for plan in &deep.in_plan {
+            for floor in plan.across.iter().chain(&plan.turning) {
+                assert!(floor.displacement_max.value.abs() < 1e-12);
+            }
+        }
+        // Springs along x have the loops of the storeys of the plane.
+        let along = (0..deep.springs.len()).step_by(2);
+        for (own, spring) in flat.springs.iter().zip(along) {
+            close(
+                own.peak_force,
+                deep.springs[spring].peak_force,
+                own.peak_force,
+                "force",
+            );
+            let most = flat
+                .springs
+                .iter()
+                .fold(0.0, |most: f64, own| most.max(own.work));
+            close(own.work, deep.springs[spring].work, most, "work");
+        }
+        assert_eq!(system.buildings[0].equations.springs.len(), 10);
+    }
+}
+
+/// One storey with two elements that yield along x and one along y, none through the centre of mass.
+fn eccentric_storey() -> (Model, Vec<([f64; 3], f64, f64)>) {
+    let plan = rectangle(0.0, 0.0, 10.0, 8.0);
+    let tier = Tier::uniform(200e3, plan).expect("an area");
+    let [ox, oy] = tier.centre;
+    // Place, direction, stiffness, yield deformation.
+    let elements = [
+        ([1.0, 1.0], PlanAxis::X, 30e6, 6e-3),
+        ([9.0, 7.0], PlanAxis::X, 55e6, 5e-3),
+        ([8.0, 2.0], PlanAxis::Y, 60e6, 7e-3),
+        ([0.5, 6.0], PlanAxis::Y, 25e6, 4e-3),
+    ];
+    let yielding = elements
+        .iter()
+        .enumerate()
+        .map(|(index, &(at, axis, stiffness, yielding))| PlanSpring {
+            element: Some(index),
+            storey: 0,
+            at,
+            axis,
+            hysteresis: spring(HysteresisRule::Bilinear, stiffness, yielding),
+        })
+        .collect();
+    let rows = elements.iter().map(|&([x, y], axis, stiffness, yielding)| {
+        let row = match axis {
+            PlanAxis::X => [1.0, 0.0, -(y - oy)],
+            PlanAxis::Y => [0.0, 1.0, x - ox],
+        };
+        (row, stiffness, yielding)
+    });
+    let rows = rows.collect();
+    let tiers = Tiers {
+        floors: vec![tier],
+        storeys: Vec::new(),
+        storey_heights: vec![3.0],
+        frames: Vec::new(),
+        yielding,
+        element_names: vec![None; 4],
+    };
+    let mut own = building("eccentric", Structure::Tiers(tiers), None);
+    own.damping = Damping::Rayleigh {
+        alpha: 0.6,
+        beta: 0.0,
+    };
+    own.gravity = Gravity::default();
+    let mut model = model(vec![own], Vec::new());
+    model.analysis.contact_step = None;
+    (model, rows)
+}
+
+fn bearing(mut motion: GroundMotion, across: GroundMotion) -> GroundMotion {
+    motion.bearing = Some(Box::new(Bearing {
+        angle: 0.3,
+        across: Some(across),
+    }));
+    motion
+}
+
+/// Runge and Kutta's method on displacements, velocities and the slips of elastic-plastic springs with hardening:
+/// F = α k δ + (1 − α) k (δ − p), ṗ = δ̇ where |(1 − α) k (δ − p)| is at its limit and grows. Returns the greatest displacements,
+/// and the energy that the sliders took.
+fn by_runge_kutta(
+    rows: &[([f64; 3], f64, f64)],
+    masses: [f64; 3],
+    alpha: f64,
+    motion: &GroundMotion,
+    step: f64,
+) -> ([f64; 3], f64) {
+    const HARDENING: f64 = 0.05;
+    type Vector = [f64; 3];
+    let count = rows.len();
+    let ground = |t: f64| {
+        let [x, y] = motion.components(t);
+        [x, y, 0.0]
+    };
+    let (mut u, mut v): (Vector, Vector) = ([0.0; 3], [0.0; 3]);
+    let mut slips = vec![0.0; count];
+    let (mut peaks, mut taken) = ([0.0_f64; 3], 0.0);
+    let deformation = |row: &Vector, u: &Vector| (0..3).map(|k| row[k] * u[k]).sum::<f64>();
+    // Return mapping of the slip at given displacements, from the slips at the start of the step.
+    let slip = |index: usize, u: &Vector, from: f64| {
+        let (row, _, limit) = &rows[index];
+        let (d, limit) = (deformation(row, u), *limit);
+        from + (d - from - limit).max(0.0) + (d - from + limit).min(0.0)
+    };
+    let acceleration = |t: f64, u: &Vector, v: &Vector, slips: &[f64]| -> Vector {
+        let mut force = [0.0; 3];
+        for (index, (row, stiffness, _)) in rows.iter().enumerate() {
+            let d = deformation(row, u);
+            let p = slip(index, u, slips[index]);
+            let own = stiffness * (HARDENING * d + (1.0 - HARDENING) * (d - p));
+            (0..3).for_each(|k| force[k] += row[k] * own);
+        }
+        let a = ground(t);
+        std::array::from_fn(|k| -force[k] / masses[k] - alpha * v[k] - a[k])
+    };
+    let steps = (motion.duration / step).round() as usize;
+    let add =
+        |a: &Vector, b: &Vector, h: f64| -> Vector { std::array::from_fn(|k| a[k] + h * b[k]) };
+    for index in 0..steps {
+        let t = index as f64 * step;
+        let a1 = acceleration(t, &u, &v, &slips);
+        let (u2, v2) = (add(&u, &v, 0.5 * step), add(&v, &a1, 0.5 * step));
+        let a2 = acceleration(t + 0.5 * step, &u2, &v2, &slips);
+        let (u3, v3) = (add(&u, &v2, 0.5 * step), add(&v, &a2, 0.5 * step));
+        let a3 = acceleration(t + 0.5 * step, &u3, &v3, &slips);
+        let (u4, v4) = (add(&u, &v3, step), add(&v, &a3, step));
+        let a4 = acceleration(t + step, &u4, &v4, &slips);
+        let before = slips.clone();
+        for k in 0..3 {
+            u[k] += step / 6.0 * (v[k] + 2.0 * v2[k] + 2.0 * v3[k] + v4[k]);
+            v[k] += step / 6.0 * (a1[k] + 2.0 * a2[k] + 2.0 * a3[k] + a4[k]);
+            peaks[k] = peaks[k].max(u[k].abs());
+        }
+        for (index, own) in slips.iter_mut().enumerate() {
+            *own = slip(index, &u, *own);
+            let (_, stiffness, limit) = rows[index];
+            taken += (1.0 - HARDENING) * stiffness * limit * (*own - before[index]).abs();
+        }
+    }
+    (peaks, taken)
+}
+
+/// Displacements along x, across and in rotation, and dissipated energy, against an integration with steps of 20 µs.
+#[test]
+fn an_eccentric_storey_yields_as_integrated_on_its_own() {
+    let (mut model, rows) = eccentric_storey();
+    let motion = bearing(shaking("along", 9.0, 1.0), shaking("across", 7.5, 0.8));
+    let Structure::Tiers(tiers) = &model.buildings[0].structure else {
+        unreachable!("it has a plan")
+    };
+    let floor = &tiers.floors[0];
+    let masses = [floor.mass, floor.mass, floor.polar_mass];
+    let (expected, taken) = by_runge_kutta(&rows, masses, 0.6, &motion, 2e-5);
+    // Work over a step in which a spring yields is of second order.
+    let dissipated = |step: f64| {
+        let mut model = model.clone();
+        model.analysis.step = Some(step);
+        run(&model, &motion).1.energy.hysteretic / taken - 1.0
+    };
+    let [coarse, fine] = [4e-4, 2e-4].map(dissipated);
+    assert!(
+        fine.abs() < 1e-4 && (3.0..5.0).contains(&(coarse / fine)),
+        "{coarse}, {fine}"
+    );
+    model.analysis.step = Some(5e-5);
+    let (_, outcome) = run(&model, &motion);
+    let most = |floor: &jostle::history::FloorPeaks| {
+        floor
+            .displacement_max
+            .value
+            .max(-floor.displacement_min.value)
+    };
+    let plan = &outcome.in_plan[0];
+    let found = [&outcome.floors[0][0], &plan.across[0], &plan.turning[0]].map(most);
+    assert!(expected[2] > 1e-3 && taken > 1e4, "{expected:?}, {taken} J");
+    for (own, expected) in found.iter().zip(expected) {
+        assert!(
+            (own / expected - 1.0).abs() < 2e-5,
+            "{own} against {expected}"
+        );
+    }
+    let hysteretic = outcome.energy.hysteretic;
+    assert!(
+        (hysteretic / taken - 1.0).abs() < 2e-5,
+        "{hysteretic} against {taken}"
+    );
+    assert!(outcome.energy.worst_imbalance < 1e-9);
+    // Shears are the sums of the elements, torques those of their moments about the centre of mass.
+    let shear = outcome.base_shear[0];
+    let greatest = rows[0].1 * rows[0].2 + rows[1].1 * rows[1].2;
+    assert!(shear > greatest && shear < 2.0 * greatest, "{shear}");
+}
+
+/// A site turned by a right angle: what yielded along x yields across.
+#[test]
+fn a_turned_site_yields_the_same() {
+    let rule = HysteresisRule::PeakOriented;
+    let plans = [
+        rectangle(0.0, 0.0, 12.0, 10.0),
+        rectangle(12.015, 2.0, 9.0, 7.0),
+    ];
+    let own = |turned: bool| -> Vec<Building> {
+        let parts = [
+            (3, [150e3, 60e6], [1.0, -0.5]),
+            (2, [100e3, 150e6], [-0.4, 0.3]),
+        ];
+        let list = parts.iter().zip(&plans).zip(["A", "B"]);
+        list.map(|((&(storeys, properties, eccentricity), plan), name)| {
+            let mut tiers = tiers(storeys, properties, plan, eccentricity, rule);
+            if turned {
+                let turn = |p: &mut PlanPoint| *p = [-p[1], p[0]];
+                for floor in &mut tiers.floors {
+                    turn(&mut floor.centre);
+                    floor.plan.iter_mut().for_each(turn);
+                }
+                for storey in &mut tiers.storeys {
+                    turn(&mut storey.centre);
+                }
+                for spring in &mut tiers.yielding {
+                    turn(&mut spring.at);
+                    spring.axis = match spring.axis {
+                        PlanAxis::X => PlanAxis::Y,
+                        PlanAxis::Y => PlanAxis::X,
+                    };
+                }
+            }
+            let mut building = building(name, Structure::Tiers(tiers), None);
+            building.damping = Damping::Rayleigh {
+                alpha: 0.5,
+                beta: 2e-3,
+            };
+            building
+        })
+        .collect()
+    };
+    let gap = || vec![Gap::between([Some(0), Some(1)], 0.015, LAW)];
+    let motion = bearing(shaking("along", 7.0, 1.5), shaking("across", 5.3, 1.2));
+    let mut turned_motion = motion.clone();
+    turned_motion.bearing.as_mut().expect("a bearing").angle += 0.5 * PI;
+    let (_, one) = run(&model(own(false), gap()), &motion);
+    let (_, other) = run(&model(own(true), gap()), &turned_motion);
+    assert!(one.impacts.len() > 10 && one.energy.hysteretic > 1e4);
+    assert_eq!(one.impacts.len(), other.impacts.len());
+    assert!(
+        one.energy.worst_imbalance < 1e-4,
+        "{}",
+        one.energy.worst_imbalance
+    );
+    for (a, b) in one.in_plan.iter().zip(&other.in_plan) {
+        for (a, b) in a.turning.iter().zip(&b.turning) {
+            let (a, b) = (a.displacement_max.value, b.displacement_max.value);
+            assert!((a - b).abs() < 1e-8 * a.abs(), "{a} against {b}");
+        }
+        for (a, b) in a.corner_displacement.iter().zip(&b.corner_displacement) {
+            assert!((a - b).abs() < 1e-8 * a, "{a} against {b}");
+        }
+    }
+    for (floors, plan) in one.floors.iter().zip(&other.in_plan) {
+        for (a, b) in floors.iter().zip(&plan.across) {
+            let (a, b) = (a.storey_shear, b.storey_shear);
+            assert!((a - b).abs() < 1e-8 * a, "{a} against {b}");
+        }
+    }
+}
+
+/// Elements through one point hold no rotation.
+#[test]
+fn elements_through_one_point_are_refused() {
+    let (mut model, _) = eccentric_storey();
+    let Structure::Tiers(tiers) = &mut model.buildings[0].structure else {
+        unreachable!("it has a plan")
+    };
+    for spring in &mut tiers.yielding {
+        spring.at = [4.0, 4.0];
+    }
+    let faults = System::assemble(&model).expect_err("it turns freely");
+    assert!(faults[0].path.ends_with("torsion"), "{faults:?}");
+    let Structure::Tiers(tiers) = &mut model.buildings[0].structure else {
+        unreachable!("it has a plan")
+    };
+    tiers.yielding[0].storey = 3;
+    let faults = System::assemble(&model).expect_err("no such storey");
+    assert!(faults[0].path.contains("yielding[0]"), "{faults:?}");
+}
