@@ -9,7 +9,7 @@ use jostle::model::{Damping, Hinges, PlanAxis, PlanSpring, Structure, Tiers, usu
 use jostle::structure::StepEquations;
 use jostle::system::BuildingSystem;
 use jostle::{
-    Building, LinkLaw, Model, Plan, RiccatiSweep, Solver, SpaceMember, SpacePlace, System, Tiers,
+    Building, LinkLaw, Model, Plan, RiccatiSweep, Solver, SpaceMember, SpacePlace, System,
 };
 
 use crate::args::CheckArgs;

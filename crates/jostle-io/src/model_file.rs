@@ -537,6 +537,12 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Parts>
     let codes = reader.get(&view, "codes");
     let of_buildings = buildings.as_ref().map(|read| read.codes.clone());
     let codes = codes::read(reader, codes.as_ref(), of_buildings.unwrap_or_default());
+    let north = reader.get(&view, "site").and_then(|field| {
+        let in_plan = |own: &jostle::Building| matches!(own.structure, jostle::Structure::Tiers(_));
+        let read = buildings.as_ref();
+        let in_space = read.is_none_or(|read| read.buildings.iter().any(in_plan));
+        site::read(reader, &field, in_space)
+    });
     let Buildings {
         mut buildings,
         members: reinforced,
@@ -567,8 +573,6 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Parts>
         gap::for_all_neighbours(reader, &fields, &at, &mut model);
         plan::check_widths(reader, &mut model, &fields);
     }
-    let site = reader.get(&view, "site");
-    let north = site.and_then(|field| site::read(reader, &field, model.is_in_space()));
     shear_failure::add_heads(&mut model, reader, &view);
     capacity::fill(&mut model, &capacity, &reinforced);
     Some(Parts {

@@ -6,9 +6,10 @@ use std::sync::Arc;
 use jostle::history::MemberHistory;
 use jostle::hysteresis::Side;
 use jostle::quantity::Read;
+use jostle::results::in_plan::ImpactSliding;
 use jostle::results::summary::{
-    AcrossSummary, AxialFailureSummary, ContactSummary, ImpactSummary, MemberSummary, RatioPlace,
-    RatioSummary, SectionSummary, SpringSummary,
+    AcrossSummary, AxialFailureSummary, ContactSummary, ImpactSummary, RatioPlace, SectionSummary,
+    SpringSummary,
 };
 use jostle::results::{member_name, section_name};
 use jostle::structure::{BaseMotion, MemberEnd, SectionAt, SpringPlace};
@@ -137,6 +138,21 @@ pub fn impact_columns(summary: &Summary) -> Vec<(&'static str, Values)> {
     ];
     let impacts = || rows.iter().map(|(_, _, impact)| *impact);
     columns.extend(quantity_columns(ImpactSummary::QUANTITIES, impacts));
+    // Only gaps with friction have these.
+    if impacts().any(|impact| impact.sliding.is_some()) {
+        let of = |read: fn(&ImpactSliding) -> f64| {
+            Values::Instant(
+                impacts()
+                    .map(|own| own.sliding.as_ref().map(read))
+                    .collect(),
+            )
+        };
+        columns.push(("slip_speed_m_s", of(|own| own.slip_speed_m_s)));
+        columns.push((
+            "tangential_impulse_n_s",
+            of(|own| own.tangential_impulse_n_s),
+        ));
+    }
     columns
 }
 

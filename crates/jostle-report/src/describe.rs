@@ -255,20 +255,23 @@ fn tiers_facts(tiers: &jostle::Tiers, facts: &mut Facts) {
             message::columns_and_beams_count(columns, beams),
         ));
     }
-    if tiers.storeys.is_empty() {
+    // Before anything yields.
+    let storeys = (0..tiers.floors.len()).filter_map(|storey| tiers.initial_storey(storey));
+    let storeys: Vec<jostle::TierStorey> = storeys.collect();
+    if storeys.is_empty() {
         return;
     }
     for (label, axis) in [
         (message::storey_stiffness_along_x(), 0),
         (message::storey_stiffness_across(), 1),
     ] {
-        let values = tiers.storeys.iter().map(|storey| storey.stiffness[axis]);
+        let values = storeys.iter().map(|storey| storey.stiffness[axis]);
         facts.push((
             label,
             grouped(&values.collect::<Vec<f64>>(), format::stiffness),
         ));
     }
-    let torsion = tiers.storeys.iter().map(|storey| storey.stiffness[2]);
+    let torsion = storeys.iter().map(|storey| storey.stiffness[2]);
     let torsion: Vec<f64> = torsion.collect();
     let unit = |value: f64| format!("{}\u{a0}MN·m/rad", format::plain(value / 1e6, 4));
     facts.push((message::torsional_stiffness(), grouped(&torsion, unit)));

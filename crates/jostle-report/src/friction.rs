@@ -80,7 +80,7 @@ fn table(model: &Model, all: &[Face]) -> Markup {
                 th.number scope="col" { (message::peak_friction_force()) br; span.unit { "[kN]" } }
                 th.number scope="col" { (message::greatest_slip()) br; span.unit { "[mm]" } }
                 th.number scope="col" { (message::friction_impulse()) br; span.unit { "[kN·s]" } }
-                th.number scope="col" { (message::dissipated_by_friction()) br; span.unit { "[kJ]" } }
+                th.number scope="col" { (message::dissipated()) br; span.unit { "[kJ]" } }
             } }
             tbody {
                 @for face in all {

@@ -327,7 +327,11 @@ mod tests {
             !text.contains("a</script>"),
             "the name must not end the script"
         );
-        assert_eq!(text.matches("</script>").count(), 2);
+        assert_eq!(
+            text.matches("</script>").count(),
+            3,
+            "data, texts and the script"
+        );
     }
 
     #[test]

@@ -176,9 +176,13 @@ pub(crate) fn drawing(
                         }
                     }
                     @if let Some(frame) = &tiers.space_frame { (grid(frame, scale)) }
+                    @for (at, name) in yielding_walls(tiers) {
+                        @let [x, y] = scale.place(at);
+                        rect.column x=(format!("{:.1}", x - 2.5)) y=(format!("{:.1}", y - 2.5)) width="5" height="5" { title { (message::wall_can_yield(name)) } }
+                    }
                     @if let Some(tier) = tiers.floors.first() {
                         @let [x, y] = scale.place(tier.centre);
-                        @if let Some(storey) = tiers.storeys.first() {
+                        @if let Some(storey) = tiers.initial_storey(0) {
                             @let [sx, sy] = scale.place(storey.centre);
                             rect.stiffness x=(format!("{:.1}", sx - 4.0)) y=(format!("{:.1}", sy - 4.0)) width="8" height="8" { title { (message::centre_of_stiffness()) } }
                         }
@@ -189,6 +193,7 @@ pub(crate) fn drawing(
             @for wall in &model.walls {
                 @if let Some(line) = wall.line {
                     polyline.wall points=(scale.path(line.into_iter())) { title { (message::wall_name(&wall.name)) } }
+                    path.solid d=(hatching(scale, line)) {}
                 }
             }
             (beneath)
@@ -245,6 +250,23 @@ fn grid(frame: &SpaceFrame, scale: &Scale) -> Markup {
     }
 }
 
+/// Places and names of the columns and walls of the lowest storey that can yield.
+fn yielding_walls(tiers: &Tiers) -> Vec<([f64; 2], String)> {
+    let lowest = tiers.yielding.iter().filter(|spring| spring.storey == 0);
+    let mut walls: Vec<(usize, [f64; 2])> = lowest
+        .filter_map(|spring| Some((spring.element?, spring.at)))
+        .collect();
+    walls.dedup_by_key(|(element, _)| *element);
+    let named = walls.into_iter().map(|(element, at)| {
+        let name = tiers.element_names.get(element).cloned().flatten();
+        (
+            at,
+            name.unwrap_or_else(|| message::element_number(element + 1)),
+        )
+    });
+    named.collect()
+}
+
 /// The box of a text with its anchor in the middle.
 pub(crate) fn box_of(text: &str, [x, y]: [f64; 2]) -> [f64; 4] {
     let half = 0.5 * LETTER[0] * text.chars().count() as f64 + 2.0;
@@ -276,8 +298,7 @@ fn names(model: &Model, scale: &Scale, taken: &mut Vec<[f64; 4]>) -> Markup {
         let [x, y] = scale.place(tiers.floors.first()?.centre);
         // Frames at lines of the plan have no centre of stiffness of their own.
         let sy = tiers
-            .storeys
-            .first()
+            .initial_storey(0)
             .map_or(y, |storey| scale.place(storey.centre)[1]);
         // Away from the centre of stiffness.
         let at = [x, if sy > y { y - 16.0 } else { y + 18.0 }];
@@ -363,6 +384,28 @@ fn marks(scale: &Scale, places: &[SitePlace]) -> Markup {
     }
 }
 
+/// Strokes on the solid side of a wall, the right one of its direction.
+fn hatching(scale: &Scale, line: [PlanPoint; 2]) -> String {
+    let [from, to] = line.map(|point| scale.place(point));
+    let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+    let length = dx.hypot(dy).max(1e-9);
+    // The drawing counts y downwards.
+    let [tx, ty] = [dx / length, dy / length];
+    let [rx, ry] = [-ty, tx];
+    let count = (length / HATCH) as usize;
+    let strokes = (0..count).map(|index| {
+        let along = (index as f64 + 0.75) * HATCH;
+        format!(
+            "M{:.1} {:.1}l{:.1} {:.1}",
+            from[0] + along * tx,
+            from[1] + along * ty,
+            0.6 * HATCH * (rx - tx),
+            0.6 * HATCH * (ry - ty)
+        )
+    });
+    strokes.collect()
+}
+
 /// Slip in both directions along a face, beside it on the side of the second building.
 fn slipped(place: &SitePlace, [x, y]: [f64; 2], share: f64) -> Markup {
     let [nx, ny] = [place.normal[0], -place.normal[1]];
@@ -386,11 +429,13 @@ fn labels(scale: &Scale, places: &[SitePlace], taken: &mut Vec<[f64; 4]>) -> Mar
         let [x, y] = scale.place(place.middle);
         let [nx, ny] = [place.normal[0], -place.normal[1]];
         let half = 0.5 * LETTER[0] * words.chars().count() as f64 + 4.0;
+        // Farther away than the arrows of slip.
+        let beside = place.slip.map_or(0.0, |_| 12.0);
         let tries = [1.0, -1.0].into_iter().flat_map(|side| {
             (0..9).map(move |k| {
                 // Along the face, alternately to either side.
                 let slide = 16.0 * f64::from((k + 1) / 2) * if k % 2 == 0 { 1.0 } else { -1.0 };
-                let away = side * (24.0 * ny.abs() + (half + 20.0) * nx.abs());
+                let away = side * ((24.0 + beside) * ny.abs() + (half + 20.0 + beside) * nx.abs());
                 [x + away * nx - slide * ny, y + away * ny + slide * nx]
             })
         });
@@ -452,6 +497,8 @@ fn strip(scale: &Scale, motion: Option<&GroundMotion>, north: Option<f64>) -> Ma
 const SLIP_BESIDE: f64 = 20.0;
 const SLIP_LEAST: f64 = 9.0;
 const SLIP_MORE: f64 = 30.0;
+/// Distance of the strokes on the solid side of a wall.
+const HATCH: f64 = 11.0;
 /// Half the length of the arrow to north.
 const NORTH: f64 = 20.0;
 /// Length of the arrows of the motion.

@@ -232,6 +232,7 @@ mod tests {
             overlap: 1.0,
             gap: [0.02; 2],
             peak_force: 0.0,
+            slip: None,
         };
         let words = |floors: &[[usize; 2]]| {
             let pairs: Vec<_> = floors.iter().map(|pair| pair.map(Some)).collect();

@@ -134,6 +134,18 @@ fn peaks_shown() -> impl Iterator<Item = (&'static Quantity<FloorResponse>, Show
     quantities.filter_map(|quantity| Some((quantity, quantity.shown?)))
 }
 
+/// Heading of a number; that of the mechanics where the table of messages has none.
+fn title(quantity: &Quantity<FloorResponse>, shown: Shown) -> &'static str {
+    match quantity.name {
+        "displacement_peak_m" => message::displacement(),
+        "total_acceleration_peak_m_s2" => message::total_acceleration(),
+        "storey_drift_peak" => message::storey_drift(),
+        "storey_shear_peak_n" => message::storey_shear(),
+        "overturning_moment_peak_n_m" => message::overturning_moment(),
+        _ => shown.title,
+    }
+}
+
 /// Peaks of every floor and of the storey below it, with and without contact: one folded table for each building.
 pub(crate) fn peaks(page: &Page) -> Markup {
     html! {
@@ -155,8 +167,8 @@ fn peaks_of(building: &BuildingSummary) -> Markup {
                     tr {
                         th scope="col" rowspan=[compared.then_some("2")] { (message::floor()) }
                         th.number scope="col" rowspan=[compared.then_some("2")] { (message::height()) br; span.unit { "[m]" } }
-                        @for (_, shown) in peaks_shown() {
-                            th.number scope="colgroup" colspan=[compared.then_some("2")] { (shown.title) br; span.unit { "[" (shown.unit) "]" } }
+                        @for (quantity, shown) in peaks_shown() {
+                            th.number scope="colgroup" colspan=[compared.then_some("2")] { (title(quantity, shown)) br; span.unit { "[" (shown.unit) "]" } }
                         }
                     }
                     @if compared {

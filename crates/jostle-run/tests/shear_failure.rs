@@ -3,9 +3,8 @@
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use jostle::pushover::{PushSettings, PushedBuilding, pushover};
 use jostle::{Hinges, Settings};
-use jostle_io::{Format, pushover_json, read_model_text, summary_json};
+use jostle_io::{Format, read_model_text, summary_json};
 use jostle_run::{Content, Opened, Ran, summary_text};
 
 const MODEL: &str = include_str!("../../../examples/columns_that_fail_in_shear.toml");
@@ -84,35 +83,4 @@ fn failures_are_reported_with_their_impacts() {
     ] {
         assert!(report.contains(word), "the report lacks {word}");
     }
-}
-
-#[test]
-fn a_push_loses_strength() {
-    let ran = run(&MODEL.replace("[motion]\n", "[motion]\nduration = \"0.1 s\"\n"));
-    let building = &ran.prepared.system.buildings[0];
-    let settings = PushSettings {
-        drift: 0.03,
-        ..PushSettings::default()
-    };
-    let curve = pushover(building, settings).expect("it can be pushed");
-    assert!(curve.failures() > 0);
-    let (peak, last) = (
-        curve.peak().base_shear,
-        curve.points.last().expect("points").base_shear,
-    );
-    assert!(last < 0.9 * peak, "{last} N after {peak} N");
-    let pushed = [PushedBuilding {
-        building,
-        curves: vec![curve],
-    }];
-    let json: serde_json::Value =
-        serde_json::from_str(&pushover_json("test", &pushed)).expect("JSON");
-    let curve = &json["curves"][0];
-    assert!(
-        curve["shear_failures"]
-            .as_u64()
-            .is_some_and(|count| count > 0)
-    );
-    // Six members in each storey have two hinges: three columns, two beams.
-    assert_eq!(curve["hinges"], 3 * 5 * 2);
 }

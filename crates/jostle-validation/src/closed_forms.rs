@@ -72,6 +72,7 @@ fn building(
         frames: Vec::new(),
         shared_columns: Vec::new(),
         element_names: Vec::new(),
+        space_frame: None,
         stick_model,
         left_face: floors.clone(),
         right_face: floors.clone(),

@@ -239,7 +239,9 @@ fn from_histories(model: &Model, system: &System, outcome: &Outcome) -> Vec<[f64
             let found = values
                 .iter()
                 .find(|(own, known, at, _)| (*own, *known, *at) == (building, place, end));
-            found.map_or([0.0; 3], |(.., forces)| *forces)
+            found.map_or([0.0; 3], |(.., [axial, shear, moment, ..])| {
+                [*axial, *shear, *moment]
+            })
         };
         for (joint, found) in model.analysis.members.joints.iter().zip(&mut all) {
             let (floor, line, index) = (joint.floor, joint.line, joint.building);

@@ -190,7 +190,7 @@ fn from_histories(model: &Model, system: &System, outcome: &Outcome) -> Vec<[[f6
             let count = system.buildings[*building].members.members[*member]
                 .sections
                 .len();
-            for [axial, shear, moment] in sections.by_ref().take(count) {
+            for [axial, shear, moment, ..] in sections.by_ref().take(count) {
                 let compression =
                     own.compression_at_rest - if own.follows_axial { *axial } else { 0.0 };
                 for (rule, found) in own.rules.iter().zip(&mut all[at]) {

@@ -95,15 +95,25 @@ def add_contacts():
 
 
 def build_in_space():
-    """Floors that neither rise nor tilt at their centres of mass, joints tied to them, columns and beams.
+    """Floors at their centres of mass, joints tied to them, columns and beams.
 
-    Points of floors lie at height zero: floors that do not tilt carry them all the same, and their springs have no length."""
+    Nothing lets floors rise or tilt, so soft springs hold them there: fixed in these directions, they would break the constraints of
+    what is tied to them (Transformation). Springs of storeys join points at different heights; their length has no effect."""
     ops.model("basic", "-ndm", 3, "-ndf", 6)
-    heights = {floor: z for _, _, _, z, floor in JOINTS if floor is not None}
+    heights = dict(LEVELS)
+    heights.update({point: heights[floor] for floor, point in ARMS})
+    free = max([tag for tag, *_ in NODES] + [tag for tag, *_ in JOINTS]) + 1
+    hold = len(MATERIALS) + 2
+    ops.uniaxialMaterial("Elastic", hold, 1e6)
     for tag, x, y, mass, inertia in NODES:
         ops.node(tag, x, y, heights.get(tag, 0.0))
         if mass or inertia:
             ops.mass(tag, mass, mass, 0.0, 0.0, 0.0, inertia)
+    places = {tag: (x, y) for tag, x, y, *_ in NODES}
+    for number, (floor, z) in enumerate(LEVELS):
+        ops.node(free + number, *places[floor], z)
+        ops.fix(free + number, 1, 1, 1, 1, 1, 1)
+        ops.element("zeroLength", 10_000_000 + number, free + number, floor, "-mat", hold, hold, hold, "-dir", 3, 4, 5)
     where = {}
     tied = {}
     for tag, x, y, z, floor in JOINTS:
@@ -113,9 +123,6 @@ def build_in_space():
             ops.fix(tag, 1, 1, 1, 1, 1, 1)
         else:
             tied.setdefault(floor, []).append(tag)
-    for building in BUILDINGS:
-        for floor in building["floors"]:
-            ops.fix(floor, 0, 0, 1, 1, 1, 0)
     for tag, *_ in SUPPORTS:
         ops.fix(tag, 1, 1, 1, 1, 1, 1)
     for floor, joints in tied.items():

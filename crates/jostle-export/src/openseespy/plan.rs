@@ -47,6 +47,7 @@ impl Script<'_> {
             &mut self.supports,
             &mut self.arms,
             &mut self.springs,
+            &mut self.levels,
             &mut self.space_joints,
             &mut self.space_members,
         ] {
@@ -62,6 +63,8 @@ impl Script<'_> {
                 "    ({tag}, {x:?}, {y:?}, {:?}, {:?}),",
                 floor.tier.mass, floor.tier.polar_mass
             );
+            let height = rounded(building.discretization.stick_model.nodes[*node].y);
+            let _ = writeln!(self.levels, "    ({tag}, {height:?}),");
         }
         for storey in 0..lumped.len() {
             if let Some(springs) = tiers.storeys.get(storey) {

@@ -50,6 +50,8 @@ pub(super) struct Script<'a> {
     /// Joints of space frames, and their columns and beams.
     pub(super) space_joints: String,
     pub(super) space_members: String,
+    /// Heights of floors in plan.
+    pub(super) levels: String,
 }
 
 impl<'a> Script<'a> {
@@ -96,6 +98,7 @@ impl<'a> Script<'a> {
             ends: String::new(),
             space_joints: String::new(),
             space_members: String::new(),
+            levels: String::new(),
         };
         let mut faults = Vec::new();
         let mut place = 0.0;
@@ -719,6 +722,12 @@ impl<'a> Script<'a> {
             "ENDS",
             "element at a corner; node and shares of its motions along the edge, on either side; distance from the end of the edge [m]",
             &self.ends,
+        )?;
+        table(
+            out,
+            "LEVELS",
+            "node of a floor in plan, height [m]",
+            &self.levels,
         )?;
         table(
             out,

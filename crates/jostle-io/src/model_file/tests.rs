@@ -12,6 +12,8 @@ use crate::tree::{Format, parse};
 /// Models that together have every table of a file.
 const ALL_TABLES: [&str; 6] = [
     r#"
+[site]
+north = 1
 [[building]]
 kind = "shear"
 plan = [{ size = [1, 1] }, { corners = [[0, 0], [1, 0], [1, 1]] }]

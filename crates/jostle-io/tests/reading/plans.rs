@@ -49,6 +49,26 @@ fn said(text: &str) -> String {
 }
 
 #[test]
+fn north_is_an_angle_of_a_site_with_plans() {
+    let with = |site: &str| format!("{A}{B}{GAP}{site}");
+    let north = |site: &str| read(&with(site)).expect("a sound model").north;
+    assert_eq!(north(""), None);
+    assert_eq!(north("[site]\nnorth = 0.5"), Some(0.5));
+    let degrees = north("[site]\nnorth = \"-90 deg\"").expect("an angle");
+    assert!((degrees + std::f64::consts::FRAC_PI_2).abs() < 1e-15);
+    for (site, what) in [
+        ("[site]", "site.north"),
+        ("[site]\nnorth = \"3 m\"", "site.north"),
+        ("[site]\nnorth = 90", "\"90 deg\" for degrees"),
+    ] {
+        let error = said(&with(site));
+        assert!(error.contains(what), "{what} in {error}");
+    }
+    let plane = "[[building]]\nkind = \"shear\"\nmass = [\"40 t\"]\nstiffness = \"60 MN/m\"\nstorey_height = \"3 m\"\n[site]\nnorth = 1\n";
+    assert!(said(plane).contains("is for buildings with a plan"));
+}
+
+#[test]
 fn defaults_follow_from_the_plan() {
     let input = read(&format!("{A}{B}{GAP}")).expect("a sound model");
     let (a, b) = (tiers(&input, 0), tiers(&input, 1));

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use jostle::results::in_plan::ImpactSliding;
 use jostle::results::summary::{
     ContactSummary, EnergySummary, GapSummary, ImpactSummary, LinkFloorSummary, LinkSummary,
     MotionSummary, WorkSummary,
@@ -250,6 +251,32 @@ fn impacts_have_one_row_each() {
     quiet.gaps.clear();
     write_impacts_parquet(&path, &quiet).expect("written over the old one");
     assert!(read(&path).is_empty(), "no rows");
+    std::fs::remove_dir_all(folder).expect("the folder is ours");
+}
+
+/// Impacts of gaps with friction have two columns more; those of other gaps of the model leave them empty.
+#[test]
+fn impacts_with_friction_have_its_columns() {
+    let folder = folder("friction");
+    let path = folder.join("impacts.parquet");
+    let mut rough = summary();
+    rough.gaps[0].contacts[1].impacts[0].sliding = Some(ImpactSliding {
+        slip_speed_m_s: -0.2,
+        tangential_impulse_n_s: 3e3,
+    });
+    write_impacts_parquet(&path, &rough).expect("written");
+    let rows = read(&path);
+    for (name, value) in [("slip_speed_m_s", -0.2), ("tangential_impulse_n_s", 3e3)] {
+        let own = rows
+            .iter()
+            .flat_map(|row| row.iter().filter(|(n, _)| n == name));
+        let values: Vec<Field> = own.map(|(_, value)| value.clone()).collect();
+        assert_eq!(
+            values,
+            [Field::Null, Field::Double(value), Field::Null],
+            "{name}"
+        );
+    }
     std::fs::remove_dir_all(folder).expect("the folder is ours");
 }
 

@@ -10,6 +10,8 @@ messages! {
     hinges_of_columns = "Hinges of columns";
     hinges_of_beams = "Hinges of beams";
     storeys_title = "Storeys";
+    along_x = "Along x";
+    across_title = "Across";
     base_rocking = "Base, rocking";
     base_sliding = "Base, sliding";
     low_to_high(low, high) = "{low} to {high}";
@@ -633,6 +635,8 @@ messages! {
     artificial = "artificial";
 
     // site_drawing
+    element_number(number) = "element {number}";
+    wall_can_yield(name) = "{name} can yield";
     grid_line(name, number, place) = "grid line {name} = {number}, at {place} m";
     the_site_from_above_plans = "The site from above: plans of the buildings, gaps, and the direction of shaking";
     frame_name(name) = "frame {name}";
@@ -909,7 +913,6 @@ messages! {
     peak_friction_force = "peak friction";
     greatest_slip = "greatest slip";
     friction_impulse = "impulse of friction";
-    dissipated_by_friction = "dissipated by friction";
 
     // Scripts
     over_time_of(title) = "{title} over time";

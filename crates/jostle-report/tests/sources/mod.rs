@@ -21,6 +21,11 @@ impl Literal {
         if text.contains(['=', ';', '<', '>', '#']) || text.contains("--") || text.contains("../") {
             return false;
         }
+        // An outline.
+        let mut begin = text.chars();
+        if begin.next() == Some('M') && begin.next().is_some_and(|c| c.is_ascii_digit()) {
+            return false;
+        }
         let shown = without_values(text);
         let words: Vec<&str> = shown.split_whitespace().collect();
         let letters = |word: &str| word.chars().filter(char::is_ascii_alphabetic).count();
@@ -247,26 +252,16 @@ pub(crate) fn called(source: &str) -> BTreeSet<String> {
         .collect()
 }
 
-/// Words of three letters or more.
-pub(crate) fn words(text: &str) -> BTreeSet<String> {
-    text.split(|c: char| !c.is_alphabetic())
-        .filter(|word| word.len() > 1)
-        .map(str::to_owned)
-        .collect()
-}
-
-/// Words that a reader of a page sees or hears and that stand in no brackets: contents of elements, titles and labels.
-pub(crate) fn words_without_brackets(page: &str) -> BTreeSet<String> {
-    let mut shown = String::new();
+/// What a reader of a page sees or hears: contents of elements, titles and labels, without entities.
+pub(crate) fn shown(page: &str) -> Vec<String> {
+    let mut nodes = Vec::new();
     let mut rest = page;
     while let Some((before, after)) = rest.split_once('<') {
-        shown.push_str(before);
-        shown.push(' ');
+        nodes.push(before.trim().to_owned());
         let (tag, after) = after.split_once('>').unwrap_or((after, ""));
         for attribute in ["title=\"", "aria-label=\"", "placeholder=\""] {
             if let Some((_, value)) = tag.split_once(attribute) {
-                shown.push_str(value.split('"').next().unwrap());
-                shown.push(' ');
+                nodes.push(value.split('"').next().unwrap().trim().to_owned());
             }
         }
         let hidden = ["style", "script", "pre", "code"]
@@ -279,15 +274,6 @@ pub(crate) fn words_without_brackets(page: &str) -> BTreeSet<String> {
             None => after,
         };
     }
-    let mut outside = String::new();
-    let mut depth = 0;
-    for c in shown.chars() {
-        match c {
-            '⟦' => depth += 1,
-            '⟧' => depth -= 1,
-            c if depth == 0 => outside.push(c),
-            _ => {}
-        }
-    }
-    words(&outside)
+    nodes.retain(|node| !node.is_empty());
+    nodes
 }

@@ -198,6 +198,10 @@ impl EquilibriumPath {
                 .iter()
                 .fold(0.0_f64, |most, rate| most.max(rate.abs()));
             let mut settled = true;
+            // What falls is reversed before what it lets unload.
+            if stiffened && self.let_one_fall(fastest) {
+                continue;
+            }
             for ((side, ahead), rate) in self
                 .sides
                 .iter_mut()
@@ -221,6 +225,20 @@ impl EquilibriumPath {
             }
         }
         Err(PathError::Undecided)
+    }
+
+    /// Reverses the first spring that moves towards a falling line and stands on the other side; false if there is none.
+    fn let_one_fall(&mut self, fastest: f64) -> bool {
+        let springs = self.sides.iter_mut().zip(&self.ahead);
+        for ((side, ahead), rate) in springs.zip(&self.spring_rates) {
+            let towards = Side::from_change(*rate);
+            let moves = rate.abs() > STILL * fastest;
+            if moves && towards != *side && ahead[towards.index()] < 0.0 {
+                *side = towards;
+                return true;
+            }
+        }
+        false
     }
 
     /// Continues to the next corner, at most by `most` in units of the control variable. Call [`EquilibriumPath::find_rates`]

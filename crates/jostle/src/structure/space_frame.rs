@@ -158,6 +158,9 @@ enum Spring {
     Bending([f64; 2], [Deformation; 2]),
 }
 
+/// Direction of the deflection in a plane of bending, axis of rotation, and sign of the slope that a rotation about it is.
+type Plane = (usize, usize, f64);
+
 /// A member as springs.
 struct SpringMember {
     length: f64,
@@ -248,8 +251,7 @@ impl Assembly<'_> {
         let storey = place.storey();
         let [first, last] = place.crossings();
         let length = self.frame.length(place, self.heights);
-        // Planes of bending: direction of the deflection, axis of rotation, and sign of the slope that a rotation about it is.
-        let (below, axis, planes): (Option<usize>, usize, &[(usize, usize, f64)]) = match place {
+        let (below, axis, planes): (Option<usize>, usize, &[Plane]) = match place {
             SpacePlace::Column { .. } => (storey.checked_sub(1), 2, &[(0, 1, 1.0), (1, 0, -1.0)]),
             SpacePlace::BeamX { .. } => (Some(storey), 0, &[(2, 1, -1.0)]),
             SpacePlace::BeamY { .. } => (Some(storey), 1, &[(2, 0, 1.0)]),

@@ -2,7 +2,7 @@
 
 use jostle::hysteresis::{Backbone, Corners, FallingBranch, Hysteresis, HysteresisRule};
 use jostle::model::CapacityLine;
-use jostle::pushover::{PushEventKind, PushSettings, Pushover, pushover};
+use jostle::pushover::{PushEnd, PushEventKind, PushPoint, PushSettings, Pushover, pushover};
 use jostle::statics::STANDARD_GRAVITY;
 use jostle::{
     Building, Column, Damping, Frame, FrameHinges, Gravity, GroundMotion, Hinges, Joint, LawKind,
@@ -386,6 +386,45 @@ fn strength_falls_with_the_ductility_of_the_hinge() {
         "{} N instead of {force} N",
         0.5 * failed.base_shear
     );
+}
+
+/// A column whose hinges are cracked unloads when it fails, while the others load on: the push goes through.
+#[test]
+fn a_column_that_fails_unloads_its_hinges() {
+    let frame = frame(1, &[6.0]);
+    let rigidity = frame.columns[0].flexural_rigidity;
+    let column = 12.0 * rigidity / HEIGHT.powi(3);
+    let own = |strength: f64| Cantilever {
+        column,
+        spring: 1e4 * column,
+        strength,
+        slope: 5e6,
+        residual: 3e4,
+    };
+    let corners = Corners {
+        cracking: 5e4,
+        yielding: 1e6,
+        post_cracking: 1e-4,
+        post_yield: 1e-6,
+    };
+    let backbone = Backbone::from_forces(1e5 * rigidity / HEIGHT, corners, corners);
+    let hinge = Hysteresis::new(HysteresisRule::PeakOriented, backbone.expect("sound"));
+    let mut building = framed("portal", frame);
+    building.hinges = Some(Hinges::Frame(FrameHinges {
+        columns: vec![vec![hinge.expect("sound"); 2]],
+        beams: Vec::new(),
+        shear: vec![vec![own(1.5e5).shear_spring(), own(9e5).shear_spring()]],
+    }));
+    let curve = pushed(&assembled(&alone(building)), 0.04);
+    assert_eq!(curve.end, PushEnd::Target);
+    assert_eq!(curve.failures(), 1);
+    let fails = |point: &&PushPoint| point.events.iter().any(|e| e.kind == PushEventKind::Fails);
+    let failed = curve.points.iter().find(fails).expect("it fails");
+    let after = curve
+        .points
+        .iter()
+        .find(|point| point.roof > failed.roof + 0.03);
+    assert!(after.is_some_and(|point| point.base_shear < failed.base_shear));
 }
 
 /// Frames with hinges and columns that fail.

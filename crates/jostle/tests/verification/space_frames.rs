@@ -7,10 +7,10 @@ use jostle::linear::StepMatrix;
 use jostle::structure::{MemberPlace, solve_once};
 use jostle::system::BuildingSystem;
 use jostle::{
-    Analysis, Axial, Base, Building, ContactLaw, Damping, Frame, Gap, Gravity, GroundMotion, Joint,
-    LawKind, MemberRequest, Model, Outcome, Plan, PlanFrame, PlanPoint, RestitutionIs,
-    RiccatiSweep, RunEnd, Section, Settings, Solver, SpaceFrame, SpaceMember, SpacePlace,
-    SpaceSection, State, Structure, System, Tier, TierStorey, Tiers, simulate,
+    Analysis, Axial, Base, Building, ContactLaw, Damping, Frame, FrameHinges, Gap, Gravity,
+    GroundMotion, Joint, LawKind, MemberRequest, Model, Outcome, Plan, PlanFrame, PlanPoint,
+    RestitutionIs, RiccatiSweep, RunEnd, Section, Settings, Solver, SpaceFrame, SpaceMember,
+    SpacePlace, SpaceSection, State, Structure, System, Tier, TierStorey, Tiers, simulate,
 };
 
 const E: f64 = 30e9;
@@ -130,6 +130,8 @@ fn without_symmetry(flexible: Flexible) -> Tiers {
         storey_heights: vec![4.0, 3.2, 3.2],
         frames: Vec::new(),
         space_frame: Some(frame),
+        yielding: Vec::new(),
+        element_names: Vec::new(),
     }
 }
 
@@ -249,6 +251,8 @@ fn columns_without_beams_are_cantilevers() {
             storey_heights: vec![h],
             frames: Vec::new(),
             space_frame: Some(frame),
+            yielding: Vec::new(),
+            element_names: Vec::new(),
         });
         let [kx, ky] = [0, 1].map(|plane| {
             let bent = h.powi(3) / (3.0 * section.flexural_rigidity[plane]);
@@ -304,6 +308,8 @@ fn a_pair_of_frames_is_its_plane_limit() {
             storey_heights: heights.to_vec(),
             frames,
             space_frame,
+            yielding: Vec::new(),
+            element_names: Vec::new(),
         };
         let own = |section: SpaceSection| Section {
             flexural_rigidity: section.flexural_rigidity[0],
@@ -333,6 +339,7 @@ fn a_pair_of_frames_is_its_plane_limit() {
             lines: Vec::new(),
             base: Base::default(),
             frame: plane.clone(),
+            hinges: FrameHinges::default(),
         };
         let of_space = single(tiers(Vec::new(), Some(space)));
         let of_plane = single(tiers(vec![standing("1", 0.0), standing("2", 5.0)], None));
