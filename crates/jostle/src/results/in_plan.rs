@@ -313,7 +313,14 @@ pub(super) fn impacts_of(system: &System, outcome: &Outcome, reported: usize) ->
 fn whole_impact(face: &FaceImpact, impacts: &[&Impact]) -> Option<Impact> {
     let impacts = impacts.iter().copied();
     let mut points: Vec<&Impact> = impacts
-        .filter(|impact| impact.start < face.end && impact.end > face.start)
+        .filter(|impact| {
+            if face.start == face.end {
+                // By the momentum law.
+                impact.start == face.start && impact.end == face.end
+            } else {
+                impact.start < face.end && impact.end > face.start
+            }
+        })
         .collect();
     points.sort_by(|a, b| a.start.total_cmp(&b.start));
     let (first, last) = (

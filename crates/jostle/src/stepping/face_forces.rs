@@ -2,7 +2,7 @@
 
 use super::gap_forces::{StepForce, peak_of_many};
 use super::step_friction::FrictionPath;
-use crate::history::FaceImpact;
+use crate::history::{Extreme, FaceImpact};
 use crate::interface::MOST_POINTS;
 use crate::system::System;
 
@@ -77,6 +77,26 @@ impl FaceForces {
     /// Adds the friction of such a point over the step, with its coefficient \[–\].
     pub(super) fn add_friction(&mut self, face: usize, coefficient: f64, path: FrictionPath) {
         self.friction.push((face, coefficient, path));
+    }
+
+    /// Points of a face were struck at an instant \[s\] by the momentum law; `centre`: that of their impulses so far \[m\]. They
+    /// are part of the impact under way, if there is one.
+    pub(super) fn strike(&mut self, face: usize, instant: f64, centre: [f64; 2]) {
+        if self.current[face].is_some() {
+            return;
+        }
+        let last = self.impacts.iter_mut().rev().find(|own| own.face == face);
+        match last {
+            Some(own) if own.start == instant && own.end == instant => own.centre = centre,
+            _ => self.impacts.push(FaceImpact {
+                centre,
+                peak_force: Extreme {
+                    value: 0.0,
+                    at: instant,
+                },
+                ..FaceImpact::beginning(face, instant)
+            }),
+        }
     }
 
     /// Updates impacts after a step \[s\] that began at `start` \[s\].

@@ -209,7 +209,7 @@ fn momentum_laws_act_in_space() {
         };
         run(&model, &motion, analysis).1
     });
-    assert!(one.energy.contact > 0.0);
+    assert!(one.energy.contact > 0.0 && one.energy.worst_imbalance < 1e-6);
     let [a, b] = [&one, &other].map(|run| run.impacts.first().map(|own| (own.start, own.impulse)));
     let (Some((a, impulse)), Some((b, expected))) = (a, b) else {
         panic!("no impacts")

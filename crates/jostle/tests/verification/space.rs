@@ -114,9 +114,22 @@ fn close(a: f64, b: f64, scale: f64, tolerance: f64, what: &str) {
     );
 }
 
-/// Without eccentricity and across no shaking, everything is as in one plane, and nothing moves across or turns.
 #[test]
 fn plans_without_eccentricity_keep_the_numbers_of_the_plane() {
+    compare_with_the_plane(LAW);
+}
+
+/// All points of a face that hits flat are struck at once, so it does not turn.
+#[test]
+fn faces_rebound_by_the_momentum_law_as_in_the_plane() {
+    compare_with_the_plane(ContactLaw {
+        kind: LawKind::Restitution,
+        ..LAW
+    });
+}
+
+/// Without eccentricity and across no shaking, everything is as in one plane, and nothing moves across or turns.
+fn compare_with_the_plane(law: ContactLaw) {
     let [left, right] = [[150e3, 90e6], [110e3, 200e6]];
     let shear = |storeys: usize, [mass, stiffness]: [f64; 2]| {
         Structure::Shear(Shear {
@@ -130,14 +143,14 @@ fn plans_without_eccentricity_keep_the_numbers_of_the_plane() {
             building("A", shear(5, left)),
             building("B", shear(3, right)),
         ],
-        vec![Gap::after(0, 0.02, LAW)],
+        vec![Gap::after(0, 0.02, law)],
     );
     let space = model(
         vec![
             tower("A", 5, left, &rectangle(0.0, 0.0, 12.0, 10.0), [0.0; 2]),
             tower("B", 3, right, &rectangle(12.02, 0.0, 9.0, 10.0), [0.0; 2]),
         ],
-        vec![Gap::after(0, 0.02, LAW)],
+        vec![Gap::after(0, 0.02, law)],
     );
     let motion = shaking("along", 7.0);
     let (_, flat) = run(&plane, &motion);
@@ -192,6 +205,15 @@ fn plans_without_eccentricity_keep_the_numbers_of_the_plane() {
     let face = strongest(&mut outcome.face_impacts.iter().map(|i| i.peak_force.value));
     let contact = strongest(&mut flat.impacts.iter().map(|i| i.peak_force));
     close(face, contact, contact, 1e-9, "force");
+    let impulse = |impacts: &[jostle::Impact]| impacts.iter().map(|own| own.impulse).sum::<f64>();
+    let [own, other] = [&outcome, &flat].map(|run| impulse(&run.impacts));
+    close(own, other, other, 1e-9, "impulse");
+    let instants = |impacts: &[jostle::Impact]| {
+        let mut starts: Vec<f64> = impacts.iter().map(|own| own.start).collect();
+        starts.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
+        starts.len()
+    };
+    assert_eq!(instants(&outcome.impacts), instants(&flat.impacts));
     assert_eq!(outcome.face_impacts.len(), flat.impacts.len());
     assert_eq!(system.contacts.len(), 5 * 3);
 }

@@ -118,6 +118,8 @@ impl<E: StepEquations> Direct<E> {
         let (dissipated, separation_speed) = if contact.plan.is_some() {
             // The mass of a point is its share of that of the face: it gives way more than that mass would.
             let slowed = impulse * compliance_at_once(run.system, index);
+            // Other points of the face may have been pushed since.
+            let rate = run.trials[index].rate;
             (impulse * (rate - 0.5 * slowed), slowed - rate)
         } else {
             let dissipated = 0.5 * mass * rate * rate * (1.0 - restitution * restitution);

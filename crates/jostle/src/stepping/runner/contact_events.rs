@@ -294,7 +294,7 @@ impl<S: Stepper> Runner<'_, S> {
             let rate = self.run.trials[index].rate;
             if let Some(restitution) = self.run.system.contacts[index].law.rebound(rate) {
                 struck |= index == first;
-                self.jump_apart(index, restitution, rate);
+                self.strike(index, restitution, rate);
             } else if index != first {
                 break;
             }
@@ -308,6 +308,57 @@ impl<S: Stepper> Runner<'_, S> {
             self.stepper.restart(&self.run, true);
         }
         struck
+    }
+
+    /// A contact that closes at `rate` opens at once, in space with all points of its face that touch and close: each by its
+    /// rate before, so that a face that hits flat does not turn.
+    fn strike(&mut self, first: usize, restitution: f64, rate: f64) {
+        let contacts = &self.run.system.contacts;
+        let face_of = |contact: usize| contacts[contact].plan.map(|place| place.face);
+        let face = face_of(first);
+        let points = self.run.near.iter().copied().filter(|&other| {
+            other != first && face.is_some() && face_of(other) == face && self.is_closing(other)
+        });
+        let others: Vec<(usize, f64, f64)> = points
+            .filter_map(|other| {
+                let rate = self.run.trials[other].rate;
+                Some((other, contacts[other].law.rebound(rate)?, rate))
+            })
+            .collect();
+        let listed = self.run.impacts.len();
+        self.jump_apart(first, restitution, rate);
+        for &(other, restitution, rate) in &others {
+            self.jump_apart(other, restitution, rate);
+        }
+        if !others.is_empty() {
+            // What the other points did changes how each of them separates.
+            for impact in &mut self.run.impacts[listed..] {
+                impact.separation_speed = -self.run.trials[impact.contact].rate;
+            }
+        }
+        if let Some(face) = face {
+            self.list_strike(face);
+        }
+    }
+
+    /// Lists the points of a face that the momentum law has struck now as one impact.
+    fn list_strike(&mut self, face: usize) {
+        let (contacts, now) = (&self.run.system.contacts, self.run.time);
+        let struck = self.run.impacts.iter().rev();
+        let struck = struck.take_while(|impact| impact.start == now);
+        let (mut sum, mut moment) = (0.0, [0.0; 2]);
+        for impact in struck.filter(|impact| impact.end == now) {
+            if let Some(place) = contacts[impact.contact].plan
+                && place.face == face
+            {
+                sum += impact.impulse;
+                for (moment, at) in moment.iter_mut().zip(place.at) {
+                    *moment += impact.impulse * at;
+                }
+            }
+        }
+        let centre = moment.map(|moment| moment / sum);
+        self.run.face_forces.strike(face, now, centre);
     }
 
     /// A contact closing at `rate` opens at once with `restitution` times that.
