@@ -244,7 +244,7 @@ fn space_frames_are_written_member_by_member() {
         );
         assert_eq!(way.iter().filter(|part| **part > 0.0).count(), 1);
     }
-    let rigid = FRAME.replace("shear =", "axial = \"rigid\"\nshear =");
+    let rigid = FRAME.replace("\nshear =", "\naxial = \"rigid\"\nshear =");
     let exported = export(&model(&rigid)).expect("it can be exported");
     assert!(exported.text.contains("EA = 1e4 * 12 EI / l^2"));
 }

@@ -10,7 +10,7 @@ use crate::source::Source;
 use crate::tree::{Format, parse};
 
 /// Models that together have every table of a file.
-const ALL_TABLES: [&str; 6] = [
+const ALL_TABLES: [&str; 7] = [
     r#"
 [site]
 north = 1
@@ -115,6 +115,24 @@ kind = "given"
 mass = [1.0]
 periods = [1.0]
 shapes = [[1.0]]
+"#,
+    r#"
+[[building]]
+kind = "space-frame"
+storeys = 1
+lines_x = [0, 6]
+lines_y = [0, 5]
+column = { size = [1, 1] }
+beam_x = { width = 1, depth = 1 }
+beam_y = { width = 1, depth = 1 }
+[[building]]
+kind = "frame"
+shear_failure = { strength = 1 }
+[[building]]
+kind = "shear"
+plan = [20, 12]
+stiffness = { x = 1, y = 1, torsion = 1 }
+hinges = { rule = "bilinear", x = { yield = 1 }, y = { yield = 1 } }
 "#,
 ];
 

@@ -483,7 +483,7 @@ fn sections_by_rigidity_need_a_mass() {
 fn a_misspelt_kind_is_one_fault() {
     assert_single(
         &SHEAR.replace("\"shear\"", "\"sheer\""),
-        "model.toml:4:8: building[0].kind: \"sheer\" is not known; available: frame, shear, given",
+        "model.toml:4:8: building[0].kind: \"sheer\" is not known; available: frame, shear, space-frame, given",
     );
     assert_single(
         &SHEAR.replace("kind = \"shear\"\n", ""),
