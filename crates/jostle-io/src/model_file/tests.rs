@@ -122,9 +122,12 @@ kind = "space-frame"
 storeys = 1
 lines_x = [0, 6]
 lines_y = [0, 5]
-column = { size = [1, 1] }
 beam_x = { width = 1, depth = 1 }
-beam_y = { width = 1, depth = 1 }
+[[building.column]]
+size = [1, 1]
+[[building.beam_y]]
+width = 1
+depth = 1
 [[building]]
 kind = "frame"
 shear_failure = { strength = 1 }

@@ -8,7 +8,7 @@ use crate::contact::{LawKind, RestitutionIs};
 use crate::history::Impact;
 use crate::hysteresis::{Side, Stage};
 use crate::interface::LinkElement;
-use crate::model::{Gap, LinkLaw, Model};
+use crate::model::{Gap, LinkLaw, Model, Solver};
 use crate::motion::GroundMotion;
 use crate::results::capacity;
 use crate::results::foundation::{foundation_summary, foundation_warnings, soil_energy};
@@ -672,6 +672,11 @@ fn notes(run: &Run) -> Vec<String> {
     {
         notes.push(
             "the restitution law changes velocities at once: its impacts have an impulse, but neither force nor duration; forces are those of lasting contact".to_owned(),
+        );
+    }
+    if run.plan.solver != Solver::Modal && run.system.frictions().next().is_some() {
+        notes.push(
+            "direct steps do not estimate friction: its greatest force may be off by ten times the tolerance and more".to_owned(),
         );
     }
     notes.dedup();
