@@ -521,19 +521,19 @@ fn numbers(summary: &Summary) -> Vec<Number> {
         let floors = building.floors.iter();
         let sway = floors.map(|f| f.response.displacement_peak_m());
         let sway = sway.fold(0.0, f64::max);
-        add(message::displacement_of(&name), "mm", 1e3 * sway);
+        add(message::displacement_of(name), "mm", 1e3 * sway);
         add(
-            message::storey_drift_of(&name),
+            message::storey_drift_of(name),
             "%",
             100.0 * building.response.drift_peak,
         );
         add(
-            message::floor_acceleration(&name),
+            message::floor_acceleration(name),
             "m/s²",
             building.response.total_acceleration_peak_m_s2,
         );
         add(
-            message::base_shear_title(&name),
+            message::base_shear_title(name),
             "kN",
             1e-3 * building.response.base_shear_peak_n,
         );

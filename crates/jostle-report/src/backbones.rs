@@ -109,7 +109,7 @@ fn words(springs: &[Hysteresis], storeys: bool) -> String {
                 (true, Side::Positive) => " (+)",
                 (true, Side::Negative) => " (−)",
             };
-            message::cracks_at_yields(of(false), of(true), &unit, &sign)
+            message::cracks_at_yields(of(false), of(true), unit, sign)
         })
         .collect();
     format!("{}: {}", rules.join(", "), sides.join("; "))
@@ -151,7 +151,7 @@ fn picture(building: usize, name: &str, springs: &[Hysteresis], storeys: bool) -
     let (xs, x_decimals) = crate::envelope::ticks(-reach * 1e3, reach * 1e3, 5.0);
     let (ys, y_decimals) = crate::envelope::ticks(-high * 1e-3, high * 1e-3, 4.0);
     html! {
-        svg viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) role="img" aria-label=(message::name_force_over_deformation(&name, &force, &deformation)) {
+        svg viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) role="img" aria-label=(message::name_force_over_deformation(name, force, deformation)) {
             g.grid {
                 @for value in &xs {
                     line x1=(px(x(value * 1e-3))) x2=(px(x(value * 1e-3))) y1=(px(TOP)) y2=(px(HEIGHT - BOTTOM)) class=[(*value == 0.0).then_some("zero")] {}

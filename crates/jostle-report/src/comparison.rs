@@ -84,7 +84,7 @@ pub fn render_comparison(page: &ComparisonPage) -> String {
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta http-equiv="Content-Security-Policy" content=(POLICY);
                 meta name="description" content=(page.headline.join(" "));
-                title { (message::title_comparison(&page.title)) }
+                title { (message::title_comparison(page.title)) }
                 link rel="icon" href="data:,";
                 style { (PreEscaped(STYLE)) (PreEscaped(OWN_STYLE)) (PreEscaped(CALCULATION_STYLE)) }
             }
@@ -199,13 +199,13 @@ fn plot(time: &[f64], history: &ComparedHistory<'_>, around: Option<f64>) -> Plo
             Some(centre) => message::around_s(format_args!("{:.2}", centre)),
         },
         x_label: message::time_s().into(),
-        y_label: message::value_unit(&unit),
+        y_label: message::value_unit(unit),
         logarithmic: false,
         aspect: 0.5,
         lines: vec![
             line(
                 history.measured,
-                message::measured_measured_name(&history.measured_name),
+                message::measured_measured_name(history.measured_name),
                 0,
             ),
             line(history.computed, message::computed().into(), 1),
@@ -244,7 +244,7 @@ fn impact_times(page: &ComparisonPage, impacts: &ComparedImpactTimes<'_>) -> Mar
         section {
             h2 { (message::impacts_title()) }
             p {
-                (message::measured_computed_measured_computed_matched(&impacts.sign, impacts.contacts.join(", "), &score.measured_count, &score.computed_count, &score.matched_count, format::unit(format::fixed(1e3 * impacts.window, 1), "ms")))
+                (message::measured_computed_measured_computed_matched(impacts.sign, impacts.contacts.join(", "), score.measured_count, score.computed_count, score.matched_count, format::unit(format::fixed(1e3 * impacts.window, 1), "ms")))
             }
             div style="max-width:640px" { (plot.figure()) }
             @if !impacts.pairs.is_empty() {

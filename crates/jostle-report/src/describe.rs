@@ -72,7 +72,7 @@ fn building(
                 grouped(&floors, format::tonnes),
             ));
             let size = given.len();
-            facts.push((message::stiffness(), message::given_as_a_matrix(&size)));
+            facts.push((message::stiffness(), message::given_as_a_matrix(size)));
         }
     }
     let rayleigh = summary.map(|s| (s.rayleigh_alpha_per_s, s.rayleigh_beta_s));
@@ -131,7 +131,7 @@ fn building(
         if summary.hinges.cracked + summary.hinges.yielded > 0 {
             facts.push((
                 message::hinges(),
-                message::cracked_yielded(&summary.hinges.cracked, &summary.hinges.yielded),
+                message::cracked_yielded(summary.hinges.cracked, summary.hinges.yielded),
             ));
         }
     }
@@ -194,7 +194,7 @@ fn frame_facts(frame: &Frame, facts: &mut Facts) {
     let segments: Vec<String> = frame.beam_segments.iter().map(usize::to_string).collect();
     facts.push((
         message::segments(),
-        message::per_column_storey_per_span(&frame.column_segments, segments.join(" + ")),
+        message::per_column_storey_per_span(frame.column_segments, segments.join(" + ")),
     ));
     let lengthwise = |flexible| {
         if flexible {
@@ -366,7 +366,7 @@ fn contact(gap: &Gap, summary: &GapSummary) -> Facts {
             message::width(),
             match gap.widths.len() {
                 0 | 1 => format::millimetres(gap.width()),
-                n => message::and_more_widths(format::millimetres(gap.width()), &n),
+                n => message::and_more_widths(format::millimetres(gap.width()), n),
             },
         ),
         (message::can_touch(), places(&gap.floors)),

@@ -110,7 +110,7 @@ pub(crate) fn devices<'a>(page: &Page<'a>) -> Vec<Device<'a>> {
     let mut devices = Vec::new();
     for (index, isolation, result) in isolated(page) {
         devices.push(Device {
-            name: message::name_kind_bearings(&page.summary.buildings[index].name, &result.kind),
+            name: message::name_kind_bearings(&page.summary.buildings[index].name, result.kind),
             building: index,
             note: note(
                 result.displacement_peak_m(),
@@ -208,8 +208,8 @@ fn name(summary: &LinkSummary, floor: &LinkFloorSummary) -> String {
         format!("{left}–{right}")
     };
     let place = match floor.floors {
-        [Some(left), Some(right)] => message::floors_left_right(&left, &right),
-        [Some(one), None] | [None, Some(one)] => message::floor_one(&one),
+        [Some(left), Some(right)] => message::floors_left_right(left, right),
+        [Some(one), None] | [None, Some(one)] => message::floor_one(one),
         [None, None] => format!("{} m", format::plain(floor.height_m, 3)),
     };
     format!("{pair}, {place}, {}", summary.law)
@@ -284,7 +284,7 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
                 }
             }
             @if all > MOST_ROWS {
-                p.quiet { (message::the_that_dissipate_most(MOST_ROWS, &all)) }
+                p.quiet { (message::the_that_dissipate_most(MOST_ROWS, all)) }
             }
         }
     })
@@ -322,7 +322,7 @@ fn title(page: &Page) -> String {
 
 fn sentence(name: &str, isolation: &Isolation, result: &IsolationSummary) -> String {
     let moved = result.displacement_peak_m();
-    let mut text = message::moves_on_its_bearings(&name, format::millimetres(moved));
+    let mut text = message::moves_on_its_bearings(name, format::millimetres(moved));
     if let Some(limit) = isolation.limit {
         let used = format::fixed(100.0 * moved / limit, 0);
         text.push_str(&message::share_of_limit(&used, format::millimetres(limit)));
@@ -348,7 +348,7 @@ fn rows(page: &Page) -> (Vec<Row>, usize) {
     for (index, isolation, result) in isolated(page) {
         let moved = result.displacement_peak_m();
         rows.push((
-            message::name_kind_bearings(&page.summary.buildings[index].name, &result.kind),
+            message::name_kind_bearings(&page.summary.buildings[index].name, result.kind),
             [
                 kilo(result.force_peak_n),
                 milli(moved),

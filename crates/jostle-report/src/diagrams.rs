@@ -54,7 +54,7 @@ pub(crate) fn of_building(page: &Page, index: usize) -> Option<Markup> {
         picture(
             frame,
             index,
-            &message::title_envelope(&title),
+            &message::title_envelope(title),
             unit,
             &courses,
         )
@@ -70,7 +70,7 @@ pub(crate) fn of_building(page: &Page, index: usize) -> Option<Markup> {
             picture(
                 frame,
                 index,
-                &message::title_at(&title, format::instant(at)),
+                &message::title_at(title, format::instant(at)),
                 unit,
                 &courses,
             )
@@ -232,7 +232,7 @@ fn picture(frame: &Frame, index: usize, title: &str, unit: &str, members: &[Draw
     };
     html! {
         figure.multiple.diagram {
-            figcaption { (title) " " span.unit { (message::greatest_in_unit(format::significant(greatest / 1e3, 3), &unit)) } }
+            figcaption { (title) " " span.unit { (message::greatest_in_unit(format::significant(greatest / 1e3, 3), unit)) } }
             svg viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) role="img" aria-label=(title) style=(crate::document::colour(index)) {
                 @for member in members {
                     @for side in 0..2 {

@@ -278,7 +278,7 @@ fn picture(title: &str, unit: &str, top: f64, lines: &[Line], page: &Page) -> Ma
     html! {
         figure.multiple {
             figcaption { (title) " " span.unit { "[" (unit) "]" } }
-            svg viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) role="img" aria-label=(message::over_the_height(&title)) {
+            svg viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) role="img" aria-label=(message::over_the_height(title)) {
                 g.grid {
                     @for value in &x_ticks {
                         line x1=(px(x(*value))) x2=(px(x(*value))) y1=(px(TOP)) y2=(px(HEIGHT - BOTTOM)) class=[(*value == 0.0).then_some("zero")] {}

@@ -60,7 +60,7 @@ fn side_in_words(
     };
     let part = part_of(page.model, building, contact.floors[side], plan.parts[side]);
     match contact.floors[side] {
-        Some(floor) => message::floor_floor_part(&floor, &part),
+        Some(floor) => message::floor_floor_part(floor, &part),
         None => part,
     }
 }

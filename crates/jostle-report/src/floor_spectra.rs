@@ -34,7 +34,7 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
             }
             (table(found, compared))
             p.quiet {
-                (message::peak_accelerations_beside_impacts_depend(&filter.name, &filter.order, format::plain(filter.corner_hz, 3), format::milliseconds(found.row_interval_s), format::significant(100.0 * found.resolution, 2)))
+                (message::peak_accelerations_beside_impacts_depend(filter.name, filter.order, format::plain(filter.corner_hz, 3), format::milliseconds(found.row_interval_s), format::significant(100.0 * found.resolution, 2)))
             }
         }
     })
@@ -69,7 +69,7 @@ fn plot(found: &FloorSpectra, floor: &FloorSpectrum, names: &[&str]) -> Markup {
         _ => String::new(),
     };
     let plot = Plot {
-        title: message::building_floor_floor_damping(&floor.building, &floor.floor, &damping),
+        title: message::building_floor_floor_damping(&floor.building, floor.floor, &damping),
         x_label: message::period_s().into(),
         y_label: message::pseudo_acceleration_m_s().into(),
         logarithmic: true,

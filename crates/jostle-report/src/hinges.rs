@@ -245,7 +245,7 @@ fn sentence(name: &str, hinges: &HingeSummary, residual: f64) -> String {
     let count = |n: usize| format::fixed(n as f64, 0);
     match (hinges.first_yield_s, hinges.cracked) {
         (Some(first), cracked) => message::yields_at_of_places_first(
-            &name,
+            name,
             count(hinges.yielded),
             count(hinges.total),
             format::instant(first),
@@ -254,9 +254,9 @@ fn sentence(name: &str, hinges: &HingeSummary, residual: f64) -> String {
             format::energy(hinges.dissipated_j),
             &residual,
         ),
-        (None, 0) => message::neither_cracks_nor_yields(&name, count(hinges.total)),
+        (None, 0) => message::neither_cracks_nor_yields(name, count(hinges.total)),
         (None, cracked) => {
-            message::cracks_at_of_places(&name, count(cracked), count(hinges.total), &residual)
+            message::cracks_at_of_places(name, count(cracked), count(hinges.total), &residual)
         }
     }
 }
@@ -282,7 +282,7 @@ fn table(page: &Page, order: &[(Place, &SpringSummary)]) -> Markup {
     let shown = &order[..all.min(MOST_ROWS)];
     html! {
         @if all > MOST_ROWS {
-            p.quiet { (message::the_first_of_in_order(MOST_ROWS, &all)) }
+            p.quiet { (message::the_first_of_in_order(MOST_ROWS, all)) }
         }
         div.scroll {
             table #hinge-table.clipped[shown.len() > FIRST_ROWS] {

@@ -70,7 +70,7 @@ fn verdict(name: &str, capacity: &CapacitySummary) -> String {
             )
         });
         let at = format::instant(own.at_s);
-        message::in_at(&own.member, &own.kind, &own.at, &at, &during)
+        message::in_at(&own.member, own.kind, own.at, &at, &during)
     };
     let worst = message::greatest_ratio_title(
         format::fixed(capacity.worst.ratio, 2),
@@ -78,13 +78,13 @@ fn verdict(name: &str, capacity: &CapacitySummary) -> String {
     );
     match &capacity.first {
         Some(first) => message::of_members_are_beyond(
-            &name,
-            &capacity.exceeded,
-            &capacity.rated,
+            name,
+            capacity.exceeded,
+            capacity.rated,
             place(first),
             &worst,
         ),
-        None => message::none_of_members_is_beyond(&name, &capacity.rated, &worst),
+        None => message::none_of_members_is_beyond(name, capacity.rated, &worst),
     }
 }
 
@@ -119,12 +119,12 @@ fn levels(member: &MemberSummary) -> Markup {
         let last = own.limits.last().map_or("", |limit| limit.level);
         match own.level {
             Some(level) => level.to_owned(),
-            None => message::beyond_last(&last),
+            None => message::beyond_last(last),
         }
     });
     let title = member.acceptance.iter().map(|own| {
         let milliradians = format::significant(own.rotation_rad * 1e3, 3);
-        message::mrad_at(&own.rule, &own.measure, &milliradians, &own.at)
+        message::mrad_at(own.rule, own.measure, &milliradians, own.at)
     });
     let (texts, title): (Vec<_>, Vec<_>) = (texts.collect(), title.collect());
     html! {
@@ -187,7 +187,7 @@ fn table(building: &BuildingSummary) -> Markup {
         details.peaks open[is_rated || members.iter().any(|m| hit(m) > 0.0)] {
             summary { (message::columns_and_beams_title(&building.name)) }
             @if all > MOST_ROWS {
-                p.quiet { (message::of_members_summary_json(MOST_ROWS, &all)) }
+                p.quiet { (message::of_members_summary_json(MOST_ROWS, all)) }
             }
             div.scroll {
                 table {
@@ -264,9 +264,9 @@ fn joints(building: &BuildingSummary) -> Markup {
     let beyond = beyond.count();
     html! {
         details.peaks open[beyond > 0] {
-            summary { (message::joints_of_beams_and_columns(&building.name, &beyond, &all, rules.first().unwrap_or(&""))) }
+            summary { (message::joints_of_beams_and_columns(&building.name, beyond, all, rules.first().unwrap_or(&""))) }
             @if all > MOST_ROWS {
-                p.quiet { (message::of_joints_summary_json(MOST_ROWS, &all)) }
+                p.quiet { (message::of_joints_summary_json(MOST_ROWS, all)) }
             }
             div.scroll {
                 table {

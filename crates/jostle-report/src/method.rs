@@ -26,7 +26,7 @@ pub fn render_method(title: &str, surveys: &[MethodSurvey]) -> String {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta http-equiv="Content-Security-Policy" content=(POLICY);
-                title { (message::the_method(&title)) }
+                title { (message::the_method(title)) }
                 style { (PreEscaped(STYLE)) }
             }
             body {
@@ -95,13 +95,13 @@ fn building(survey: &MethodSurvey) -> Markup {
                         tr {
                             td { (message::riccati_recursion()) }
                             td { (survey.degrees_of_freedom) }
-                            td { (message::couplings_couplings(&survey.couplings)) }
+                            td { (message::couplings_couplings(survey.couplings)) }
                             td { (2 * survey.couplings + survey.degrees_of_freedom) }
                         }
                         tr {
                             td { (message::direct_stiffness()) }
                             td { (survey.degrees_of_freedom) }
-                            td { (message::entries_of_k_before_factorising(&survey.stiffness_entries)) }
+                            td { (message::entries_of_k_before_factorising(survey.stiffness_entries)) }
                             td { (message::as_its_ordering_falls_out()) }
                         }
                     }
@@ -135,7 +135,7 @@ fn building(survey: &MethodSurvey) -> Markup {
 }
 
 fn elements(survey: &MethodSurvey) -> String {
-    let mut parts = vec![message::lumped_masses(&survey.lumped_masses)];
+    let mut parts = vec![message::lumped_masses(survey.lumped_masses)];
     for (count, name) in [
         (survey.members, message::massless_beams()),
         (survey.hinges, message::hinges()),
@@ -145,7 +145,7 @@ fn elements(survey: &MethodSurvey) -> String {
             parts.push(format!("{count} {name}"));
         }
     }
-    message::displacements_after_rigid_connections(parts.join(", "), &survey.degrees_of_freedom)
+    message::displacements_after_rigid_connections(parts.join(", "), survey.degrees_of_freedom)
 }
 
 fn step_name(step: f64) -> String {

@@ -235,9 +235,9 @@ pub(crate) fn tiles(page: &Page) -> Markup {
             &message::name_yields_at(&building.name),
             match hinges.yielded {
                 0 => message::no_place().into(),
-                n => message::one_of_all(&n, &hinges.total),
+                n => message::one_of_all(n, hinges.total),
             },
-            message::cracked_ductility(&hinges.cracked, format::significant(hinges.ductility, 2)),
+            message::cracked_ductility(hinges.cracked, format::significant(hinges.ductility, 2)),
         );
     }
     let pga = summary.motion.pga_m_s2;

@@ -23,7 +23,7 @@ pub fn render_sections(title: &str, surveys: &[SectionSurvey]) -> String {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta http-equiv="Content-Security-Policy" content=(POLICY);
-                title { (message::title_sections(&title)) }
+                title { (message::title_sections(title)) }
                 style { (PreEscaped(STYLE)) }
             }
             body {

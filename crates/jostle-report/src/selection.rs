@@ -117,9 +117,9 @@ pub fn render_selection(page: &SelectionPage) -> Result<String, MotionFault> {
     });
     let clause = page.check.code.clause();
     let verdict = if page.check.passes() {
-        message::the_set_meets_the_checked(&clause)
+        message::the_set_meets_the_checked(clause)
     } else {
-        message::the_set_does_not_meet(&clause)
+        message::the_set_does_not_meet(clause)
     };
     let body = html! {
         p.verdict { (verdict) }
@@ -160,7 +160,7 @@ pub fn selection_sections(
         remark: message::name_damping_damping_scaling_structures(
             target.name(),
             format::plain(100.0 * damping, 3),
-            &scaling,
+            scaling,
             remarks(structures),
         ),
         charts: vec![chart(&spectra, set, structures)],
@@ -170,7 +170,7 @@ pub fn selection_sections(
     sections.extend(structures.iter().map(|structure| Section {
         title: match &structure.name[..] {
             "" => message::main_periods().to_owned(),
-            name => message::main_periods_title(&name),
+            name => message::main_periods_title(name),
         },
         remark: message::response_over().into(),
         table: Some(numbers(set, structure)),
@@ -227,7 +227,7 @@ fn chart(spectra: &Spectra, set: &[Candidate], structures: &[CheckedStructure]) 
         Series {
             name: match &structure.name[..] {
                 "" => message::at_main_periods().to_owned(),
-                name => message::at_periods(&name),
+                name => message::at_periods(name),
             },
             points: means.map(|(main, mean)| [main.period, mean[1]]).collect(),
             band: Vec::new(),

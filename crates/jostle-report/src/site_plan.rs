@@ -1,6 +1,7 @@
 //! Buildings in space seen from above: plans, faces with their forces, paths of roof corners, and peaks across and in
 //! rotation.
 
+use jostle::interface::PlanContactKind;
 use jostle::{Column, PlanPoint, Tiers};
 use maud::{Markup, html};
 
@@ -171,7 +172,7 @@ fn faces(page: &Page) -> Markup {
                             @let centre = hardest.and_then(|impact| impact.centre_m);
                             tr {
                                 th scope="row" { (gap.between[0]) " ↔ " (gap.between[1]) }
-                                td { (pair(contact.floors)) } td { (plan.kind) }
+                                td { (pair(contact.floors)) } td { (if plan.kind == PlanContactKind::Face.name() { message::face() } else { message::corner() }) }
                                 td.number { (format::fixed(plan.overlap_m, 2)) } td.number { (format::fixed(contact.width_m * 1e3, 1)) }
                                 td.number { (format::fixed(plan.normal[0], 3)) ", " (format::fixed(plan.normal[1], 3)) }
                                 td.number { (contact.impact_count) } td.number { (format::fixed(contact.peak_force_n * 1e-3, 1)) }
@@ -232,7 +233,7 @@ fn histories(page: &Page) -> Markup {
                 let name = &page.model.buildings[building].name;
                 Some(Line {
                     name: match free {
-                        true => message::name_without_contact(&name),
+                        true => message::name_without_contact(name),
                         false => name.clone(),
                     },
                     points: thinned_to(

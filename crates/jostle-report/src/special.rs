@@ -176,7 +176,7 @@ fn section(known: &ReinforcedSection) -> String {
         text.push_str(&message::ties_d_at_mm_legs(
             size(ties.diameter),
             size(ties.spacing),
-            &ties.legs,
+            ties.legs,
         ));
     }
     if known.member == Member::Column {

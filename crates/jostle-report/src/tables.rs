@@ -50,7 +50,7 @@ pub(crate) fn impacts(page: &Page) -> Markup {
             p.quiet { (message::no_contact_between_floors()) }
         } @else {
             @if all > MOST_ROWS {
-                p.quiet { (message::the_strongest_of_impacts_impacts(MOST_ROWS, &all)) }
+                p.quiet { (message::the_strongest_of_impacts_impacts(MOST_ROWS, all)) }
             }
             div.scroll {
                 table #impact-table.sortable.clipped[rows.len() > FIRST_ROWS] data-first=(FIRST_ROWS) {
@@ -78,7 +78,7 @@ pub(crate) fn impacts(page: &Page) -> Markup {
             @for gap in summary.gaps.iter().filter(|gap| gap.multiple_pounding_count > 0) {
                 p.quiet {
                     @if several { (gap.between[0]) "–" (gap.between[1]) ": " }
-                    (message::of_poundings_are_at_several(&gap.multiple_pounding_count, &gap.pounding_count, &gap.most_at_once))
+                    (message::of_poundings_are_at_several(gap.multiple_pounding_count, gap.pounding_count, gap.most_at_once))
                 }
             }
             (restitution_note(page))

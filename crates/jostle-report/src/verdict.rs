@@ -36,7 +36,7 @@ pub fn verdict(summary: &Summary) -> String {
             if quiet > 0 {
                 text.push(match quiet {
                     1 => message::the_other_gap_stays_open().into(),
-                    n => message::the_other_gaps_stay_open(&n),
+                    n => message::the_other_gaps_stay_open(n),
                 });
             }
             text.join(" ")
@@ -61,7 +61,7 @@ fn alone(summary: &Summary) -> String {
     });
     match roof.max_by(|a, b| a.1.total_cmp(&b.1)) {
         Some((name, sway)) => {
-            message::has_a_peak_roof_displacement(&name, format::millimetres(sway))
+            message::has_a_peak_roof_displacement(name, format::millimetres(sway))
         }
         None => message::nothing_was_recorded().into(),
     }
@@ -79,8 +79,8 @@ fn sentence_of(gap: &GapSummary) -> String {
     let hardest = all().max_by(|a, b| a.1.peak_force_n.total_cmp(&b.1.peak_force_n));
     let (Some((first_at, first)), Some((hardest_at, hardest))) = (first, hardest) else {
         return message::hit_times_with_up_to(
-            &left,
-            &right,
+            left,
+            right,
             times(gap.impact_count),
             format::force(gap.peak_force_n),
         );
@@ -88,9 +88,9 @@ fn sentence_of(gap: &GapSummary) -> String {
     let force = |impact: &ImpactSummary| format::force(impact.peak_force_n);
     let at = |impact: &ImpactSummary| format::instant(impact.start_s);
     if gap.impact_count == 1 {
-        return message::and_hit_once(&left, &right, place(first_at), at(first), force(first));
+        return message::and_hit_once(left, right, place(first_at), at(first), force(first));
     }
-    let head = message::hit_times(&left, &right, times(gap.impact_count));
+    let head = message::hit_times(left, right, times(gap.impact_count));
     let (first_place, hardest_place) = (place(first_at), place(hardest_at));
     let start = format!("{} ({first_place})", at(first));
     if hardest == first {
@@ -103,7 +103,7 @@ fn sentence_of(gap: &GapSummary) -> String {
 fn approach(gap: &GapSummary, head: &str) -> String {
     match closest_approach(gap) {
         Some(distance) => message::the_smallest_distance_between(
-            &head,
+            head,
             &gap.between[0],
             &gap.between[1],
             format::millimetres(distance),
@@ -136,8 +136,8 @@ pub(crate) fn place(contact: &ContactSummary) -> String {
     match contact.floors {
         [Some(0), Some(0)] => message::mats().to_owned(),
         [Some(0), None] | [None, Some(0)] => message::mat().to_owned(),
-        [Some(left), Some(right)] if left == right => message::floor_one(&left),
-        [Some(left), Some(right)] => message::floors_and(&left, &right),
+        [Some(left), Some(right)] if left == right => message::floor_one(left),
+        [Some(left), Some(right)] => message::floors_and(left, right),
         _ => message::height_m(format::fixed(contact.height_m, 2)),
     }
 }

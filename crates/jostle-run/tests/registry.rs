@@ -81,6 +81,9 @@ width = "10 mm"
 "#;
 
 /// A building on bearings before a wall that gives way.
+const FAILING: &str = include_str!("../../../examples/columns_that_fail_in_shear.toml");
+const SPACE_FRAME: &str = include_str!("../../jostle-validation/data/space/S8_space_frame.toml");
+
 const ISOLATED: &str = r#"
 motion = { record = "el-centro-1940-ns", pga = "0.5 g", duration = "3 s" }
 [[building]]
@@ -190,6 +193,12 @@ fn every_number_of_the_summary_is_in_the_registry_and_the_other_way_round() {
     let isolated = serde_json::to_value(summary_of(ISOLATED)).expect("a summary is JSON");
     let founded = serde_json::to_value(summary_of(FOUNDED)).expect("a summary is JSON");
     let delayed = serde_json::to_value(summary_of(DELAYED)).expect("a summary is JSON");
+    let failing = serde_json::to_value(summary_of(
+        &FAILING.replace("pga = \"0.4 g\"", "pga = \"0.4 g\"\nduration = \"3 s\""),
+    ));
+    let failing = failing.expect("a summary is JSON");
+    let space_frame = format!("{SPACE_FRAME}\n[output]\nmembers = true\n");
+    let space_frame = serde_json::to_value(summary_of(&space_frame)).expect("a summary is JSON");
     let all = owners();
     // Numbers of other files have their own tests.
     let in_summary = |owner: &&Owner| !owner.key.is_empty() && !owner.key.contains(": ");
@@ -200,6 +209,15 @@ fn every_number_of_the_summary_is_in_the_registry_and_the_other_way_round() {
             compare(&space, &same_key.collect::<Vec<_>>());
         } else if matches!(owner.title, "Bearings" | "Walls") {
             compare(&isolated, &[owner]);
+        } else if matches!(
+            owner.title,
+            "Columns that fail in shear" | "Failures in shear"
+        ) {
+            compare(&failing, &[owner]);
+        } else if owner.title == "Sections of space frames" {
+            // The same objects have the numbers of the other plane as well.
+            let same_key = all.iter().filter(|other| other.key == owner.key);
+            compare(&space_frame, &same_key.collect::<Vec<_>>());
         } else if owner.title == "Ground under a building" {
             compare(&delayed, &[owner]);
         } else if owner.title == "Foundations" {

@@ -120,6 +120,8 @@ shapes = [[1.0]]
 [[building]]
 kind = "space-frame"
 storeys = 1
+mass = 1
+elastic_modulus = 3e10
 lines_x = [0, 6]
 lines_y = [0, 5]
 beam_x = { width = 1, depth = 1 }

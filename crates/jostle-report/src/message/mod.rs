@@ -59,6 +59,7 @@ macro_rules! message {
     ($key:ident, $english:literal, $($value:ident),+) => {
         #[doc = concat!("`", $english, "`")]
         #[must_use]
+        #[allow(clippy::too_many_arguments, reason = "a message has as many values as it names")]
         pub fn $key($($value: impl std::fmt::Display),+) -> String {
             crate::message::fill(crate::message::current().$key, &[$((stringify!($value), &$value)),+])
         }

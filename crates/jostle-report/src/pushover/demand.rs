@@ -156,10 +156,10 @@ impl<'a> Capacity<'a> {
         message::t_s_under_the_roof(
             &shape,
             format::significant(found.period, 3),
-            &demand.name,
+            demand.name,
             format::millimetres(roof),
             format::significant(100.0 * roof / self.curve.height, 3),
-            &beyond,
+            beyond,
             format::significant(found.reached / found.at_yield, 3),
         )
     }
@@ -206,7 +206,7 @@ fn picture(index: usize, name: &str, wanted: &[[f64; 2]], capacities: &[Capacity
         path(&[[0.0, 0.0], corner, end])
     };
     html! {
-        svg.capacity viewBox="0 0 720 400" role="img" aria-label={ (message::spectral_acceleration_of_against_spectral(&name)) } {
+        svg.capacity viewBox="0 0 720 400" role="img" aria-label={ (message::spectral_acceleration_of_against_spectral(name)) } {
             clipPath id={ "adrs-clip-" (index) } { rect x=(left) y=(top) width=(width) height=(height) {} }
             g.grid {
                 @for value in ticks(1e3 * far, 7.0) {

@@ -41,7 +41,7 @@ pub fn render_pushover(
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta http-equiv="Content-Security-Policy" content=(POLICY);
                 meta name="description" content=(headline.join(" "));
-                title { (message::title_pushover(&title)) }
+                title { (message::title_pushover(title)) }
                 link rel="icon" href="data:,";
                 style { (PreEscaped(STYLE)) (PreEscaped(OWN_STYLE)) }
             }
@@ -89,18 +89,18 @@ fn direction(one: &PushedBuilding, curve: &Pushover) -> String {
 fn verdict(one: &PushedBuilding) -> String {
     let name = &one.building.name;
     if one.building.equations.springs.is_empty() {
-        return message::has_no_hinges_it(&name);
+        return message::has_no_hinges_it(name);
     }
     let weakest = one
         .curves
         .iter()
         .min_by(|a, b| a.peak().base_shear.total_cmp(&b.peak().base_shear));
     let Some(curve) = weakest else {
-        return message::was_not_pushed(&name);
+        return message::was_not_pushed(name);
     };
     let peak = curve.peak();
     let mut text = message::resists_up(
-        &name,
+        name,
         percent(curve.coefficient(peak), 3),
         direction(one, curve),
         percent(curve.drift(peak), 3),
@@ -220,8 +220,8 @@ fn tiles(one: &PushedBuilding, curve: &Pushover) -> Markup {
     let [cracked, yielded] = curve.counts(springs);
     tiles.push((
         message::hinges_title(),
-        message::yielded_yielded(&yielded),
-        message::of_cracked(&cracked, &springs),
+        message::yielded_yielded(yielded),
+        message::of_cracked(cracked, springs),
     ));
     html! {
         div.tiles {

@@ -185,7 +185,7 @@ fn runs(page: &StudyPage) -> Markup {
             @if !page.runs.is_empty() {
                 ul.study-list {
                     @for (case, what, link) in &page.runs {
-                        li { a href=(link) { (message::case_case(&case)) } " – " (what) }
+                        li { a href=(link) { (message::case_case(case)) } " – " (what) }
                     }
                 }
             }
@@ -199,9 +199,9 @@ fn runs(page: &StudyPage) -> Markup {
 fn failures(page: &StudyPage) -> Markup {
     html! {
         section #failures {
-            h2 { (message::of_the_cases_did(&page.failed)) }
+            h2 { (message::of_the_cases_did(page.failed)) }
             ul.study-list {
-                @for (case, reason) in &page.failures { li { (message::case_case_reason(&case, &reason)) } }
+                @for (case, reason) in &page.failures { li { (message::case_case_reason(case, reason)) } }
             }
             @if page.failed > page.failures.len() {
                 p.quiet { (message::and_more_see_the_columns(page.failed - page.failures.len())) " " code { "status" } " " (message::and_word()) " " code { "reason" } "." }

@@ -115,7 +115,7 @@ fn quantities(page: &SuitePage) -> Markup {
     html! {
         section #governing {
             h2 { (message::governing_values()) }
-            p.quiet { (message::all_records_together_the_governs(&page.statistic)) }
+            p.quiet { (message::all_records_together_the_governs(page.statistic)) }
             div.scroll {
                 table {
                     thead { tr {

@@ -282,7 +282,7 @@ fn failing_columns_move_as_one_mass_by_central_differences() {
     let values: Vec<f64> = (0..=2500).map(|k| wave(f64::from(k) * interval)).collect();
     // Straight between the points, as the run has it.
     let ground = |t: f64| {
-        let at = (t / interval).min(2499.999_999);
+        let at = (t / interval).min(2_499.999_999);
         let (k, share) = (at.floor() as usize, at.fract());
         values[k] + share * (values[k + 1] - values[k])
     };

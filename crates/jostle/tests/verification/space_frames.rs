@@ -694,13 +694,9 @@ fn pounding_pair(tolerance: f64) -> Model {
 #[test]
 fn joints_are_in_equilibrium_while_frames_pound() {
     let mut model = pounding_pair(1e-4);
-    let names = |system: &System| -> Vec<String> {
-        let own = &system.buildings[0].members.members;
-        own.iter()
-            .map(|member| format!("A.{}", member.place))
-            .collect()
-    };
-    model.analysis.members.histories = names(&assemble(&model));
+    let assembled = assemble(&model);
+    let own = assembled.buildings[0].members.members.iter();
+    model.analysis.members.histories = own.map(|member| format!("A.{}", member.place)).collect();
     let (system, outcome) = run(&model, 3.0);
     assert!(outcome.face_impacts.len() > 2, "they pound");
     let own = &system.buildings[0];
