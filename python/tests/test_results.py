@@ -357,10 +357,12 @@ def test_demand_over_capacity() -> None:
     model = jostle.Model([frame(True)], motion=motion, output={"capacity": ["en1998-3", "gb50010"]})
     result = jostle.run(model)
     table = result.capacity("A")
-    # Four columns and two beams by two rules.
-    assert len(table) == 12 and list(table["rule"][:2]) == ["en1998-3", "gb50010"]
+    # Four columns, two beams and four joints by two rules.
+    assert len(table) == 20 and list(table["rule"][:2]) == ["en1998-3", "gb50010"]
+    joints = [".joint." in name for name in table["member"]]
+    assert sum(joints) == 8
     worst = result.summary["buildings"][0]["capacity"]["worst"]
-    own = [row for row, rule in enumerate(table["rule"]) if rule == "en1998-3"]
+    own = [row for row, rule in enumerate(table["rule"]) if rule == "en1998-3" and not joints[row]]
     greatest = max(max(table["shear_ratio"][row], table["bending_ratio"][row]) for row in own)
     assert greatest == pytest.approx(worst["ratio"])
     # The same shear over the capacity of the same instant.
