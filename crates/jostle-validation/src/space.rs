@@ -324,7 +324,7 @@ fn compare(
             if what.contains("of faces") {
                 limit.max(SUMS)
             } else if solver.is_some() && what == FRICTION {
-                // Of half the order of the rest.
+                // Chosen from what was found, 9e-3 and 7e-4: a guard against worse, not a promise.
                 (0.1 * limit).sqrt()
             } else {
                 limit
@@ -552,7 +552,7 @@ fn compare(
         outcome.energy.worst_imbalance,
         match solver {
             None => 1e-10,
-            // Velocities from differences of displacements: their rounding grows as steps become shorter.
+            // Rounding, which grows as steps become shorter, in one plane alike and without contact.
             Some(_) if tolerance < 1e-4 => 1e-6,
             Some(_) => 1e-9,
         },

@@ -310,22 +310,6 @@ impl Hysteresis {
         }
     }
 
-    /// Smallest slope of any of its lines, negative where it can fall \[N·m/rad or N/m\].
-    #[must_use]
-    pub fn least_tangent(&self) -> f64 {
-        match self.rule {
-            HysteresisRule::Failing(falling) => -falling.slope,
-            HysteresisRule::Stop { .. } | HysteresisRule::Sliding { .. } => 0.0,
-            HysteresisRule::Elastic => self.backbone.initial(),
-            HysteresisRule::Bilinear
-            | HysteresisRule::Normal
-            | HysteresisRule::PeakOriented
-            | HysteresisRule::Takeda { .. }
-            | HysteresisRule::DegradingTrilinear
-            | HysteresisRule::Pinched(_) => 0.0,
-        }
-    }
-
     /// Slope at the origin \[N·m/rad or N/m\].
     #[must_use]
     pub fn initial_tangent(&self) -> f64 {
