@@ -19,8 +19,9 @@ use crate::row::Row;
 const RUNS: [(f64, f64); 2] = [(1e-3, 1e-3), (1e-6, 2e-6)];
 /// The same for direct steps.
 const DIRECT_RUNS: [(f64, f64); 2] = [(1e-3, 1e-3), (1e-5, 1e-5)];
-/// What the tolerance of direct steps does not hold for, as the notes of a run say.
-const FRICTION: &str = "greatest friction of impacts [N]";
+/// What the tolerance of direct steps does not hold for, as the notes of a run say: a gentle impact begins later by the error of the
+/// closing over its speed, and meanwhile the slip has changed its speed.
+const SLIP_SPEED: &str = "slip speed of impacts [m/s]";
 /// The reference reads sums of forces at the ends of its own steps, which miss the top by up to 9e-6; forces of points,
 /// whose tops it locates, agree to 1e-8.
 const SUMS: f64 = 1e-5;
@@ -323,9 +324,8 @@ fn compare(
             greatest + (worst.1 - worst.0),
             if what.contains("of faces") {
                 limit.max(SUMS)
-            } else if solver.is_some() && what == FRICTION {
-                // Chosen from what was found, 9e-3 and 7e-4: a guard against worse, not a promise.
-                (0.1 * limit).sqrt()
+            } else if solver.is_some() && what == SLIP_SPEED {
+                2.0 * limit
             } else {
                 limit
             },
@@ -484,7 +484,7 @@ fn compare(
             points.flat_map(one).collect()
         };
         kind(
-            FRICTION,
+            "greatest friction of impacts [N]",
             each("/tangential_peaks_n", |impact| impact.sliding.peak_force),
         );
         kind(
@@ -500,7 +500,7 @@ fn compare(
             }),
         );
         kind(
-            "slip speed of impacts [m/s]",
+            SLIP_SPEED,
             each("/slip_speeds_m_s", |impact| impact.sliding.slip_speed),
         );
         kind(
@@ -552,7 +552,8 @@ fn compare(
         outcome.energy.worst_imbalance,
         match solver {
             None => 1e-10,
-            // Rounding, which grows as steps become shorter, in one plane alike and without contact.
+            // Rounding of equilibrium adds up over contact steps, in one plane alike: with steps of 100, 20, 5 and 1 µs it is 2e-10,
+            // 1e-8, 6e-8 and 4e-7, whatever the length of the others.
             Some(_) if tolerance < 1e-4 => 1e-6,
             Some(_) => 1e-9,
         },

@@ -676,7 +676,7 @@ fn notes(run: &Run) -> Vec<String> {
     }
     if run.plan.solver != Solver::Modal && run.system.frictions().next().is_some() {
         notes.push(
-            "direct steps do not estimate friction: its greatest force may be off by ten times the tolerance and more".to_owned(),
+            "direct steps do not estimate single impacts: instants and speeds of gentle ones may be off by more than the tolerance".to_owned(),
         );
     }
     notes.dedup();

@@ -48,6 +48,12 @@ impl Closed {
         }
     }
 
+    /// Indentation and its rate at the end of the step \[m, m/s\].
+    fn end(&self) -> [f64; 2] {
+        let moved = self.indentation - self.free;
+        [self.indentation, self.free_rate + self.rate_gain * moved]
+    }
+
     /// The link whose force is the unknown, if it is one.
     pub(super) fn forced<'a>(&self, links: &'a [StepLink]) -> Option<&'a StepLink> {
         let link = &links[self.link?];
@@ -97,6 +103,9 @@ const ITERATIONS: usize = 60;
 /// How often limits of friction are found anew, and to what they agree, relative to the greatest contact force.
 const MOST_LIMITS: usize = 100;
 const LIMITS_AGREE: f64 = 1e-13;
+/// In how many of these rounds the slip within the step is followed anew. Each leaves Wk/(1 + Wk) of what is missing; Wk is small in
+/// contact steps.
+const MOST_TURNS: usize = 12;
 const ROUNDING: f64 = 1e-6;
 
 impl ContactEquations {
@@ -125,23 +134,32 @@ impl ContactEquations {
 
     /// The same as [`ContactEquations::solve`] with friction, whose limits follow from contact forces: they are held, and found anew from
     /// the forces, until both agree. With limits held the forces are unique, and what the limits change of contact forces falls with the
-    /// square of the step.
+    /// square of the step. A slip that ends within the step is found anew with them.
     pub(in crate::stepping) fn solve_with_friction(&mut self) -> Option<u64> {
         let mut iterations = self.solve()?;
         let mut last = f64::INFINITY;
-        for _ in 0..MOST_LIMITS {
+        for round in 0..MOST_LIMITS {
             let (mut change, mut greatest) = (0.0_f64, 0.0_f64);
             for index in 0..self.closed.len() {
                 let Some(friction) = self.closed[index].friction else {
                     continue;
                 };
-                let pressed = self.closed[friction.normal].force;
+                let normal = &self.closed[friction.normal];
+                let pressed = normal.force;
                 change = change.max((pressed - friction.pressed).abs());
                 greatest = greatest.max(pressed.abs());
-                self.closed[index].friction = Some(StepFriction {
+                let mut renewed = StepFriction {
                     pressed,
                     ..friction
-                });
+                };
+                if let Some(start) = friction.start.filter(|_| round < MOST_TURNS) {
+                    let press =
+                        |deep: f64, rate: f64| normal.law.follow(deep, rate, &normal.memory).force;
+                    renewed.follow_from(&start, self.closed[index].end(), normal.end(), press);
+                    let moved = renewed.origin - friction.origin;
+                    change = change.max(friction.law.stiffness * moved.abs());
+                }
+                self.closed[index].friction = Some(renewed);
             }
             // Indentations have the rounding of slips, which may be a thousand times greater.
             let only_rounding = change >= 0.5 * last && change <= ROUNDING * greatest;

@@ -165,6 +165,7 @@ mod tests {
             },
             origin: 0.0,
             pressed: 0.0,
+            start: None,
         };
         let solve = |slip: f64| {
             let mut contacts = [closed(law, 5e-3, 0.3), closed(law, slip, 0.2)];

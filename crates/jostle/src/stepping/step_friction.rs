@@ -3,7 +3,7 @@
 use crate::contact::ContactResponse;
 use crate::history::Extreme;
 use crate::interface::Coulomb;
-use crate::stepping::events::bisect;
+use crate::stepping::events::{Cubic, bisect};
 
 /// Parts of a step over which friction is predicted; even, for Simpson's rule.
 pub(super) const FRICTION_PARTS: usize = 16;
@@ -23,18 +23,6 @@ pub(super) struct FrictionPath {
 }
 
 impl FrictionPath {
-    /// Straight between forces at both ends \[N\].
-    pub(super) fn straight(start: f64, end: f64) -> Self {
-        let part = |index: usize| (index + 1) as f64 / FRICTION_PARTS as f64;
-        let mut ends = std::array::from_fn(|index| start + part(index) * (end - start));
-        ends[FRICTION_PARTS - 1] = end;
-        Self {
-            start,
-            ends,
-            corners: [None; CORNERS],
-        }
-    }
-
     /// Force at a share of the step, straight between the ends of parts and corners \[N\].
     fn at(&self, share: f64) -> f64 {
         let scaled = share * FRICTION_PARTS as f64;
@@ -92,9 +80,48 @@ pub(crate) struct StepFriction {
     pub(crate) origin: f64,
     /// Contact force that limits it \[N\].
     pub(crate) pressed: f64,
+    /// Motion at the start, where only the end of the step is solved for.
+    pub(crate) start: Option<StepStart>,
+}
+
+/// Motion at the start of a step, from which friction follows the slip within the step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct StepStart {
+    /// Length of the step, > 0 \[s\].
+    pub(crate) step: f64,
+    /// Slip and its rate \[m, m/s\].
+    pub(crate) slip: [f64; 2],
+    /// Indentation of the contact and its rate \[m, m/s\].
+    pub(crate) indentation: [f64; 2],
+    /// Friction \[N\].
+    pub(crate) force: f64,
+    /// Slip without force \[m\].
+    pub(crate) origin: f64,
 }
 
 impl StepFriction {
+    /// Follows friction from the start of a step to slip and indentation at its end, each with its rate \[m, m/s\];
+    /// `press`: contact force at an indentation and its rate \[N\]. See [`StepFriction::follow`].
+    pub(super) fn follow_from(
+        &mut self,
+        start: &StepStart,
+        slip: [f64; 2],
+        indentation: [f64; 2],
+        press: impl Fn(f64, f64) -> f64,
+    ) -> FrictionPath {
+        let step = start.step;
+        let over = |[from, before]: [f64; 2], [to, after]: [f64; 2]| {
+            Cubic::new(from, before, to, after, step)
+        };
+        let sliding = over(start.slip, slip);
+        let pressing = over(start.indentation, indentation);
+        self.origin = start.origin;
+        self.follow(start.force, |share| {
+            let rate = pressing.rise(share) / step;
+            [sliding.value(share), press(pressing.value(share), rate)]
+        })
+    }
+
     /// The force at a slip under a contact force \[N\].
     pub(crate) fn respond(&self, slip: f64, pressed: f64) -> ContactResponse {
         let (force, sticks) = self.law.force(slip, self.origin, pressed);
@@ -210,6 +237,7 @@ mod tests {
             },
             origin,
             pressed: 0.0,
+            start: None,
         }
     }
 

@@ -82,11 +82,12 @@ fn cause(building: &Building) -> String {
             )
         }
         Structure::Tiers(tiers) => {
-            let storeys = tiers.storeys.iter().enumerate();
             let floors = tiers.floors.iter().enumerate();
             let least = |k: &[f64; 3]| k[0].min(k[1]);
-            let storeys =
-                storeys.map(|(i, storey)| (format!("storey {}", i + 1), least(&storey.stiffness)));
+            let storeys = (0..tiers.floors.len()).filter_map(|i| {
+                let storey = tiers.initial_storey(i)?;
+                Some((format!("storey {}", i + 1), least(&storey.stiffness)))
+            });
             let columns = tiers.frames.iter().flat_map(|own| {
                 let columns = own.frame.columns.iter().zip(&own.frame.storey_heights);
                 columns.enumerate().map(|(i, (section, height))| {

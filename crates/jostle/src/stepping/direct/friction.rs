@@ -8,7 +8,7 @@ use crate::stepping::coupling::Closed;
 use crate::stepping::events::Cubic;
 use crate::stepping::gap_forces::StepForce;
 use crate::stepping::runner::RunState;
-use crate::stepping::step_friction::{FrictionPath, StepFriction};
+use crate::stepping::step_friction::{FRICTION_PARTS, FrictionPath, StepFriction, StepStart};
 use crate::structure::StepEquations;
 
 impl<E: StepEquations> Direct<E> {
@@ -31,6 +31,27 @@ impl<E: StepEquations> Direct<E> {
         along.map_or([0.0; 2], |(_, friction)| moved(&friction.ports))
     }
 
+    /// Motion along and across a closed contact at the start of the step \[s\].
+    fn start_of(
+        &self,
+        run: &RunState<'_>,
+        contact: usize,
+        episode: &Episode,
+        step: f64,
+    ) -> StepStart {
+        let own = &run.system.contacts[contact];
+        let [shift, shift_rate, _] = run.grounds.closing(contact, 0);
+        let [closing, rate] =
+            [&self.state.displacement, &self.state.velocity].map(|list| own.ports.closing(list));
+        StepStart {
+            step,
+            slip: self.slip_now(run, contact),
+            indentation: [closing + shift - own.width, rate + shift_rate],
+            force: episode.friction.force,
+            origin: episode.friction.origin,
+        }
+    }
+
     /// Friction along a closed contact among the unknowns of the step; `index`: its place among the trials.
     pub(super) fn friction_in_step(
         &self,
@@ -38,6 +59,7 @@ impl<E: StepEquations> Direct<E> {
         index: usize,
         contact: usize,
         rate_gain: f64,
+        step: f64,
     ) -> Option<Closed> {
         let ContactPhase::Closed(episode) = &run.phases[contact] else {
             return None;
@@ -66,6 +88,7 @@ impl<E: StepEquations> Direct<E> {
                 law,
                 origin: episode.friction.origin,
                 pressed: episode.force,
+                start: Some(self.start_of(run, contact, episode, step)),
             }),
             link: None,
         })
@@ -83,6 +106,21 @@ impl<E: StepEquations> Direct<E> {
             return;
         };
         let trial = &run.trials[place];
+        let (law, memory) = (run.system.contacts[contact].law, episode.memory);
+        let [slip, pressing] =
+            [place, contact].map(|index| [run.trials[index].indentation, run.trials[index].rate]);
+        let start = self.start_of(run, contact, episode, step);
+        let mut following = StepFriction {
+            contact,
+            normal: contact,
+            law: friction.law,
+            origin: start.origin,
+            pressed: run.trials[contact].force,
+            start: None,
+        };
+        let press = |deep: f64, rate: f64| law.follow(deep, rate, &memory).force;
+        self.friction_paths[place - run.phases.len() - run.system.links.len()] =
+            following.follow_from(&start, slip, pressing, press);
         let own = &mut episode.friction;
         let mean = 0.5 * (own.force + trial.force);
         let slipped = trial.indentation - friction.ports.closing(&self.state.displacement);
@@ -112,7 +150,8 @@ impl<E: StepEquations> Direct<E> {
         let (law, trial) = (friction.law, &run.trials[place]);
         let own = &mut episode.friction;
         let greatest = pressed.ends[0].max(pressed.ends[1]).max(pressed.peak.value);
-        let path = FrictionPath::straight(own.force, trial.force);
+        let mut path = self.friction_paths[place - run.phases.len() - run.system.links.len()];
+        path.ends[FRICTION_PARTS - 1] = trial.force;
         own.peak.widen(&[path], law.coefficient * greatest, span);
         own.origin = law.origin(trial.indentation, trial.force);
         own.force = trial.force;

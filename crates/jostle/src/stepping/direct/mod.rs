@@ -89,6 +89,8 @@ pub(super) struct Direct<E: StepEquations> {
     edge_ends: Vec<[f64; 2]>,
     /// Ends of the edge that the corner of every contact touches.
     ends_of: Vec<Range<usize>>,
+    /// Friction over the tried step, contact by contact that has any.
+    friction_paths: Vec<FrictionPath>,
 }
 
 /// Parts of a free-vibration step after a jump of velocities, and the number of such steps. Average acceleration turns
@@ -133,6 +135,7 @@ impl<E: StepEquations> Direct<E> {
             struck_steps: 0,
             edge_ends: vec![[0.0; 2]; system.edge_ends.len()],
             ends_of: system.edge_ends_of_contacts(),
+            friction_paths: vec![FrictionPath::default(); system.frictions().count()],
         }
     }
 

@@ -186,7 +186,7 @@ impl<E: StepEquations> Direct<E> {
             let closed = if self.joints.is_link(index) {
                 self.link_in_step(run, index, rate_gain, step)
             } else if let Some(contact) = self.joints.rubbed(index) {
-                match self.friction_in_step(run, index, contact, rate_gain) {
+                match self.friction_in_step(run, index, contact, rate_gain, step) {
                     Some(closed) => closed,
                     None => continue,
                 }

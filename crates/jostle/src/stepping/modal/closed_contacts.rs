@@ -26,6 +26,7 @@ fn friction_of(run: &RunState<'_>, contact: usize, episode: &Episode) -> Option<
         law,
         origin: episode.friction.origin,
         pressed: episode.force,
+        start: None,
     })
 }
 
