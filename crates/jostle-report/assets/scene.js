@@ -1,6 +1,9 @@
 // The buildings to scale, moving. Sideways motion and gaps share one exaggeration, so that floors that
 // touch are drawn touching.
 
+/** Whether both sides of a gap stand in the row of buildings. */
+const inARow = (gap) => !gap.walls.some((wall) => page.walls[wall ?? -1]?.on_site);
+
 class Scene {
   constructor(host) {
     this.host = host;
@@ -71,7 +74,12 @@ class Scene {
         sway: svg("text", { class: "sway", "text-anchor": "middle" }, group),
       };
     });
-    this.walls = page.walls.map((wall) => ({ ...wall, path: svg("path", { class: "wall" }, this.svg) }));
+    // A wall of the site has no place in a row of buildings.
+    this.walls = page.walls.map((wall) => ({
+      ...wall,
+      beside: wall.on_site ? [null, null] : wall.beside,
+      path: svg("path", { class: "wall" }, this.svg),
+    }));
     this.links = page.links.map((link) => ({ link, path: svg("path", { class: "link" }, this.svg) }));
     this.flashes = contacts.map(() => svg("circle", { class: "flash" }, this.svg));
     this.instant = svg("text", { class: "instant", x: 12, y: 24 }, this.svg);
@@ -107,6 +115,7 @@ class Scene {
       return start;
     });
     for (const wall of this.walls) {
+      if (wall.on_site) continue;
       const [left, right] = wall.beside;
       const from = left === null ? null : this.left[left] + widths[left] + away(wall, 0);
       const to = right === null ? from + this.thickness : this.left[right] - away(wall, 1);
@@ -170,7 +179,7 @@ class Scene {
     const named = new Set();
     for (const gap of page.gaps) {
       const pair = [...gap.between, ...gap.walls].join();
-      if (named.has(pair)) continue;
+      if (named.has(pair) || !inARow(gap)) continue;
       named.add(pair);
       const [left, right] = [0, 1].map((side) => this.faceAtRest(gap, side));
       const x = this.px((left + right) / 2);
@@ -266,7 +275,7 @@ class Scene {
     this.instant.textContent = `t = ${fixed(t, 3)} s`;
     const sways = page.buildings.map((_, i) => this.places(this.run[i], run, t));
     page.buildings.forEach((building, i) => this.drawBuilding(building, i, sways[i], t));
-    this.walls.forEach((wall) => this.drawWall(wall));
+    this.walls.filter((wall) => !wall.on_site).forEach((wall) => this.drawWall(wall));
     this.drawLinks(sways);
     this.drawFlashes(sways, t);
     const a = interpolate(ground.time, ground.values, t) / this.groundPeak;
@@ -428,8 +437,9 @@ class Scene {
     contacts.forEach((contact, i) => {
       const { impact, strength } = this.glow(i, t);
       const circle = this.flashes[i];
-      circle.style.display = impact ? "" : "none";
-      if (!impact) return;
+      const shown = impact && inARow(contact.gap);
+      circle.style.display = shown ? "" : "none";
+      if (!shown) return;
       const height = contact.height;
       const side = contact.gap.between[0] === null ? 1 : 0;
       circle.setAttribute("cx", this.px(this.face(contact.gap, side, height, sways)));

@@ -19,6 +19,8 @@ pub(crate) struct SceneWall {
     widths: [Option<f64>; 2],
     /// Height of its highest contact or link \[m\].
     pub(crate) top: f64,
+    /// Whether it is a line of the site, which has no place in a row of buildings.
+    pub(crate) on_site: bool,
     /// Index among the sides of gaps and links of the model; see [`SceneWall::index_of`].
     side: Option<usize>,
 }
@@ -66,6 +68,7 @@ pub(crate) fn walls(page: &Page) -> Vec<SceneWall> {
                     beside: [None; 2],
                     widths: [None; 2],
                     top,
+                    on_site: wall.is_some_and(|wall| stands_on_site(page.model, wall)),
                     side: wall,
                 };
                 new.beside[own] = building;
@@ -100,6 +103,12 @@ fn wall_side(model: &Model, between: [Option<usize>; 2]) -> Option<(usize, Optio
     let is_wall = |side: &Option<usize>| side.is_none_or(|index| index >= model.buildings.len());
     let side = between.iter().position(is_wall)?;
     Some((side, between[side]))
+}
+
+/// Whether a side of a gap is a wall along a line of the site.
+pub(crate) fn stands_on_site(model: &Model, side: usize) -> bool {
+    let wall = model.walls.get(side.wrapping_sub(model.buildings.len()));
+    wall.is_some_and(|wall| wall.line.is_some())
 }
 
 /// Whether a building is the neighbour of another on a side.

@@ -5,7 +5,7 @@ use maud::{Markup, html};
 
 use crate::message;
 use crate::static_plot::colour;
-use crate::walls::{SceneWall, walls};
+use crate::walls::{SceneWall, stands_on_site, walls};
 use crate::{Page, format};
 
 /// Size of the drawing, and room for dimensions around it.
@@ -102,10 +102,10 @@ pub(super) fn figure(page: &Page) -> Markup {
                     }
                     (drawing(&model.buildings[index], index, outline, *left, [scale, ground, pit]))
                 }
-                @for wall in walls(page) {
+                @for wall in walls(page).into_iter().filter(|wall| !wall.on_site) {
                     (wall_mark(&wall, model.buildings.iter().map(isolated).collect(), &outlines, &places, [scale, ground]))
                 }
-                @for gap in &model.gaps {
+                @for gap in model.gaps.iter().filter(|gap| in_a_row(model, gap)) {
                     (gap_mark(gap, &outlines, &places, scale, ground + pit))
                 }
             }
@@ -223,6 +223,12 @@ fn drawing(
 }
 
 /// The width of a gap at the height of its lower building.
+/// Whether both sides of a gap stand in the row of buildings.
+fn in_a_row(model: &Model, gap: &jostle::Gap) -> bool {
+    let sides = gap.between.into_iter().flatten();
+    !sides.into_iter().any(|side| stands_on_site(model, side))
+}
+
 fn gap_mark(
     gap: &jostle::Gap,
     outlines: &[Outline],
