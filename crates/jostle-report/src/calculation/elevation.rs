@@ -224,7 +224,7 @@ fn drawing(
 
 /// The width of a gap at the height of its lower building.
 /// Whether both sides of a gap stand in the row of buildings.
-fn in_a_row(model: &Model, gap: &jostle::Gap) -> bool {
+fn in_a_row(model: &jostle::model::Model, gap: &jostle::Gap) -> bool {
     let sides = gap.between.into_iter().flatten();
     !sides.into_iter().any(|side| stands_on_site(model, side))
 }
