@@ -65,7 +65,7 @@ fn a_page_in_a_frame_sends_its_requests_to_the_notebook() {
         panic!("nothing was found");
     };
     let found: serde_json::Value = serde_json::from_str(&text).unwrap();
-    let [before, after] = crate::accuracy_of("136.5 mm");
+    let [before, after] = crate::gap_curve::accuracy_of("136.5 mm");
     let [before, after] =
         [before, after].map(|words| words.replacen("Accuracy: ", "accuracy: ", 1));
     assert_ne!(before, after, "the graze makes no difference");

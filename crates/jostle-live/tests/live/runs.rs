@@ -1,0 +1,81 @@
+//! Runs that are pinned, compared, undone, and restored from the address.
+
+use super::opened::open_address;
+use super::{open, serve};
+use std::time::Duration;
+
+#[test]
+fn runs_are_pinned_compared_undone_and_redone() {
+    let server = serve("paper");
+    let Some(page) = open(&server, 1400, 1000) else {
+        return;
+    };
+    let first = page.headline();
+    page.click("pin");
+    page.type_into("gap[0].width", "60 mm");
+    let second = page.headline();
+    assert_ne!(first, second);
+    let table = page.text("document.getElementById('comparison').textContent");
+    assert!(
+        table.contains("Peak force") && table.contains('%'),
+        "{table}"
+    );
+    let ghost = page.text("document.querySelector('#scene .pinned').getAttribute('d')");
+    assert!(
+        ghost.matches('M').count() > 5,
+        "the pinned run is not drawn: {ghost}"
+    );
+    page.glance("live-pinned");
+    page.click("undo");
+    assert_eq!(page.headline(), first);
+    page.click("redo");
+    assert_eq!(page.headline(), second);
+    page.click("pin");
+    assert_eq!(
+        page.value("document.getElementById('compare').hidden"),
+        true
+    );
+    page.assert_content();
+}
+
+#[test]
+fn the_address_restores_the_state_and_pages_do_not_disturb_each_other() {
+    let server = serve("paper");
+    let Some(page) = open(&server, 1400, 1000) else {
+        return;
+    };
+    page.type_into("gap[0].width", "47 mm");
+    page.value("{ const m = document.getElementById('measure'); m.value = '2'; m.dispatchEvent(new Event('change')); }");
+    page.wait("location.hash.length > 200");
+    std::thread::sleep(Duration::from_millis(900));
+    let address = page.text("location.href");
+    let other = open_address(&address, 1400, 1000).unwrap();
+    other.wait("Number(document.body.dataset.frames) >= 1");
+    assert_eq!(other.headline(), page.headline());
+    assert!(other.model().contains("width = \"47 mm\""));
+    assert_eq!(other.text("document.getElementById('measure').value"), "2");
+    let kept = page.headline();
+    other.type_into("gap[0].width", "300 mm");
+    assert_ne!(other.headline(), kept);
+    assert_eq!(page.headline(), kept);
+    page.type_into("motion.pga", "70 cm/s2");
+    assert!(!other.model().contains("70 cm/s2"));
+    // The address of another state in the same tab does not load the page, but shows the state; Undo leads back.
+    let hash = address.split('#').nth(1).unwrap();
+    other.value(&format!("location.hash = {hash:?}"));
+    other.wait("document.getElementById('text').value.includes('width = \"47 mm\"')");
+    other.settled();
+    assert_eq!(other.headline(), kept);
+    other.click("undo");
+    assert!(
+        other.model().contains("width = \"300 mm\""),
+        "{}",
+        other.model()
+    );
+    // An address that was cut off changes nothing.
+    other.value(&format!("location.hash = {:?}", &hash[..hash.len() / 2]));
+    std::thread::sleep(Duration::from_millis(300));
+    assert!(other.model().contains("width = \"300 mm\""));
+    page.assert_content();
+    other.assert_content();
+}
