@@ -1,16 +1,15 @@
 //! `jostle check`: checks a model and prints masses, periods, contacts and the expected work.
 
+mod motion;
+
 use std::fmt::Write;
 use std::path::Path;
 
 use jostle::eigen::Mode;
 use jostle::hysteresis::{Hysteresis, Side};
 use jostle::model::{Damping, Hinges, PlanAxis, PlanSpring, Structure, Tiers, usual_damping_modes};
-use jostle::structure::StepEquations;
 use jostle::system::BuildingSystem;
-use jostle::{
-    Building, LinkLaw, Model, Plan, RiccatiSweep, Solver, SpaceMember, SpacePlace, System,
-};
+use jostle::{Building, LinkLaw, Model, SpaceMember, SpacePlace, System};
 
 use crate::args::CheckArgs;
 use crate::failure::Failure;
@@ -20,6 +19,7 @@ use jostle_report::{SitePlace, site_svg};
 use jostle_run::{BOLD, LOUD, styled};
 use jostle_run::{FileKind, Opened};
 use jostle_run::{counted, grouped, mm};
+use motion::{describe_grounds, describe_work};
 
 /// Folder of results by default, and the name of the drawing of the site in it.
 const RESULTS: &str = "jostle-out";
@@ -54,6 +54,7 @@ pub(crate) fn check(args: &CheckArgs) -> Result<(), Failure> {
         if let Some(warning) = opened.input.unusual_motion(&motion) {
             let _ = writeln!(text, "{} {warning}", styled(LOUD, "warning:"));
         }
+        let _ = describe_grounds(&mut text, &opened.system, &motion);
         let _ = writeln!(text, "{}", styled(BOLD, "Expected work"));
         let _ = describe_work(&mut text, &opened.system, &plan, motion.duration);
     } else {
@@ -794,49 +795,6 @@ fn range([low, high]: [f64; 2], scale: f64) -> String {
     } else {
         format!("{low} to {high}")
     }
-}
-
-fn describe_work(
-    text: &mut String,
-    system: &System,
-    plan: &Plan,
-    duration: f64,
-) -> std::fmt::Result {
-    let exact = match plan.solver {
-        Solver::Modal => Some("modal stepping, exact between the points of the record"),
-        Solver::Series => Some("power series in time, exact between changes of stiffness"),
-        Solver::Riccati | Solver::Stiffness | Solver::Product => None,
-    };
-    match exact {
-        Some(words) => writeln!(text, "  {words}")?,
-        None => writeln!(text, "  {}, {}", plan.solver.name(), plan.integrator)?,
-    }
-    let steps = (duration / plan.step).ceil() as u64;
-    writeln!(
-        text,
-        "  {} steps of {} ms through {duration:.2} s, more during contact{}",
-        grouped(steps),
-        decimals(plan.step * 1e3, 4),
-        if exact.is_some() {
-            " and for history output"
-        } else {
-            ""
-        }
-    )?;
-    if exact.is_some() {
-        return writeln!(text);
-    }
-    let sweeps = system
-        .buildings
-        .iter()
-        .map(|building| RiccatiSweep::new(building));
-    let couplings: usize = sweeps.map(|sweep| sweep.entries_of_l()).sum();
-    writeln!(
-        text,
-        "  {} entries of L: {} multiply-adds per solution\n",
-        grouped(couplings as u64),
-        grouped(2 * couplings as u64)
-    )
 }
 
 #[cfg(test)]

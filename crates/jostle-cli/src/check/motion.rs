@@ -1,0 +1,79 @@
+//! What `jostle check` says of the ground motion: grounds that differ, and expected work.
+
+use std::fmt::Write as _;
+
+use jostle::structure::StepEquations;
+use jostle::{GroundMotion, Plan, RiccatiSweep, Solver, System};
+use jostle_run::{BOLD, grouped, styled};
+
+use super::decimals;
+
+/// One line for the ground under every building and wall, where they differ.
+pub(super) fn describe_grounds(
+    text: &mut String,
+    system: &System,
+    motion: &GroundMotion,
+) -> std::fmt::Result {
+    let Some(grounds) = &motion.grounds else {
+        return Ok(());
+    };
+    writeln!(text, "{}", styled(BOLD, "Grounds"))?;
+    for (index, own) in grounds.own.iter().enumerate() {
+        let record = own.motion.as_ref().map_or(String::new(), |own| {
+            format!(", own motion with a peak of {:.3} m/s²", own.peak())
+        });
+        let vertical = own.vertical.as_ref().map_or(String::new(), |own| {
+            format!(", vertical with a peak of {:.3} m/s²", own.peak())
+        });
+        writeln!(
+            text,
+            "  {}: the motion arrives after {} ms{record}{vertical}",
+            system.side_name(Some(index)),
+            decimals(1e3 * own.arrival, 1)
+        )?;
+    }
+    writeln!(text)
+}
+
+pub(super) fn describe_work(
+    text: &mut String,
+    system: &System,
+    plan: &Plan,
+    duration: f64,
+) -> std::fmt::Result {
+    let exact = match plan.solver {
+        Solver::Modal => Some("modal stepping, exact between the points of the record"),
+        Solver::Series => Some("power series in time, exact between changes of stiffness"),
+        Solver::Riccati | Solver::Stiffness | Solver::Product => None,
+    };
+    match exact {
+        Some(words) => writeln!(text, "  {words}")?,
+        None => writeln!(text, "  {}, {}", plan.solver.name(), plan.integrator)?,
+    }
+    let steps = (duration / plan.step).ceil() as u64;
+    writeln!(
+        text,
+        "  {} steps of {} ms through {duration:.2} s, more during contact{}",
+        grouped(steps),
+        decimals(plan.step * 1e3, 4),
+        if exact.is_some() {
+            " and for history output"
+        } else {
+            ""
+        }
+    )?;
+    if exact.is_some() {
+        return writeln!(text);
+    }
+    let sweeps = system
+        .buildings
+        .iter()
+        .map(|building| RiccatiSweep::new(building));
+    let couplings: usize = sweeps.map(|sweep| sweep.entries_of_l()).sum();
+    writeln!(
+        text,
+        "  {} entries of L: {} multiply-adds per solution\n",
+        grouped(couplings as u64),
+        grouped(2 * couplings as u64)
+    )
+}
