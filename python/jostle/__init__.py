@@ -11,7 +11,7 @@ Examples:
 """
 
 from ._animation import Animation
-from ._builders import Frame, Gap, Given, Link, Shear, Soil, Wall
+from ._builders import Frame, Gap, Given, Link, Shear, Soil, SpaceFrame, Wall
 from ._collide import Collision, ContactLaw, collide, collide_all, contact_laws
 from ._compare import Comparison, compare
 from ._contact_advice import ContactAdvice, StiffnessEstimate, StiffnessRange, WaveEstimate, contact_advice
@@ -86,6 +86,7 @@ __all__ = [
     "RuleGap",
     "Shear",
     "Soil",
+    "SpaceFrame",
     "Spectrum",
     "StiffnessEstimate",
     "StiffnessRange",

@@ -14,6 +14,7 @@ from ._units import (
     Quantities,
     Quantity,
     ShearUnits,
+    SpaceFrameUnits,
     merge,
     split,
     with_unit,
@@ -300,6 +301,134 @@ class Shear(Part):
                 "eccentricity": eccentricity,
                 "element": element,
                 "frame": frame,
+            },
+            units,
+        )
+
+
+class SpaceFrame(Part):
+    """A building of columns at the crossings of grid lines, beams along the lines, and rigid floors; it moves in both directions and
+    turns.
+
+    Args:
+        name: name of the building, used by gaps and links; ``"B1"``, ``"B2"``, … by default.
+        lines_x: where the grid lines across stand along x, from the origin of the plan, rising.
+        lines_y: where the grid lines along x stand, from the origin of the plan across, rising.
+        column: columns at the crossings: ``{"size": ["500 mm", "500 mm"]}``, sizes along x and across, or a list of such tables, each
+            with ``"x"``, ``"y"`` and ``"storeys"`` for the places where it holds; later ones replace earlier ones.
+        beam_x: beams along x: ``{"width": "300 mm", "depth": "600 mm"}``, or a list likewise.
+        beam_y: beams across, likewise.
+        mass: floor masses from the ground up, or one for all, with beams and columns.
+        storeys: number of storeys, 1 to 200; not needed with a list per storey.
+        storey_height: one length, or a list from the ground up; 3 m by default.
+        elastic_modulus: modulus of elasticity.
+        concrete: ``"C30"`` (GB 50010), ``"C30/37"`` (EN 1992-1-1) or ``"f'c = 4 ksi"`` (ACI 318), instead of
+            ``elastic_modulus``.
+        stiffness_factor: factor on every EI, or ``{"column": 0.7, "beam": 0.35}``.
+        torsion_factor: factor on every GJ, 1 by default.
+        axial: whether columns stretch: ``"flexible"`` (default) or ``"rigid"``.
+        shear: ``"rigid"`` (default), or ``"flexible"`` for members with shear deformation (Timoshenko), or
+            ``{"columns": …, "beams": …}``.
+        poisson_ratio: for the shear modulus, 0.2 by default.
+        hinges: plastic hinges at the ends of columns, about both axes, and of beams; without them the frame is elastic:
+            ``{"rule": "bilinear", "column": {"x": {"yield": "300 kN.m", "post_yield": 0.02}, "y": {…}}, "beam": {…}}``.
+        angle: angle from x of the site to the lines along x, counter-clockwise, 0 by default.
+        plan: width along x and depth across, ``["20 m", "12 m"]``, corners counter-clockwise, or a list of ``{"size": …}`` or
+            ``{"corners": …}`` from the ground up; the rectangle of the outer lines by default.
+        at: where the origin of the plan stands on the site; in a row by default.
+        mass_centre: centre of mass from the origin of the plan; its centroid by default.
+        polar_mass: mass moment of inertia; that of mass spread evenly over the plan by default.
+        stiffness: storey stiffnesses beside the frame: one, a list, or ``{"x": …, "y": …, "torsion": …}``.
+        eccentricity: centre of ``stiffness`` from the centre of mass; 0 by default.
+        element: walls at points of the plan, beside the frame:
+            ``[{"at": ["1 m", "1 m"], "stiffness": {"x": "10 MN/m", "y": "12 MN/m"}}]``.
+        damping: ``{"ratio": 0.05, "modes": [1, 3]}`` or ``{"alpha": …, "beta": …}``; 5 % by default.
+        p_delta: whether P-Delta from the weight above is included; ``False`` by default.
+        position: place along the row, for ``apparent_velocity`` and ``coherency`` of the motion.
+        motion: the ground under this building, if it differs: ``{"arrival": "30 ms"}``, ``{"record": …, "scale": …}``.
+        damper: dampers and other links between two floors of this building.
+        codes: factors of this building in the separation rules of codes: ``{"behaviour_factor": 3.9}``.
+        floors: the same as ``storeys``.
+        **units: the same with units in names, as in ``lines_x_m=[0, 6, 12]``.
+
+    Raises:
+        TypeError: an unknown keyword, with the nearest known one.
+    """
+
+    _with_units = tuple(SpaceFrameUnits.__annotations__)
+
+    def __init__(
+        self,
+        name: str | None = None,
+        *,
+        lines_x: Quantities | None = None,
+        lines_y: Quantities | None = None,
+        column: Table | Sequence[Table] | None = None,
+        beam_x: Table | Sequence[Table] | None = None,
+        beam_y: Table | Sequence[Table] | None = None,
+        mass: Quantities | None = None,
+        storeys: int | None = None,
+        storey_height: Quantities | None = None,
+        elastic_modulus: Quantity | None = None,
+        concrete: str | None = None,
+        stiffness_factor: float | Table | None = None,
+        torsion_factor: float | None = None,
+        axial: _Flexibility | None = None,
+        shear: _Flexibility | Table | None = None,
+        poisson_ratio: float | None = None,
+        hinges: Table | None = None,
+        angle: Quantity | None = None,
+        plan: Sequence[Any] | None = None,
+        at: Sequence[Quantity] | None = None,
+        mass_centre: Sequence[Any] | None = None,
+        polar_mass: Quantities | None = None,
+        stiffness: Quantities | Table | Sequence[Any] | None = None,
+        eccentricity: Sequence[Any] | None = None,
+        element: Sequence[Any] | None = None,
+        damping: Table | None = None,
+        p_delta: bool | None = None,
+        position: Quantity | None = None,
+        motion: Table | None = None,
+        damper: Sequence[Table] | None = None,
+        codes: Table | None = None,
+        floors: int | None = None,
+        **units: Unpack[SpaceFrameUnits],
+    ) -> None:
+        super().__init__(
+            {
+                "name": name,
+                "kind": "space-frame",
+                "lines_x": lines_x,
+                "lines_y": lines_y,
+                "column": _sections(column),
+                "beam_x": _sections(beam_x),
+                "beam_y": _sections(beam_y),
+                "mass": mass,
+                "storeys": storeys,
+                "storey_height": storey_height,
+                "elastic_modulus": elastic_modulus,
+                "concrete": concrete,
+                "stiffness_factor": stiffness_factor,
+                "torsion_factor": torsion_factor,
+                "axial": axial,
+                "shear": shear,
+                "poisson_ratio": poisson_ratio,
+                "hinges": hinges,
+                "angle": angle,
+                "plan": plan,
+                "at": at,
+                "mass_centre": mass_centre,
+                "polar_mass": polar_mass,
+                "stiffness": stiffness,
+                "eccentricity": eccentricity,
+                "element": element,
+                "damping": damping,
+                "p_delta": p_delta,
+                "position": position,
+                "motion": motion,
+                "damper": damper,
+                "codes": codes,
+                "floors": floors,
             },
             units,
         )
@@ -613,7 +742,7 @@ class Soil(Part):
 
 
 #: A building as a part, or as the table of the model file.
-Building = Union[Frame, Shear, Given, Table]
+Building = Union[Frame, Shear, SpaceFrame, Given, Table]
 
 _SECTION = ("width", "depth", "mass")
 

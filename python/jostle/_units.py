@@ -93,6 +93,25 @@ class ShearUnits(HeightUnits, total=False):
     stiffness_mn_m: Numbers
 
 
+class SpaceFrameUnits(HeightUnits, total=False):
+    """Keywords with units in their names."""
+
+    lines_x_m: Iterable[float]
+    lines_x_cm: Iterable[float]
+    lines_x_mm: Iterable[float]
+    lines_x_ft: Iterable[float]
+    lines_y_m: Iterable[float]
+    lines_y_cm: Iterable[float]
+    lines_y_mm: Iterable[float]
+    lines_y_ft: Iterable[float]
+    mass_kg: Numbers
+    mass_t: Numbers
+    mass_kn: Numbers
+    elastic_modulus_pa: float
+    elastic_modulus_mpa: float
+    elastic_modulus_gpa: float
+
+
 class GivenUnits(HeightUnits, total=False):
     """Keywords with units in their names."""
 

@@ -284,10 +284,12 @@ def test_every_key_of_the_model_file_is_a_keyword() -> None:
     def keywords(part: type) -> set[str]:
         return set(inspect.signature(part).parameters) - {"units"}
 
-    # Space frames come from model files.
-    frame, in_plan, shear, _, given = schema["building"]["items"]["oneOf"]
+    frame, in_plan, shear, space, given = schema["building"]["items"]["oneOf"]
     assert keywords(Frame) == keys(frame)
     assert keywords(Shear) == keys(shear) == keys(in_plan)
+    # These are not possible with a space frame.
+    refused = {"base", "isolation", "foundation", "gravity", "frame"}
+    assert keywords(jostle.SpaceFrame) == keys(space) - refused
     # "units" is a key of its own there; floors is another name of storeys, and gravity is part of the matrices.
     without = {"floors", "gravity", "p_delta", "units"}
     assert keywords(jostle.Given) - {"units_in_names"} == keys(given) - without
@@ -318,6 +320,39 @@ def test_frames_stand_at_lines_of_a_plan_before_a_wall() -> None:
     assert run.summary["buildings"][0]["floors"][2]["displacement_across_max_m"] < 1e-6
     assert run.summary["gaps"][0]["peak_force_n"] > 0
     assert len(jostle.modes(model)["a"].periods) > 3
+
+
+def test_space_frames_yield_member_by_member() -> None:
+    moments = {"yield": "120 kN.m", "post_yield": 0.02}
+    frame = jostle.SpaceFrame(
+        "a",
+        lines_x_m=[0, 6],
+        lines_y_m=[0, 5],
+        storeys=2,
+        storey_height="3.2 m",
+        mass_t=60,
+        elastic_modulus_gpa=30,
+        column={"size": ["450 mm", "400 mm"]},
+        beam_x={"width_mm": 300, "depth_mm": 500},
+        beam_y=[{"width": "300 mm", "depth": "450 mm", "hinge": {"yield": "80 kN.m", "post_yield": 0.02}}],
+        hinges={"rule": "bilinear", "column": {"x": moments, "y": {**moments, "yield": "100 kN.m"}}, "beam": moments},
+        damping={"ratio": 0.05, "modes": [1, 3]},
+    )
+    motion = jostle.Motion.el_centro().scaled(pga="0.6 g").lasting("4 s")
+    run = jostle.run(Model([frame], motion=motion))
+    hinges = run.summary["buildings"][0]["hinges"]
+    # Columns at two ends in two planes, beams at two ends.
+    assert hinges["total"] == 8 * 4 + 8 * 2
+    places = {spring["place"] for spring in hinges["list"]}
+    assert hinges["yielded"] > 0 and "column.1.1.1, foot, x" in places
+    [own] = jostle.modes(Model([frame]))
+    assert len(own.periods) == 6
+    with pytest.raises(ModelError, match="vertical plane only"):
+        Model([jostle.SpaceFrame(**{**keywords_of(frame), "hinges": {"rule": "bilinear", "beam": {"x": moments}}})])
+
+
+def keywords_of(part: Any) -> dict[str, Any]:
+    return {key: value for key, value in part.to_dict().items() if key != "kind" and value is not None}
 
 
 def test_given_buildings_are_those_of_their_matrices() -> None:

@@ -9,7 +9,7 @@ use jostle::eigen::Mode;
 use jostle::hysteresis::{Hysteresis, Side};
 use jostle::model::{Damping, Hinges, PlanAxis, PlanSpring, Structure, Tiers, usual_damping_modes};
 use jostle::system::BuildingSystem;
-use jostle::{Building, LinkLaw, Model, SpaceMember, SpacePlace, System};
+use jostle::{Building, LinkLaw, Model, SpaceFrame, SpaceMember, SpacePlace, System};
 
 use crate::args::CheckArgs;
 use crate::failure::Failure;
@@ -735,6 +735,9 @@ fn describe_yielding_in_plan(text: &mut String, tiers: &Tiers) -> std::fmt::Resu
         writeln!(text, "  frame {}:", frame.name)?;
         describe_hinges(text, &Hinges::Frame(frame.hinges.clone()))?;
     }
+    if let Some(frame) = &tiers.space_frame {
+        describe_space_hinges(text, frame)?;
+    }
     let mut elements: Vec<Option<usize>> = tiers.yielding.iter().map(|own| own.element).collect();
     elements.sort_unstable();
     elements.dedup();
@@ -769,6 +772,39 @@ fn describe_yielding_in_plan(text: &mut String, tiers: &Tiers) -> std::fmt::Resu
                 range(yielding, 1e-3)
             )?;
         }
+    }
+    Ok(())
+}
+
+/// Hinges of a space frame: how many, and at which moments, of columns along x and across, and of beams.
+fn describe_space_hinges(text: &mut String, frame: &SpaceFrame) -> std::fmt::Result {
+    let is_column = |own: &SpaceMember| matches!(own.place, SpacePlace::Column { .. });
+    let sorts = [
+        ("columns, x,", true, 0),
+        ("columns, y,", true, 1),
+        ("beams", false, 0),
+    ];
+    for (what, columns, plane) in sorts {
+        let members = frame.members.iter();
+        let members = members.filter(|own| is_column(own) == columns);
+        let springs: Vec<&Hysteresis> = members
+            .filter_map(|own| own.hinges[plane].as_ref())
+            .collect();
+        let Some(first) = springs.first() else {
+            continue;
+        };
+        let [cracking, yielding] = extents(&springs, Side::Positive);
+        let cracks = match cracking == yielding {
+            true => String::new(),
+            false => format!("crack at {} kN.m, ", range(cracking, 1e-3)),
+        };
+        writeln!(
+            text,
+            "  {} of {what} {}: {cracks}yield at {} kN.m",
+            counted(2 * springs.len(), "hinge"),
+            first.rule().name(),
+            range(yielding, 1e-3)
+        )?;
     }
     Ok(())
 }

@@ -249,6 +249,33 @@ fn space_frames_are_written_member_by_member() {
     assert!(exported.text.contains("EA = 1e4 * 12 EI / l^2"));
 }
 
+/// An end of a member with hinges is a node of its own, which a spring joins to its joint upwards and about both axes.
+#[test]
+fn hinges_of_space_frames_stand_between_joints_and_ends() {
+    const FRAME: &str =
+        include_str!("../../jostle-validation/data/opensees/yielding_space_frame.toml");
+    let text = export(&model(FRAME)).expect("it can be exported").text;
+    let joints = table(&text, "JOINTS");
+    let members = table(&text, "COLUMNS_AND_BEAMS");
+    assert_eq!([joints.len(), members.len()], [12, 16]);
+    let ends = table(&text, "HINGED_ENDS");
+    assert_eq!(ends.len(), 2 * 16);
+    let is_joint = |tag: &String| joints.iter().any(|row| row[0] == *tag);
+    for row in &ends {
+        assert!(is_joint(&row[1]) && !is_joint(&row[0]));
+        let is_end = |member: &Vec<String>| member[1] == row[0] || member[2] == row[0];
+        assert_eq!(members.iter().filter(|member| is_end(member)).count(), 1);
+        let directions: Vec<&str> = [7, 12, 17].map(|at| row[at].as_str()).into();
+        assert_eq!(directions, ["3", "5", "4"]);
+    }
+    let takeda = FRAME.replace("\"bilinear\"", "\"takeda\"").replace(
+        "post_yield",
+        "cracking = \"30 kN.m\", post_cracking = 0.3, post_yield",
+    );
+    let faults = export(&model(&takeda)).expect_err("OpenSees has no such rule");
+    assert_eq!(faults[0].path, "building[0].hinges.rule");
+}
+
 #[test]
 fn friction_in_plan_is_refused_by_field() {
     let text = CORNERS.replace("law = \"linear\"", "law = \"linear\"\nfriction = 0.3");

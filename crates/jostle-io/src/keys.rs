@@ -79,6 +79,10 @@ pub(crate) enum Section {
     Hinge,
     /// One side of them.
     HingeSide,
+    /// Hinges of a space frame.
+    SpaceHinges,
+    /// Hinges of its columns.
+    ColumnHinge,
     /// Yielding of the rotational spring of a base.
     BaseRocking,
     /// Yielding of its horizontal spring.
@@ -532,6 +536,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::SpaceColumn, "omit", Flag, "false", "Leave out the columns at these places."),
     optional(S::SpaceColumn, "elastic_modulus", Quantity(D::Modulus), "Modulus of elasticity, if it differs from that of the building."),
     optional(S::SpaceColumn, "concrete", Kind::Concrete(CONCRETES), "Concrete instead of elastic_modulus."),
+    optional(S::SpaceColumn, "hinge", Kind::Table(S::ColumnHinge), "Moments of its hinges instead of those of hinges.column; the rule is that of hinges."),
     optional(S::SpaceBeam, "width", Quantity(D::Length), "Width; needed unless omit."),
     optional(S::SpaceBeam, "depth", Quantity(D::Length), "Depth in the direction of bending; needed unless omit."),
     default(S::SpaceBeam, "x", Kind::FromTo, "all", "The line of lines_x at which a beam along x begins, or on which a beam across lies, counted from 1; or the first and the last."),
@@ -540,8 +545,10 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::SpaceBeam, "omit", Flag, "false", "Leave out the beams at these places."),
     optional(S::SpaceBeam, "elastic_modulus", Quantity(D::Modulus), "Modulus of elasticity, if it differs from that of the building."),
     optional(S::SpaceBeam, "concrete", Kind::Concrete(CONCRETES), "Concrete instead of elastic_modulus."),
+    optional(S::SpaceBeam, "hinge", Kind::Table(S::Hinge), "Moments of its hinges instead of those of hinges.beam; the rule is that of hinges."),
 
     optional(S::Shear, "hinges", Kind::Table(S::StoreyHinges), "Cracking and yield of the storeys; without it they are elastic."),
+    optional(S::SpaceFrame, "hinges", Kind::Table(S::SpaceHinges), "Plastic hinges at the ends of columns, about both axes, and of beams; without them the frame is elastic."),
 
     optional(S::Given, "matrices", TextOrTable(S::Matrices), "NumPy archive (.npz) with the arrays K and M, or a table of Matrix Market files, relative to this file. C is the damping matrix, r the displacements when the ground moves by 1, h their heights."),
     default(S::Given, "units", Choice(MATRIX_UNITS), "\"N, m\"", "Force and length of the matrices; masses are force × s² / length. With mm, ft or in all displacements must be lengths."),
@@ -676,6 +683,22 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::HingeSide, "yield", Quantity(D::Moment), "Yield moment of this side."),
     optional(S::HingeSide, "post_cracking", Quantity(D::Dimensionless), "Ratio of post-cracking to initial stiffness."),
     optional(S::HingeSide, "post_yield", Quantity(D::Dimensionless), "Ratio of post-yield to initial stiffness."),
+    required(S::SpaceHinges, "rule", Choice(RULES), "Unloading and reloading rule of hinges."),
+    default(S::SpaceHinges, "gamma", Quantity(D::Dimensionless), "0.4", "Exponent of the unloading stiffness of takeda."),
+    optional(S::SpaceHinges, "pinching", Kind::Table(S::Pinching), "Where reloading stiffens; required with the rule pinched."),
+    default(S::SpaceHinges, "unloading_exponent", Quantity(D::Dimensionless), "0", "Exponent with which the unloading stiffness of pinched falls with the peak, 0 to 1."),
+    optional(S::SpaceHinges, "damage", Kind::Table(S::Damage), "Growth of the peaks of pinched; without this table they stay."),
+    default(S::SpaceHinges, "initial", WordOr("rigid", D::Dimensionless), "100", "Stiffness of a hinge before it cracks, in units of EI/L of its member in the same plane."),
+    optional(S::SpaceHinges, "column", TablePerStorey(S::ColumnHinge), "Hinges of the columns; without it they are elastic, those with hinge of their own excepted."),
+    optional(S::SpaceHinges, "beam", TablePerStorey(S::Hinge), "Hinges of the beams in both directions, in their vertical planes; without it they are elastic, those with hinge of their own excepted."),
+    optional(S::ColumnHinge, "cracking", Quantity(D::Moment), "Cracking moment."),
+    optional(S::ColumnHinge, "yield", Quantity(D::Moment), "Yield moment."),
+    optional(S::ColumnHinge, "post_cracking", Quantity(D::Dimensionless), "Ratio of post-cracking to initial stiffness."),
+    optional(S::ColumnHinge, "post_yield", Quantity(D::Dimensionless), "Ratio of post-yield to initial stiffness."),
+    optional(S::ColumnHinge, "positive", Kind::Table(S::HingeSide), "Values where the face to greater x, or further across, is in tension; with x or y, inside of these."),
+    optional(S::ColumnHinge, "negative", Kind::Table(S::HingeSide), "Values where the other face is in tension."),
+    optional(S::ColumnHinge, "x", Kind::Table(S::Hinge), "Bending in the vertical plane along the lines x. Without x and y both planes yield alike; with one of them, the other stays elastic. What is not given here stands beside it."),
+    optional(S::ColumnHinge, "y", Kind::Table(S::Hinge), "Bending in the vertical plane across."),
 
     required(S::BaseRocking, "rule", Choice(RULES), "Unloading and reloading rule of the base."),
     default(S::BaseRocking, "gamma", Quantity(D::Dimensionless), "0.4", "Exponent of the unloading stiffness of takeda."),

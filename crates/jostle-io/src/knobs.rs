@@ -96,7 +96,12 @@ fn table(node: Option<&Node>, sections: &[Section], path: &str, at: At<'_>, into
     ];
     let is_own = |section: &Section| own.contains(section) || !kinds.contains(section);
     let sections: Vec<Section> = sections.iter().copied().filter(is_own).collect();
-    for key in keys_of(&sections) {
+    let keys: Vec<&Key> = keys_of(&sections).collect();
+    for (index, key) in keys.iter().enumerate() {
+        // A space frame has hinges of its own kind.
+        if keys[index + 1..].iter().any(|later| later.name == key.name) {
+            continue;
+        }
         let node = table.get(key.name);
         entry(key, node, &sections, &join(path, key.name), at, into);
     }

@@ -32,6 +32,7 @@ mod shear_failure;
 mod site;
 mod soil;
 mod space_frame;
+mod space_hinges;
 #[cfg(test)]
 mod tests;
 mod unusual_results;

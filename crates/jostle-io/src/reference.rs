@@ -56,7 +56,7 @@ const TABLES: &[(Section, &str, &str)] = &[
     (
         Section::SpaceFrame,
         "`[[building]]` with `kind = \"space-frame\"`",
-        "And the keys of `kind = \"shear\"`, `frame` and `hinges` excepted. See [Space frames](how-to/space-frames.md).",
+        "And the keys of `kind = \"shear\"`, `frame` excepted. See [Space frames](how-to/space-frames.md).",
     ),
     (Section::SpaceColumn, "`column` of a space frame", ""),
     (
@@ -115,6 +115,16 @@ const TABLES: &[(Section, &str, &str)] = &[
         Section::HingeSide,
         "`positive`, `negative` of a hinge",
         "Values given here apply to that side only.",
+    ),
+    (
+        Section::SpaceHinges,
+        "`hinges` of a space frame",
+        "See [Space frames](how-to/space-frames.md#hinges-that-yield).",
+    ),
+    (
+        Section::ColumnHinge,
+        "`hinges.column` of a space frame, and `hinge` of a column",
+        "",
     ),
     (
         Section::StoreyHinges,

@@ -59,7 +59,7 @@ fn building() -> Value {
         of_kinds(&[Section::Building, Section::Shear], "frame", &["kind", "plan", "frame"]),
         of_kinds(&[Section::Building, Section::Shear], "shear", &["kind"]),
         of_kinds(
-            &[Section::Building, Section::Shear, Section::SpaceFrame],
+            &[Section::Building, Section::SpaceFrame, Section::Shear],
             "space-frame",
             &["kind"],
         ),

@@ -13,7 +13,7 @@ use jostle::results::summary::{
 };
 use jostle::results::{member_name, section_name};
 use jostle::structure::{BaseMotion, MemberEnd, SectionAt, SpringPlace};
-use jostle::{Column, History, Model, Outcome, Quantity, Summary, System, springs_of};
+use jostle::{Column, History, Model, Outcome, Quantity, SpacePlace, Summary, System, springs_of};
 use parquet::basic::{Compression, ConvertedType, Repetition, Type as Physical};
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int32Type};
 use parquet::errors::ParquetError;
@@ -262,6 +262,19 @@ pub fn write_hinges_parquet(
         ("line", whole(|row| parts(row.1).2)),
         ("end", text(|row| parts(row.1).3.to_owned())),
     ];
+    let in_space = |row: &Row<'_>| match row.1 {
+        Some(SpringPlace::InSpace { place, axis, .. }) => Some((place, axis)),
+        _ => None,
+    };
+    if rows.iter().any(|row| in_space(row).is_some()) {
+        let across = |row: &Row<'_>| {
+            let [[_, y], _] = in_space(row)?.0.crossings();
+            i32::try_from(y + 1).ok()
+        };
+        let axis = |row: &Row<'_>| in_space(row).map_or("", |(_, axis)| axis.name()).to_owned();
+        columns.push(("line_y", Values::Whole(rows.iter().map(across).collect())));
+        columns.push(("axis", Values::Text(rows.iter().map(axis).collect())));
+    }
     let springs = || rows.iter().map(|(_, _, spring)| spring);
     columns.extend(quantity_columns(SpringSummary::QUANTITIES, springs));
     let named = columns
@@ -552,6 +565,16 @@ fn parts(place: Option<SpringPlace>) -> (&'static str, Option<usize>, Option<usi
             storey,
             axis,
         }) => ("element", Some(storey), Some(element), axis.name()),
+        Some(SpringPlace::InSpace { place, end, .. }) => {
+            let [[x, _], _] = place.crossings();
+            let kind = match place {
+                SpacePlace::Column { .. } => "column",
+                SpacePlace::BeamX { .. } => "beam_x",
+                SpacePlace::BeamY { .. } => "beam_y",
+            };
+            let level = place.storey() + 1;
+            (kind, Some(level), Some(x + 1), end.in_space(place))
+        }
         Some(SpringPlace::Bearings) => ("isolation", Some(0), None, "bearings"),
         Some(SpringPlace::Stop { side }) => {
             let side = match side {

@@ -55,7 +55,7 @@ class SpaceScene {
   take() {
     this.buildings = page.buildings.map((building, i) => ({
       plans: building.plans,
-      members: building.members ?? [],
+      members: (building.members ?? []).map((member, k) => ({ ...member, hinges: hinges.filter((hinge) => hinge.building === i && hinge.line === k + 1) })),
       levels: [0, ...building.heights],
       motion: building.plans.map((_, k) => ["u", "v", "r"].map((name) => run.columns.get(`${name}:${i}:${k + 1}`))),
     }));
@@ -241,6 +241,7 @@ class SpaceScene {
       this.theme = theme;
       this.colours = page.buildings.map((_, i) => resolvedColour(`--c${i % 7}`));
       [this.ink, this.quiet, this.alarm, this.sheet] = ["--ink", "--ink-2", "--alarm", "--sheet"].map(resolvedColour);
+      [this.cracked, this.yielded] = ["--cracked", "--yielded"].map(resolvedColour);
     }
     const context = this.canvas.getContext("2d");
     this.context = context;
@@ -303,10 +304,15 @@ class SpaceScene {
       below = own;
     });
     // Columns and beams of a space frame.
-    for (const { ends, floors } of building.members) {
+    for (const { ends, floors, hinges: own } of building.members) {
       const seen = ends.map((end, side) => this.at(floors[side] === null || floors[side] === undefined ? [sx + end[0], sy + end[1], 0] : this.moved(i, floors[side], end, state[floors[side]])));
       const isColumn = floors[0] !== floors[1];
       parts.push({ near: mean(seen), paint: () => this.line(seen, { stroke: colour, width: isColumn ? 1.8 : 1.1 }) });
+      // The worse of both planes of a column.
+      for (const end of [0, 1]) {
+        const stage = Math.max(0, ...own.filter((hinge) => hinge.end === end).map((hinge) => stageAt(hinge, this.time)));
+        if (stage > 0) parts.push({ near: seen[end][2] + 0.01, paint: () => this.hingeMark(stage, seen[end], seen[1 - end]) });
+      }
     }
     const roof = building.plans.length - 1;
     const [cx, cy] = building.plans[roof].centre;
@@ -315,6 +321,19 @@ class SpaceScene {
       near: 1e6,
       paint: () => this.letter(page.buildings[i].name, name[0], name[1], this.ink, "650 14px system-ui, sans-serif"),
     });
+  }
+
+  /** A disc where a member has cracked, a diamond where it yields, beside its joint. */
+  hingeMark(stage, [x0, y0], [x1, y1]) {
+    const share = Math.min(0.25, 9 / Math.max(1, Math.hypot(x1 - x0, y1 - y0)));
+    const [x, y] = [x0 + share * (x1 - x0), y0 + share * (y1 - y0)];
+    const mark = new Path2D(markOutline(stage, x, y, 3.2));
+    const context = this.context;
+    context.fillStyle = stage === 2 ? this.yielded : this.cracked;
+    context.strokeStyle = this.ink;
+    context.lineWidth = 0.8;
+    context.fill(mark);
+    context.stroke(mark);
   }
 
   letter(text, x, y, colour, font = "12px system-ui, sans-serif", align = "center") {

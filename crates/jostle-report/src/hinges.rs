@@ -1,5 +1,6 @@
 //! Cracking and yielding: places, selected loops, the table in order of yielding.
 
+use jostle::SpacePlace;
 use jostle::hysteresis::{Backbone, Hysteresis, Side};
 use jostle::model::{Building, Hinges, Model, Structure};
 use jostle::results::summary::{HingeSummary, SpringSummary};
@@ -76,6 +77,16 @@ fn hysteresis_of(building: &Building, at: SpringPlace) -> Option<Hysteresis> {
                 let hinges = &tiers.frames.get(frame - 1)?.hinges;
                 return hinges.columns.get(storey - 1)?.get(line - 1).copied();
             }
+            SpringPlace::InSpace { place, axis, .. } => {
+                let frame = tiers.space_frame.as_ref()?;
+                let mut members = frame.members.iter();
+                let own = members.find(|own| own.place == place)?;
+                let plane = match place {
+                    SpacePlace::Column { .. } => axis.index(),
+                    SpacePlace::BeamX { .. } | SpacePlace::BeamY { .. } => 0,
+                };
+                return own.hinges[plane];
+            }
             SpringPlace::BeamInPlan {
                 frame, floor, bay, ..
             } => {
@@ -128,6 +139,7 @@ pub(crate) fn coordinates(at: SpringPlace) -> (char, usize, usize, usize) {
         | SpringPlace::Element { storey, .. }
         | SpringPlace::ColumnInPlan { storey, .. }
         | SpringPlace::BeamInPlan { floor: storey, .. } => ('s', storey, 0, 0),
+        SpringPlace::InSpace { place, end, .. } => ('s', place.storey() + 1, 0, last(end)),
         SpringPlace::Base { line, motion } => {
             ('f', 0, line, usize::from(motion == BaseMotion::Sliding))
         }

@@ -4,6 +4,7 @@ use jostle::history::{Column, EnergyTerm, History};
 use jostle::model::{Building, Gap, Model, Structure};
 use jostle::motion::{GroundMotion, Wave};
 use jostle::results::summary::{ContactSummary, SpringSummary, Summary};
+use jostle::structure::SpringPlace;
 use jostle::{SpaceFrame, SpaceMember, SpacePlace};
 use serde::Serialize;
 
@@ -326,12 +327,27 @@ fn text(page: &Page, budget: &Budget, pack: &mut Packer) -> String {
     serde_json::to_string(&payload).unwrap_or_else(|_| "{}".into())
 }
 
+/// Number of the member of a space frame at whose end a place is, in the order of [`MemberData::all_of`], from 1.
+fn member_number(page: &Page, place: &Place) -> Option<usize> {
+    let SpringPlace::InSpace { place: own, .. } = place.at else {
+        return None;
+    };
+    let Structure::Tiers(tiers) = &page.model.buildings[place.building].structure else {
+        return None;
+    };
+    let mut members = tiers.space_frame.as_ref()?.members.iter();
+    members
+        .position(|member| member.place == own)
+        .map(|index| index + 1)
+}
+
 fn hinge_data(page: &Page, places: &[Place]) -> Vec<HingeData> {
     let order = hinges::in_order(page, places);
     let mut data: Vec<HingeData> = places
         .iter()
         .map(|place| {
             let (kind, level, line, end) = hinges::coordinates(place.at);
+            let line = member_number(page, place).unwrap_or(line);
             (place.building, kind, level, line, end, None, None, 0.0)
         })
         .collect();

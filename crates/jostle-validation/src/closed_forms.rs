@@ -73,6 +73,7 @@ fn building(
         shared_columns: Vec::new(),
         element_names: Vec::new(),
         space_frame: None,
+        jointed_frame: None,
         stick_model,
         left_face: floors.clone(),
         right_face: floors.clone(),

@@ -347,6 +347,7 @@ fn block_case(source: &str, case: &Value) -> Vec<Row> {
         shared_columns: Vec::new(),
         element_names: Vec::new(),
         space_frame: None,
+        jointed_frame: None,
     };
     let system = System::of_buildings(vec![BuildingSystem::new("block", discretization)]);
     let motion = motion(inputs);

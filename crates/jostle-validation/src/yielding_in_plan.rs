@@ -1,4 +1,5 @@
-//! Walls at points of a plan that yield, through a model file, against a script of OpenSees that does not come from the exporter.
+//! Walls at points of a plan, and members of a space frame, that yield, through model files, against scripts of OpenSees that do not
+//! come from the exporter.
 
 use jostle::history::FloorPeaks;
 use jostle::{Pounding, Settings};
@@ -8,23 +9,62 @@ use crate::data::{at, document, list, number, numbers};
 use crate::files::{model, run_model};
 use crate::row::Row;
 
-const SOURCE: &str = "opensees/yielding_in_plan";
-/// Both take the same steps with the same method. OpenSees reads displacements at the ends of steps and so misses (ωh)²/8 of a peak at
-/// most, with ω of 30 rad/s.
-const DISPLACEMENTS: f64 = 5e-5;
-/// Forces are read at the ends of steps by both; OpenSees iterates until 1e-6 N are out of balance.
-const FORCES: f64 = 1e-8;
+/// A model, what OpenSees made of it, and how far it may be off.
+struct Case {
+    source: &'static str,
+    model: &'static str,
+    answer: &'static str,
+    duration: f64,
+    /// Where the greatest forces of all springs stand, and what they are.
+    springs: [&'static str; 2],
+    /// Of greatest displacements, which OpenSees reads at the ends of steps, so that it misses (ωh)²/8 of a peak at most, and of
+    /// forces, which both read there.
+    tolerances: [f64; 2],
+}
 
-/// All rows of this family.
+/// Both take the same steps with the same method; ω is 30 rad/s, and OpenSees iterates until 1e-6 N are out of balance.
+const WALLS: Case = Case {
+    source: "opensees/yielding_in_plan",
+    model: include_str!("../data/opensees/yielding_in_plan.toml"),
+    answer: include_str!("../data/opensees/yielding_in_plan.json"),
+    duration: 8.0,
+    springs: ["/wall_forces_peak_n", "greatest forces of walls [N]"],
+    tolerances: [5e-5, 1e-8],
+};
+
+/// The same, with steps of 1 ms and ω of 20 rad/s. Springs of OpenSees that are rigid here give way by 2·10⁻⁶ of what members do.
+const SPACE_FRAME: Case = Case {
+    source: "opensees/yielding_space_frame",
+    model: include_str!("../data/opensees/yielding_space_frame.toml"),
+    answer: include_str!("../data/opensees/yielding_space_frame.json"),
+    duration: 5.0,
+    springs: [
+        "/hinge_moments_peak_n_m",
+        "greatest moments of hinges [N·m]",
+    ],
+    tolerances: [5e-5, 1e-5],
+};
+
+/// All rows of walls.
 #[must_use]
 pub fn rows() -> Vec<Row> {
-    let input = model(include_str!("../data/opensees/yielding_in_plan.toml"));
-    let expected = document(include_str!("../data/opensees/yielding_in_plan.json"));
+    compare(&WALLS)
+}
+
+/// All rows of the space frame.
+#[must_use]
+pub fn space_frame_rows() -> Vec<Row> {
+    compare(&SPACE_FRAME)
+}
+
+fn compare(case: &Case) -> Vec<Row> {
+    let (input, expected) = (model(case.model), document(case.answer));
+    let [of_displacements, of_forces] = case.tolerances;
     let settings = Settings {
         pounding: Pounding::Included,
         record_interval: None,
     };
-    let (_, outcome) = run_model(&input, None, settings, 8.0);
+    let (_, outcome) = run_model(&input, None, settings, case.duration);
     let plan = &outcome.in_plan[0];
     let mut rows = Vec::new();
     let directions = [
@@ -45,14 +85,25 @@ pub fn rows() -> Vec<Row> {
                 .collect();
             let got: Vec<f64> = peaks.iter().map(own).collect();
             let what = format!("{side}. {what}");
-            rows.push(Row::worst_of(SOURCE, what, &wanted, &got, DISPLACEMENTS));
+            rows.push(Row::worst_of(
+                case.source,
+                what,
+                &wanted,
+                &got,
+                of_displacements,
+            ));
         }
     }
-    let walls = list(&expected, "/wall_forces_peak_n").iter();
-    let wanted: Vec<f64> = walls.flat_map(|wall: &Value| numbers(wall, "")).collect();
+    let [path, what] = case.springs;
+    let springs = list(&expected, path).iter();
+    let each = |own: &Value| {
+        own.as_f64()
+            .map_or_else(|| numbers(own, ""), |own| vec![own])
+    };
+    let wanted: Vec<f64> = springs.flat_map(each).collect();
     let got: Vec<f64> = outcome.springs.iter().map(|own| own.peak_force).collect();
-    let what = "greatest forces of walls [N]".to_owned();
-    rows.push(Row::worst_of(SOURCE, what, &wanted, &got, FORCES));
+    let what = what.to_owned();
+    rows.push(Row::worst_of(case.source, what, &wanted, &got, of_forces));
     let base = numbers(at(&expected, "/base_shear_peak_n"), "");
     for (what, wanted, got) in [
         ("base shear along x [N]", base[0], outcome.base_shear[0]),
@@ -67,7 +118,13 @@ pub fn rows() -> Vec<Row> {
             plan.turning[0].storey_shear,
         ),
     ] {
-        rows.push(Row::relative(SOURCE, what.to_owned(), wanted, got, FORCES));
+        rows.push(Row::relative(
+            case.source,
+            what.to_owned(),
+            wanted,
+            got,
+            of_forces,
+        ));
     }
     rows
 }

@@ -102,7 +102,7 @@ def build_in_space():
     ops.model("basic", "-ndm", 3, "-ndf", 6)
     heights = dict(LEVELS)
     heights.update({point: heights[floor] for floor, point in ARMS})
-    free = max([tag for tag, *_ in NODES] + [tag for tag, *_ in JOINTS]) + 1
+    free = max(tag for tag, *_ in NODES + JOINTS + HINGED_ENDS) + 1
     hold = len(MATERIALS) + 2
     ops.uniaxialMaterial("Elastic", hold, 1e6)
     for tag, x, y, mass, inertia in NODES:
@@ -125,6 +125,14 @@ def build_in_space():
             tied.setdefault(floor, []).append(tag)
     for tag, *_ in SUPPORTS:
         ops.fix(tag, 1, 1, 1, 1, 1, 1)
+    floors = {tag: floor for tag, *_, floor in JOINTS}
+    for tag, joint, *_ in HINGED_ENDS:
+        where[tag] = where[joint]
+        ops.node(tag, *where[joint])
+        if floors[joint] is None:
+            ops.fix(tag, 1, 1, 0, 0, 0, 1)
+        else:
+            tied.setdefault(floors[joint], []).append(tag)
     for floor, joints in tied.items():
         ops.rigidDiaphragm(3, floor, *joints)
     for kept, point in ARMS:
@@ -145,6 +153,9 @@ def build_in_space():
             ops.element("ElasticTimoshenkoBeam", tag, first, last, 1.0, 1.0, ea, torsion, bending, sideways, across, along, transforms[towards])
     for name, tag, *arguments in MATERIALS:
         ops.uniaxialMaterial(name, tag, *arguments)
+    for _, _, (x, y), springs in HINGED_ENDS:
+        for tag, first, last, direction, material in springs:
+            ops.element("zeroLength", tag, first, last, "-mat", material, "-dir", direction, "-orient", x, y, 0.0, -y, x, 0.0)
     for tag, first, last, springs, damped in SPRINGS:
         directions, materials = [pair[0] for pair in springs], [pair[1] for pair in springs]
         extra = ["-doRayleigh", 1] if damped else []
@@ -617,6 +628,7 @@ def analyse(args):
 
 def main():
     used = [material for *_, springs, _ in SPRINGS for _, material in springs] + [row[3] for row in LINKS]
+    used += [material for *_, springs in HINGED_ENDS for *_, material in springs]
     yields = any(MATERIALS[material - 1][0] != "Elastic" for material in used)
     parser = argparse.ArgumentParser(description=f"{TITLE}: for OpenSeesPy, {EXPORTED_BY}. Prints JSON.")
     parser.add_argument("--uniform", type=float, metavar="DT", help="one step size throughout [s]")

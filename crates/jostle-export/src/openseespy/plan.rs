@@ -98,7 +98,15 @@ impl Script<'_> {
             }
         }
         if let Some(frame) = &tiers.space_frame {
-            self.add_space_frame(index, building, frame, &tiers.storey_heights);
+            let added = self.add_space_frame(index, building, frame, &tiers.storey_heights);
+            if let Err(rule) = added {
+                return refuse(
+                    ".hinges.rule",
+                    &format!(
+                        "OpenSees has no rule \"{rule}\"; normal, bilinear, peak-oriented and pinched can be exported"
+                    ),
+                );
+            }
         }
         let tags: Vec<String> = floors
             .iter()

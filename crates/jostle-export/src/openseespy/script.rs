@@ -50,6 +50,7 @@ pub(super) struct Script<'a> {
     /// Joints of space frames, and their columns and beams.
     pub(super) space_joints: String,
     pub(super) space_members: String,
+    pub(super) space_hinges: String,
     /// Heights of floors in plan.
     pub(super) levels: String,
 }
@@ -98,6 +99,7 @@ impl<'a> Script<'a> {
             ends: String::new(),
             space_joints: String::new(),
             space_members: String::new(),
+            space_hinges: String::new(),
             levels: String::new(),
         };
         let mut faults = Vec::new();
@@ -740,6 +742,12 @@ impl<'a> Script<'a> {
             "COLUMNS_AND_BEAMS",
             "element, first and last joint, EI in the plane of bending and sideways [N m2], GJ [N m2], EA [N], G As in both planes [N], direction in the plane of bending; None is rigid",
             &self.space_members,
+        )?;
+        table(
+            out,
+            "HINGED_ENDS",
+            "end of a member, its joint, unit vector of the lines along x, (first element, directions, materials) of springs",
+            &self.space_hinges,
         )?;
         self.write_motion(out)?;
         writeln!(out, "\n{}", driver.trim_end())

@@ -3,19 +3,25 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
+use jostle::structure::{MemberEnd, SpringPlace};
 use jostle::system::BuildingSystem;
-use jostle::{Building, SpaceFrame, SpacePlace, Structure};
+use jostle::{Building, PlanAxis, SpaceFrame, SpacePlace, Structure};
 
 use super::script::{Script, rounded};
 
-/// Most joints of the space frame of a building, its feet included.
+/// Stiffness of springs that join a member to its joint where it has no hinge, in units of the stiffest member \[–\].
+const STIFF: f64 = 1e6;
+
+/// Most joints of the space frame of a building, its feet and the ends of members beyond hinges included.
 pub(super) fn joints_of(building: &Building) -> usize {
     let Structure::Tiers(tiers) = &building.structure else {
         return 0;
     };
     let frame = tiers.space_frame.as_ref();
     let crossings = frame.map_or(0, |own| own.lines_x.len() * own.lines_y.len());
-    crossings * (tiers.floors.len() + 1)
+    let mut members = frame.into_iter().flat_map(|own| &own.members);
+    let hinged = members.by_ref().filter(|own| own.may_yield()).count();
+    crossings * (tiers.floors.len() + 1) + 2 * hinged
 }
 
 impl Script<'_> {
@@ -25,12 +31,13 @@ impl Script<'_> {
         building: &BuildingSystem,
         frame: &SpaceFrame,
         storey_heights: &[f64],
-    ) {
+    ) -> Result<(), &'static str> {
         let mut heights = vec![0.0];
         for storey in storey_heights {
             heights.push(heights[heights.len() - 1] + storey);
         }
         let floors = &building.discretization.floors;
+        let stiff = stiffest(frame, storey_heights);
         // Level 0 is the ground.
         let mut tags: BTreeMap<(usize, [usize; 2]), usize> = BTreeMap::new();
         let (c, s) = (frame.direction[0], frame.direction[1]);
@@ -66,6 +73,19 @@ impl Script<'_> {
                     }
                 };
             }
+            if member.may_yield() {
+                for (end, tag) in [MemberEnd::First, MemberEnd::Last]
+                    .into_iter()
+                    .zip(&mut ends)
+                {
+                    let hinges = Hinges {
+                        place: member.place,
+                        end,
+                        stiff,
+                    };
+                    *tag = self.add_hinged_end(index, building, frame, *tag, &hinges)?;
+                }
+            }
             let section = &member.section;
             let axial = section
                 .axial_rigidity
@@ -85,5 +105,86 @@ impl Script<'_> {
                 ends[0], ends[1], section.torsional_rigidity, towards[0], towards[1], towards[2],
             );
         }
+        Ok(())
     }
+
+    /// A node for an end of a member with hinges, and the springs between it and its joint; returns the node.
+    fn add_hinged_end(
+        &mut self,
+        index: usize,
+        building: &BuildingSystem,
+        frame: &SpaceFrame,
+        joint: usize,
+        hinges: &Hinges,
+    ) -> Result<usize, &'static str> {
+        let tag = self.tag(index, self.next_point[index]);
+        self.next_point[index] += 1;
+        let sticks = &building.discretization.stick_model;
+        // Rises, and turns about x and about y of the lines.
+        let [vertical, turning] = hinges.stiff;
+        let mut springs = vec![(joint, tag, 3, self.materials.elastic(vertical, 0.0))];
+        let places = &building.discretization.spring_places;
+        for axis in PlanAxis::BOTH {
+            let wanted = SpringPlace::InSpace {
+                place: hinges.place,
+                end: hinges.end,
+                axis,
+            };
+            // Bending along x turns about y.
+            let direction = 5 - axis.index();
+            let found = places.iter().position(|place| *place == wanted);
+            let hinge = found.map(|at| &sticks.hinges[at]);
+            springs.push(
+                match hinge.and_then(|own| Some((own.ends, own.hysteresis?))) {
+                    Some((ends, hysteresis)) => {
+                        let material = self.materials.yielding(&hysteresis)?;
+                        // Strain is that of the second node against the first; the rotation of a hinge counts the other way.
+                        let [first, last] = match sticks.space_ends.contains(&ends[0]) {
+                            true => [joint, tag],
+                            false => [tag, joint],
+                        };
+                        (first, last, direction, material)
+                    }
+                    None => (joint, tag, direction, self.materials.elastic(turning, 0.0)),
+                },
+            );
+        }
+        let [c, s] = frame.direction;
+        let springs: Vec<String> = springs
+            .into_iter()
+            .map(|(first, last, direction, material)| {
+                let element = self.element();
+                format!("({element}, {first}, {last}, {direction}, {material})")
+            })
+            .collect();
+        let _ = writeln!(
+            self.space_hinges,
+            "    ({tag}, {joint}, ({c:?}, {s:?}), ({})),",
+            springs.join(", ")
+        );
+        self.remark("Ends of members with hinges are joined to their joints by springs of 1e6 times the stiffest member where they have no hinge.");
+        Ok(tag)
+    }
+}
+
+/// An end of a member with hinges, and the stiffness of springs that hold it otherwise: vertically, and in rotation.
+struct Hinges {
+    place: SpacePlace,
+    end: MemberEnd,
+    stiff: [f64; 2],
+}
+
+/// Of springs that stand for a rigid connection \[N/m, N·m/rad\].
+fn stiffest(frame: &SpaceFrame, storey_heights: &[f64]) -> [f64; 2] {
+    let mut most = [0.0_f64; 2];
+    for member in &frame.members {
+        let length = frame.length(member.place, storey_heights);
+        let section = &member.section;
+        let [a, b] = section.flexural_rigidity;
+        let bending = a.max(b) / length;
+        let axial = section.axial_rigidity.map_or(0.0, |own| own / length);
+        most[0] = most[0].max(axial).max(12.0 * bending / (length * length));
+        most[1] = most[1].max(4.0 * bending);
+    }
+    most.map(|own| STIFF * own)
 }

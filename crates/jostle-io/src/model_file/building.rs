@@ -122,7 +122,7 @@ fn read(
         Kind::FramesInPlan => reader.open(field, &[Section::Building, Section::Shear]),
         Kind::SpaceFrame => reader.open(
             field,
-            &[Section::Building, Section::Shear, Section::SpaceFrame],
+            &[Section::Building, Section::SpaceFrame, Section::Shear],
         ),
         Kind::Given => reader.open(field, &[Section::Building, Section::Given]),
     }?;
@@ -255,16 +255,7 @@ fn read(
             stated.and_then(|field| hinges::read_storeys(reader, &field, shear))
         }
         // Those of a plan are part of it.
-        Structure::Tiers(_) => {
-            if let (Some(field), true) = (&stated, kind == Kind::SpaceFrame) {
-                *reader.bad(
-                    field,
-                    "is not possible in a space frame yet: it stays elastic",
-                ) = Some("leave out hinges; plane frames and storey springs can yield".into());
-            }
-            None
-        }
-        Structure::Given(_) => None,
+        Structure::Tiers(_) | Structure::Given(_) => None,
         Structure::Frame(frame) => {
             let reinforced = reinforced::read(reader, &view, frame.storey_heights.len());
             let here = (reader.count_faults() == noted && is_sound(&building))

@@ -20,7 +20,7 @@ const DEFAULT_INITIAL: f64 = 100.0;
 const RIGID_INITIAL: f64 = 1e5;
 
 /// Reads the rule; `None` after a fault.
-fn read_rule(reader: &mut Reader<'_>, view: &View<'_>) -> Option<HysteresisRule> {
+pub(super) fn read_rule(reader: &mut Reader<'_>, view: &View<'_>) -> Option<HysteresisRule> {
     let name = match reader.get(view, "rule") {
         Some(field) => reader.choice(&field, RULES, &[]),
         None => {
@@ -133,6 +133,18 @@ fn within(reader: &mut Reader<'_>, field: &Field<'_>, limit: f64) -> Option<f64>
     None
 }
 
+/// Reads the initial stiffness of hinges; `None` after a fault.
+pub(super) fn read_initial(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Initial> {
+    match reader.get(view, "initial") {
+        Some(field) if field.as_text() == Some("rigid") => Some(Initial::Rigid),
+        Some(field) => reader
+            .positive(&field, Dimension::Dimensionless)
+            .map(Initial::Times),
+        None if view.has("from") => Some(Initial::Rigid),
+        None => Some(Initial::Times(DEFAULT_INITIAL)),
+    }
+}
+
 /// Hinges of a frame. `members` are its reinforced members; `None` after faults elsewhere.
 pub(super) fn read_frame(
     reader: &mut Reader<'_>,
@@ -142,14 +154,7 @@ pub(super) fn read_frame(
 ) -> Option<Hinges> {
     let view = reader.open(field, &[Section::Hinges])?;
     let rule = read_rule(reader, &view);
-    let initial = match reader.get(&view, "initial") {
-        Some(field) if field.as_text() == Some("rigid") => Some(Initial::Rigid),
-        Some(field) => reader
-            .positive(&field, Dimension::Dimensionless)
-            .map(Initial::Times),
-        None if view.has("from") => Some(Initial::Rigid),
-        None => Some(Initial::Times(DEFAULT_INITIAL)),
-    };
+    let initial = read_initial(reader, &view);
     let source = reader
         .get(&view, "from")
         .map(|field| reader.choice(&field, HINGE_SOURCES, &[]));
@@ -189,7 +194,7 @@ pub(super) fn read_frame(
 
 /// Stiffness of a hinge before it cracks.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Initial {
+pub(super) enum Initial {
     /// In units of EI/L; ratios refer to it.
     Times(f64),
     /// Practically rigid; ratios refer to the member end, 6 EI/L.
@@ -197,7 +202,7 @@ enum Initial {
 }
 
 impl Initial {
-    fn stiffness(self, rigidity: f64, length: f64) -> f64 {
+    pub(super) fn stiffness(self, rigidity: f64, length: f64) -> f64 {
         let times = match self {
             Self::Times(times) => times,
             Self::Rigid => RIGID_INITIAL,
@@ -207,7 +212,7 @@ impl Initial {
 
     /// Ratios of the hinge from those of the file. With a rigid hinge they are those of hinge and member in series:
     /// a hinge of K r / (1 − r) in series with a member end of K.
-    fn ratios(self, given: Corners) -> Corners {
+    pub(super) fn ratios(self, given: Corners) -> Corners {
         let in_series = |ratio: f64| 6.0 / RIGID_INITIAL * ratio / (1.0 - ratio);
         match self {
             Self::Times(_) => given,
@@ -246,7 +251,11 @@ fn read_members(
     let tables = entries.as_deref().unwrap_or(single);
     let read: Vec<_> = tables
         .iter()
-        .map(|table| read_moments(reader, table, rule, initial == Some(Initial::Rigid)))
+        .map(|table| {
+            let view = reader.open(table, &[Section::Hinge])?;
+            let rigid = initial == Some(Initial::Rigid);
+            read_moments(reader, table, &view, None, rule, rigid)
+        })
         .collect();
     let (rule, initial) = (rule?, initial?);
     let mut rows = Vec::new();
@@ -299,17 +308,24 @@ fn read_numbers(reader: &mut Reader<'_>, view: &View<'_>) -> [Option<Option<f64>
     })
 }
 
-/// Moments and ratios of both sides; `None` after a fault.
-fn read_moments(
+/// Moments and ratios of both sides; `None` after a fault. `view`: the table of `field`. What it lacks is that of `beside`.
+pub(super) fn read_moments(
     reader: &mut Reader<'_>,
     field: &Field<'_>,
+    view: &View<'_>,
+    beside: Option<&View<'_>>,
     rule: Option<HysteresisRule>,
     rigid: bool,
 ) -> Option<[Corners; 2]> {
-    let view = reader.open(field, &[Section::Hinge])?;
-    let common = read_numbers(reader, &view);
+    let mut common = read_numbers(reader, view);
+    if let Some(beside) = beside {
+        let others = read_numbers(reader, beside);
+        for (own, other) in common.iter_mut().zip(others) {
+            *own = own.or(other);
+        }
+    }
     let subs = [Side::Positive, Side::Negative].map(|side| {
-        let field = reader.get(&view, name_of(side))?;
+        let field = reader.get(view, name_of(side))?;
         let sub = reader.open(&field, &[Section::HingeSide])?;
         let own = read_numbers(reader, &sub);
         Some((sub, own))
@@ -321,7 +337,9 @@ fn read_moments(
     let bilinear = rule == HysteresisRule::Bilinear;
     if bilinear {
         for key in ["cracking", "post_cracking"] {
-            if let Some(field) = reader.get(&view, key) {
+            let own = reader.get(view, key);
+            let beside = beside.and_then(|beside| reader.get(beside, key));
+            if let Some(field) = own.or(beside) {
                 *reader.bad(&field, "has no place in a bilinear curve") =
                     Some(format!("remove {key}, or set rule = \"normal\""));
             }
@@ -342,7 +360,7 @@ fn read_moments(
                 None => {
                     complete = false;
                     if side == 0 || !one_for_both {
-                        let place = sub.map_or(&view, |(sub, _)| sub);
+                        let place = sub.map_or(view, |(sub, _)| sub);
                         reader.missing(place, key, format!("add {key} = {example}"));
                     }
                 }
@@ -372,7 +390,7 @@ fn read_moments(
 }
 
 /// Notes the faults of a spring where its numbers stand.
-fn note(reader: &mut Reader<'_>, field: &Field<'_>, faults: Vec<SpringFault>) {
+pub(super) fn note(reader: &mut Reader<'_>, field: &Field<'_>, faults: Vec<SpringFault>) {
     let Some(view) = reader.reopen(field, &[Section::Hinge]) else {
         return;
     };

@@ -110,7 +110,11 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, held_by: HeldBy) ->
         })
         .collect();
     let (mut yielding, mut element_names) = (Vec::new(), Vec::new());
-    let hinges = reader.get(view, "hinges");
+    // A space frame has those of its members.
+    let hinges = match held_by {
+        HeldBy::SpaceFrame => None,
+        HeldBy::Springs | HeldBy::Frames => reader.get(view, "hinges"),
+    };
     let storeys = match elements {
         Some(entries) => {
             for key in ["stiffness", "eccentricity"] {
@@ -153,7 +157,8 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, held_by: HeldBy) ->
         HeldBy::Frames => plan_frames::read_all(reader, view, &storey_heights),
         HeldBy::Springs | HeldBy::SpaceFrame => Vec::new(),
     };
-    let space_frame = grid.map(|grid| space_frame::read(reader, view, grid, &plans));
+    let space_frame =
+        grid.map(|grid| space_frame::read(reader, view, grid, &plans, &storey_heights));
     Planned {
         tiers: Tiers {
             floors,

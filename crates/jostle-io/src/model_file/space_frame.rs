@@ -7,6 +7,7 @@ use jostle::{PlanPoint, SpaceFrame, SpaceMember, SpacePlace, SpaceSection};
 use super::frame::{flexible_members, read_poisson_ratio, stiffness_factors};
 use super::plan::pair;
 use super::section::read_modulus;
+use super::space_hinges::{Moments, SpaceHinges};
 use crate::keys::{AXIAL, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
@@ -146,6 +147,7 @@ pub(super) fn read(
     view: &View<'_>,
     grid: Grid,
     plans: &[Vec<PlanPoint>],
+    storey_heights: &[f64],
 ) -> SpaceFrame {
     let (modulus, modulus_is_bad) = read_modulus(reader, view);
     let (column_factor, beam_factor) = stiffness_factors(reader, view);
@@ -157,7 +159,9 @@ pub(super) fn read(
     let stretches = reader
         .get(view, "axial")
         .is_none_or(|field| reader.choice(&field, AXIAL, &[]) != Some("rigid"));
+    let hinges = SpaceHinges::read(reader, view, plans.len());
     let mut members = Vec::new();
+    let mut own_moments = Vec::new();
     for sort in Sort::ALL {
         let is_column = sort == Sort::Column;
         let material = Material {
@@ -174,33 +178,88 @@ pub(super) fn read(
             ],
             shears: if is_column { shears.0 } else { shears.1 },
         };
-        let own = read_sort(reader, view, sort, &grid, plans, material);
-        members.extend(own.into_iter().map(|(place, mut section)| {
+        let own = read_sort(reader, view, sort, &grid, plans, material, hinges.as_ref());
+        for (place, own) in own {
+            let mut section = own.section;
             if is_column && !stretches {
                 section.axial_rigidity = None;
             }
-            SpaceMember { place, section }
-        }));
+            members.push(SpaceMember::elastic(place, section));
+            own_moments.push(own.moments);
+        }
     }
     let [lines_x, lines_y] = grid.lines;
-    SpaceFrame {
+    let mut frame = SpaceFrame {
         at: [0.0, 0.0],
         direction: grid.direction,
         lines_x,
         lines_y,
         members,
+    };
+    if let Some(hinges) = hinges {
+        add_hinges(
+            reader,
+            view,
+            &hinges,
+            &own_moments,
+            &mut frame,
+            storey_heights,
+        );
+    }
+    frame
+}
+
+/// Gives members the hinges of their moments: their own, or those of all columns or beams of their storey.
+fn add_hinges(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    hinges: &SpaceHinges<'_>,
+    own_moments: &[Option<Moments<'_>>],
+    frame: &mut SpaceFrame,
+    storey_heights: &[f64],
+) {
+    let none_of_its_own = own_moments.iter().all(Option::is_none);
+    if hinges.is_empty()
+        && none_of_its_own
+        && let Some(field) = reader.get(view, "hinges")
+    {
+        *reader.bad(&field, "has no moments") = Some("add column or beam = { yield = \"400 kN.m\", post_yield = 0.02 }, or hinge to some columns or beams".into());
+        return;
+    }
+    for (index, own) in own_moments.iter().enumerate() {
+        let SpaceMember { place, section, .. } = frame.members[index];
+        let is_column = matches!(place, SpacePlace::Column { .. });
+        let usual = || hinges.usual(is_column, place.storey());
+        let Some(moments) = own.as_ref().or_else(usual) else {
+            continue;
+        };
+        let length = frame.length(place, storey_heights);
+        // A fault of one is that of all alike.
+        match hinges.springs(reader, moments, &section, length) {
+            Ok(springs) => frame.members[index].hinges = springs,
+            Err(()) => return,
+        }
     }
 }
 
+/// Section and hinges of a member.
+#[derive(Clone)]
+struct Member<'n> {
+    section: SpaceSection,
+    /// Moments of its own.
+    moments: Option<Moments<'n>>,
+}
+
 /// Members of one sort: a table for all places, or a list of tables, each for the places that it names.
-fn read_sort(
+fn read_sort<'n>(
     reader: &mut Reader<'_>,
-    view: &View<'_>,
+    view: &View<'n>,
     sort: Sort,
     grid: &Grid,
     plans: &[Vec<PlanPoint>],
     material: Material,
-) -> BTreeMap<SpacePlace, SpaceSection> {
+    hinges: Option<&SpaceHinges<'n>>,
+) -> BTreeMap<SpacePlace, Member<'n>> {
     let mut found = BTreeMap::new();
     let [nx, ny] = grid.lines.each_ref().map(Vec::len);
     // Crossings at which a member begins.
@@ -235,11 +294,12 @@ fn read_sort(
         let omit = reader
             .get(&own, "omit")
             .is_some_and(|field| reader.flag(&field).unwrap_or(false));
-        let section = if omit {
+        let moments = read_hinge(reader, view, &own, sort, hinges);
+        let member = if omit {
             None
         } else {
             match read_section(reader, &own, sort, material) {
-                Some(section) => Some(section),
+                Some(section) => Some(Member { section, moments }),
                 None => continue,
             }
         };
@@ -260,8 +320,8 @@ fn read_sort(
                         continue;
                     }
                     matched = true;
-                    match section {
-                        Some(section) => found.insert(place, section),
+                    match &member {
+                        Some(member) => found.insert(place, member.clone()),
                         None => found.remove(&place),
                     };
                 }
@@ -273,6 +333,27 @@ fn read_sort(
         }
     }
     found
+}
+
+/// Moments of the hinges of some members.
+fn read_hinge<'n>(
+    reader: &mut Reader<'_>,
+    building: &View<'_>,
+    own: &View<'n>,
+    sort: Sort,
+    hinges: Option<&SpaceHinges<'n>>,
+) -> Option<Moments<'n>> {
+    let field = reader.get(own, "hinge")?;
+    match hinges {
+        Some(hinges) => hinges.of_entry(reader, &field, sort == Sort::Column),
+        None => {
+            if !building.has("hinges") {
+                *reader.bad(&field, "needs a rule") =
+                    Some("add hinges = { rule = \"bilinear\" } to the building".into());
+            }
+            None
+        }
+    }
 }
 
 /// Whether both ends of a member, and its middle, lie in a plan.

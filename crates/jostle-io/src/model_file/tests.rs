@@ -125,8 +125,10 @@ elastic_modulus = 3e10
 lines_x = [0, 6]
 lines_y = [0, 5]
 beam_x = { width = 1, depth = 1 }
+hinges = { rule = "pinched", column = { x = { yield = 1 } }, beam = { yield = 1 } }
 [[building.column]]
 size = [1, 1]
+hinge = { yield = 1, positive = { yield = 1 } }
 [[building.beam_y]]
 width = 1
 depth = 1

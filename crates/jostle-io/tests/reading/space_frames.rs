@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use jostle::hysteresis::{Hysteresis, Side};
 use jostle::{SpaceFrame, SpacePlace, Structure, System, Tiers};
 use jostle_io::{Format, Input, read_model_text};
 
@@ -170,7 +171,7 @@ fn what_does_not_fit_is_refused_with_the_remedy() {
         (
             "mass = \"90 t\"",
             "mass = \"90 t\"\nhinges = { rule = \"bilinear\" }",
-            "it stays elastic",
+            "has no moments",
         ),
         (
             "mass = \"90 t\"",
@@ -222,4 +223,85 @@ fn histories_name_members_of_the_grid() {
         let said = said(&output(name));
         assert!(said.contains("A.column.X.Y.STOREY"), "{said}");
     }
+}
+
+/// Rule, initial stiffness and moments are those of the plane of bending, of the member, and of its storey.
+#[test]
+fn hinges_are_those_of_members_and_planes() {
+    let hinges = |text: &str| {
+        L_SHAPE.replacen(
+            "mass =",
+            &format!("hinges = {{ rule = \"bilinear\", {text} }}\nmass ="),
+            1,
+        )
+    };
+    let column = |own: &SpaceFrame, line: [usize; 2], storey: usize| {
+        let place = SpacePlace::Column { line, storey };
+        let mut members = own.members.iter();
+        let member = members.find(|own| own.place == place).expect("a column");
+        (member.section, member.hinges)
+    };
+    let yielding = |own: &Hysteresis| own.backbone().side(Side::Positive).yielding.force;
+    let near = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-12;
+    let moments = "{ yield = \"200 kN.m\", post_yield = 0.02 }";
+    let own = frame(&hinges(&format!("initial = 50, column = {moments}")));
+    for member in &own.members {
+        let is_column = matches!(member.place, SpacePlace::Column { .. });
+        assert_eq!(member.may_yield(), is_column);
+    }
+    let (section, both) = column(&own, [2, 0], 1);
+    for (plane, hinge) in both.iter().enumerate() {
+        let hinge = hinge.as_ref().expect("a hinge");
+        assert!(near(yielding(hinge), 200e3));
+        let stiffness = 50.0 * section.flexural_rigidity[plane] / 3.2;
+        assert!(near(hinge.backbone().initial(), stiffness), "{stiffness}");
+    }
+    // What a plane does not say stands beside it; one plane alone leaves the other elastic.
+    let own = frame(&hinges(
+        "column = { post_yield = 0.02, x = { yield = \"200 kN.m\" }, y = { yield = \"90 kN.m\" } }",
+    ));
+    let both = column(&own, [0, 0], 0)
+        .1
+        .map(|own| yielding(&own.expect("a hinge")));
+    assert!(near(both[0], 200e3) && near(both[1], 90e3), "{both:?}");
+    let own = frame(&hinges(
+        "column = { y = { yield = \"90 kN.m\", post_yield = 0.02 } }",
+    ));
+    let [x, y] = column(&own, [0, 0], 0).1;
+    assert!(x.is_none() && y.is_some());
+    // Storey by storey; places of their own.
+    let storeys = hinges(&format!(
+        "beam = [{moments}, {moments}, {{ yield = \"70 kN.m\", post_yield = 0.02 }}]"
+    )) + "\n[[building.column]]\nsize = [\"0.7 m\", \"0.7 m\"]\nx = 1\ny = 1\nstoreys = 1\nhinge = { yield = \"900 kN.m\", post_yield = 0.01 }\n";
+    let own = frame(&storeys);
+    for member in &own.members {
+        match member.place {
+            SpacePlace::Column { line, storey } => {
+                assert_eq!(member.may_yield(), line == [0, 0] && storey == 0);
+            }
+            SpacePlace::BeamX { floor, .. } | SpacePlace::BeamY { floor, .. } => {
+                let wanted = if floor == 2 { 70e3 } else { 200e3 };
+                assert!(near(yielding(&member.hinges[0].expect("a hinge")), wanted));
+                assert!(member.hinges[1].is_none());
+            }
+        }
+    }
+    for (text, expected) in [
+        ("from = \"section\"", "give the moments of column and beam"),
+        ("beam = { x = { yield = 1 } }", "vertical plane only"),
+        (
+            "column = { x = { yield = 1e5, post_yield = 0.1 }, positive = { yield = 2e5 } }",
+            "move positive into x and y",
+        ),
+        ("column = { yield = 1e5 }", "add post_yield"),
+        ("column = { yield = -1e5, post_yield = 0.1 }", "yield"),
+        ("column = [{ yield = 1e5, post_yield = 0.1 }]", "3"),
+        ("colum = {}", "column"),
+    ] {
+        let said = said(&hinges(text));
+        assert!(said.contains(expected), "{text}:\n{said}");
+    }
+    let without = L_SHAPE.to_owned()
+        + "\n[[building.column]]\nsize = [\"0.7 m\", \"0.7 m\"]\nhinge = { yield = 1e5, post_yield = 0.1 }\n";
+    assert!(said(&without).contains("add hinges = { rule"));
 }

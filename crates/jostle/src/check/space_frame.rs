@@ -43,6 +43,23 @@ pub(super) fn check_space_frame(
             },
         );
     }
+    let is_column = |place| matches!(place, SpacePlace::Column { .. });
+    let mut beams = frame.members.iter().filter(|own| !is_column(own.place));
+    if let Some(beam) = beams.find(|own| own.hinges[1].is_some()) {
+        faults.add(
+            format!("{path}.{}", key(beam.place)),
+            format!(
+                "has a second hinge at {}: beams bend in their vertical plane only, because floors are rigid; leave it out",
+                name(beam.place)
+            ),
+        );
+    }
+    let mut hinges = frame.members.iter().flat_map(|own| own.hinges).flatten();
+    faults.require(
+        hinges.all(|own| own.falling_branch().is_none()),
+        format!("{path}.hinges"),
+        || "cannot lose their strength in a space frame; take another rule".into(),
+    );
     if faults.0.len() > before {
         return;
     }

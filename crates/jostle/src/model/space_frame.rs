@@ -1,6 +1,7 @@
 //! Space frames: columns at the crossings of a grid of lines, beams along the lines, rigid floors.
 
 use super::PlanPoint;
+use crate::hysteresis::Hysteresis;
 
 /// Columns and beams in space, tied together by rigid floors.
 ///
@@ -24,7 +25,7 @@ use super::PlanPoint;
 ///     direction: [1.0, 0.0],
 ///     lines_x: vec![0.0, 6.0],
 ///     lines_y: vec![0.0, 5.0],
-///     members: all.map(|(place, section)| SpaceMember { place, section }).collect(),
+///     members: all.map(|(place, section)| SpaceMember::elastic(place, section)).collect(),
 /// };
 /// assert_eq!(frame.point([1, 1]), [6.0, 5.0]);
 /// ```
@@ -49,6 +50,29 @@ pub struct SpaceMember {
     pub place: SpacePlace,
     /// Its section.
     pub section: SpaceSection,
+    /// Hinges at both of its ends, in rotation \[rad\] and moment \[N·m\], by plane of bending: in the vertical planes along x and
+    /// across of a column, in the vertical plane of a beam; `None` stays elastic. A beam has no second one. Positive is tension at
+    /// the bottom of a beam, and on the face of a column to greater x, or further across, at either end. The two planes of a column
+    /// yield independently of each other and of its axial force.
+    pub hinges: [Option<Hysteresis>; 2],
+}
+
+impl SpaceMember {
+    /// A member without hinges.
+    #[must_use]
+    pub fn elastic(place: SpacePlace, section: SpaceSection) -> Self {
+        Self {
+            place,
+            section,
+            hinges: [None; 2],
+        }
+    }
+
+    /// Whether it has a hinge.
+    #[must_use]
+    pub fn may_yield(&self) -> bool {
+        self.hinges.iter().any(Option::is_some)
+    }
 }
 
 /// Where a column or a beam is in the grid; all count from 0.
@@ -98,6 +122,19 @@ impl SpacePlace {
             Self::Column { line, .. } => [line; 2],
             Self::BeamX { span, line, .. } => [[span, line], [span + 1, line]],
             Self::BeamY { line, span, .. } => [[line, span], [line, span + 1]],
+        }
+    }
+}
+
+/// `column.X.Y.STOREY`, `beam_x.FLOOR.X.Y` or `beam_y.FLOOR.X.Y`, with the lines at which a beam begins; all count from 1.
+impl std::fmt::Display for SpacePlace {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let [[x, y], _] = self.crossings();
+        let (x, y, level) = (x + 1, y + 1, self.storey() + 1);
+        match self {
+            Self::Column { .. } => write!(formatter, "column.{x}.{y}.{level}"),
+            Self::BeamX { .. } => write!(formatter, "beam_x.{level}.{x}.{y}"),
+            Self::BeamY { .. } => write!(formatter, "beam_y.{level}.{x}.{y}"),
         }
     }
 }
@@ -161,6 +198,12 @@ impl SpaceSection {
 }
 
 impl SpaceFrame {
+    /// Whether any member has a hinge.
+    #[must_use]
+    pub fn may_yield(&self) -> bool {
+        self.members.iter().any(SpaceMember::may_yield)
+    }
+
     /// Where the crossing of two lines stands on the site \[m\].
     #[must_use]
     pub fn point(&self, [x, y]: [usize; 2]) -> PlanPoint {

@@ -160,7 +160,10 @@ impl Tiers {
     /// Whether springs or frames may crack or yield.
     #[must_use]
     pub fn may_yield(&self) -> bool {
-        !self.yielding.is_empty() || self.frames.iter().any(PlanFrame::may_yield)
+        let in_space = self.space_frame.as_ref();
+        !self.yielding.is_empty()
+            || self.frames.iter().any(PlanFrame::may_yield)
+            || in_space.is_some_and(SpaceFrame::may_yield)
     }
 
     /// The springs of a storey, counted from 0, before anything yields: those that stay elastic and those that yield together, about

@@ -43,6 +43,7 @@ pub(super) fn isolation_summary(
             | SpringPlace::Base { .. }
             | SpringPlace::ColumnInPlan { .. }
             | SpringPlace::BeamInPlan { .. }
+            | SpringPlace::InSpace { .. }
             | SpringPlace::PlanStorey { .. }
             | SpringPlace::Element { .. } => {}
         }

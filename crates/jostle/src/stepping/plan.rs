@@ -508,8 +508,11 @@ fn check_solver(
     let in_all_modes = |building: &BuildingSystem| building.modal_damping.is_some();
     let damped = system.buildings.iter().position(in_all_modes);
     if solver != Solver::Modal {
-        if system.is_in_space() && solver != Solver::Series {
-            faults.extend(refused_in_space(solver, system));
+        if system.is_in_space() && solver == Solver::Product {
+            faults.push(ModelFault {
+                path: "analysis.solver".into(),
+                problem: "product cannot be used: no path of transfer matrices leads through buildings with a plan; leave it out, or take solver = \"riccati\"".into(),
+            });
         }
         faults.extend(damped.map(|index| ModelFault {
             path: format!("building[{index}].damping.modes"),
@@ -538,25 +541,6 @@ fn check_solver(
             },
         });
     }
-}
-
-/// What direct steps of buildings with a plan do not support.
-fn refused_in_space(solver: Solver, system: &System) -> Vec<ModelFault> {
-    let mut faults = Vec::new();
-    if solver == Solver::Product {
-        faults.push(ModelFault {
-            path: "analysis.solver".into(),
-            problem: "product cannot be used: no path of transfer matrices leads through buildings with a plan; leave it out, or take solver = \"riccati\"".into(),
-        });
-    }
-    let mut buildings = system.buildings.iter();
-    if buildings.any(|own| own.is_in_space() && !own.members.forms.is_empty()) {
-        faults.push(ModelFault {
-            path: "output.members".into(),
-            problem: "forces of columns and beams of buildings with a plan need modal stepping, which buildings that yield cannot have; leave members out, or let the buildings stay elastic and leave solver and integrator out".into(),
-        });
-    }
-    faults
 }
 
 /// The free-vibration step where motion is exact over a step. Only the search for contacts and peaks needs it: cubics must

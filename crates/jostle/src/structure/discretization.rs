@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::element::{THETA, X};
 use super::member_forces::{FrameMember, MemberPlace};
 use super::space_frame::CondensedFrame;
+use super::space_joints::JointedFrame;
 use super::spring_place::{BaseMotion, MemberEnd, SpringPlace};
 use super::stick_model::{Coupling, Hinge, Member, Node, Spring, StickModel, Support};
 use super::tiers::discretize_tiers;
@@ -39,8 +40,10 @@ pub struct Discretization {
     pub frames: Vec<String>,
     /// Columns that two of these frames share.
     pub shared_columns: Vec<SharedColumn>,
-    /// The space frame that holds the floors.
+    /// The space frame that holds the floors, if no member of it has a hinge.
     pub space_frame: Option<Arc<CondensedFrame>>,
+    /// The space frame that holds the floors, if a member of it has a hinge.
+    pub jointed_frame: Option<Arc<JointedFrame>>,
     /// Names of the columns and walls at points of a plan, as far as they have one.
     pub element_names: Vec<Option<String>>,
 }
@@ -124,6 +127,7 @@ impl Discretization {
             frames: Vec::new(),
             shared_columns: Vec::new(),
             space_frame: None,
+            jointed_frame: None,
             element_names: Vec::new(),
         }
     }
@@ -420,6 +424,7 @@ pub(super) fn discretize_frame(
         frames: Vec::new(),
         shared_columns: Vec::new(),
         space_frame: None,
+        jointed_frame: None,
         element_names: Vec::new(),
     };
     // Hinges come before springs, in the order of the stick model.
@@ -628,6 +633,7 @@ fn discretize_given(given: &Given) -> Discretization {
         frames: Vec::new(),
         shared_columns: Vec::new(),
         space_frame: None,
+        jointed_frame: None,
         element_names: Vec::new(),
         foot: Some(ground),
         mat: None,
@@ -714,6 +720,7 @@ fn discretize_shear(shear: &Shear, base: &Base, springs: &[Hysteresis]) -> Discr
         frames: Vec::new(),
         shared_columns: Vec::new(),
         space_frame: None,
+        jointed_frame: None,
         element_names: Vec::new(),
     }
 }

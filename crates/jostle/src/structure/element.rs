@@ -1,7 +1,9 @@
 //! Stiffness of the massless elements between lumped masses, in global axes.
 
 use crate::linear::StepMatrix;
-use crate::structure::{Coupling, Hinge, Member, Node, RigidFoundation, Spring, StickModel};
+use crate::structure::{
+    Coupling, DeformationElement, Hinge, Member, Node, RigidFoundation, Spring, StickModel,
+};
 
 /// Displacement of a node: horizontal, vertical, rotation.
 pub(crate) const X: usize = 0;
@@ -78,6 +80,7 @@ pub(crate) fn untied(stick_model: &StickModel) -> impl Iterator<Item = ElementSt
                 .map(move |spring| of_spring(spring, foundation)),
         )
         .chain(stick_model.couplings.iter().map(of_coupling))
+        .chain(stick_model.deformation_elements.iter().map(of_deformations))
         .chain(foundation.map(of_soil))
 }
 
@@ -291,6 +294,27 @@ fn of_coupling(coupling: &Coupling) -> ElementStiffness {
     stiffness.couple(Part::Elastic, a, b, coupling.stiffness);
     stiffness.couple(Part::Undamped, a, b, -coupling.softening);
     stiffness.couple(Part::Dashpot, a, b, coupling.dashpot);
+    stiffness
+}
+
+/// k₁₁ d₁d₁ᵀ + k₁₁ d₂d₂ᵀ + k₁₂ (d₁d₂ᵀ + d₂d₁ᵀ).
+fn of_deformations(element: &DeformationElement) -> ElementStiffness {
+    let mut stiffness = ElementStiffness::default();
+    let [own, other] = element.stiffness;
+    for (i, first) in element.deformations.iter().enumerate() {
+        stiffness.combine(Part::Elastic, first, own);
+        for (j, second) in element.deformations.iter().enumerate() {
+            if i == j {
+                continue;
+            }
+            for &(a, of_a) in first {
+                for &(b, of_b) in second {
+                    let value = other * of_a * of_b;
+                    stiffness.entries.push((Part::Elastic, a, b, value));
+                }
+            }
+        }
+    }
     stiffness
 }
 

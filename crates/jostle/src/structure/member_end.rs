@@ -16,8 +16,20 @@ pub(crate) fn end_stiffnesses(stick_model: &StickModel) -> Vec<Option<f64>> {
         hinge.ends.iter().for_each(|end| hinged[*end] = true);
     }
     let yielding = stick_model.hinges.iter().filter(|h| h.hysteresis.is_some());
+    // In a space frame k₁₁ + k₁₂ is that stiffness.
+    let mut in_space = vec![None; stick_model.nodes.len()];
+    for element in &stick_model.deformation_elements {
+        for ((node, _), _) in element.deformations.iter().flatten() {
+            if stick_model.space_ends.contains(node) {
+                in_space[*node] = Some(element.stiffness[0] + element.stiffness[1]);
+            }
+        }
+    }
     yielding
         .map(|hinge| {
+            if let Some(own) = hinge.ends.iter().find_map(|end| in_space[*end]) {
+                return Some(own);
+            }
             // The end that is not a joint has one member only; follow its segments from there.
             let ends = hinge.ends.iter();
             let start = *ends.max().filter(|end| at_node[**end].len() == 1)?;

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::model::{SharedColumn, SpacePlace};
 use crate::structure::element::{self, ElementStiffness, Part, THETA, X, Y};
-use crate::structure::{AssembledBuilding, CondensedFrame, Member, MemberEnd, SpringPlace};
+use crate::structure::{AssembledBuilding, Member, MemberEnd, SpringPlace};
 
 /// Where a column or a beam of a frame is; all count from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,15 +43,7 @@ impl std::fmt::Display for MemberPlace {
         match self {
             Self::Column { line, storey } => write!(formatter, "column.{line}.{storey}"),
             Self::Beam { floor, span } => write!(formatter, "beam.{floor}.{span}"),
-            Self::InSpace(place) => {
-                let [[x, y], _] = place.crossings();
-                let (x, y, level) = (x + 1, y + 1, place.storey() + 1);
-                match place {
-                    SpacePlace::Column { .. } => write!(formatter, "column.{x}.{y}.{level}"),
-                    SpacePlace::BeamX { .. } => write!(formatter, "beam_x.{level}.{x}.{y}"),
-                    SpacePlace::BeamY { .. } => write!(formatter, "beam_y.{level}.{x}.{y}"),
-                }
-            }
+            Self::InSpace(place) => place.fmt(formatter),
         }
     }
 }
@@ -264,6 +256,9 @@ impl MemberForces {
         if let Some(frame) = &building.discretization.space_frame {
             forces.add_space_frame(building, frame);
         }
+        if let Some(frame) = &building.discretization.jointed_frame {
+            forces.add_jointed_frame(building, frame);
+        }
         if building.discretization.members.is_empty() {
             return forces;
         }
@@ -289,7 +284,7 @@ impl MemberForces {
                 let forms = [
                     cuts.axial(element, side),
                     cuts.shear(element, side),
-                    cuts.moment(member.place, at, element, side),
+                    cuts.moment(member, at, element, side),
                 ];
                 MemberSection {
                     at,
@@ -309,65 +304,6 @@ impl MemberForces {
         }
         forces.share_columns(&building.discretization.shared_columns);
         forces
-    }
-
-    /// Adds the members of a space frame: their forces follow from the motions of the floors.
-    fn add_space_frame(&mut self, building: &AssembledBuilding, frame: &CondensedFrame) {
-        let equations = &building.equations;
-        let floors = &building.discretization.floors;
-        let of_floor = |floor: &usize| [X, Y, THETA].map(|component| (*floor, component));
-        let dofs = floors.iter().flat_map(of_floor);
-        let dofs: Vec<Option<usize>> = dofs.map(|place| equations.dof(place)).collect();
-        let nothing = self.index_of(LinearForm::default());
-        for member in &frame.members {
-            // Every row occurs once.
-            let mut add = |row: &[f64]| {
-                let entries = dofs.iter().zip(row);
-                let entries = entries.filter_map(|(dof, share)| Some(((*dof)?, *share)));
-                let mut displacement: Vec<(usize, f64)> = entries.collect();
-                displacement.retain(|(_, share)| *share != 0.0);
-                if displacement.is_empty() {
-                    return nothing;
-                }
-                self.forms.push(LinearForm {
-                    displacement,
-                    ..LinearForm::default()
-                });
-                self.forms.len() - 1
-            };
-            let (axial, torsion) = (add(&member.axial), add(&member.torsion));
-            let shear = add(&member.bending.shear);
-            let shear_across = member.across.as_ref().map(|own| add(&own.shear));
-            let place = MemberPlace::InSpace(member.place);
-            let level = member.place.storey();
-            let sections = [SectionAt::First, SectionAt::Last].into_iter().enumerate();
-            let sections = sections.map(|(side, at)| {
-                let moment = add(&member.bending.moments[side]);
-                let across = member.across.as_ref().map(|own| add(&own.moments[side]));
-                let floor = match (place.is_column(), side) {
-                    (true, 0) => level.checked_sub(1),
-                    _ => Some(level),
-                };
-                MemberSection {
-                    at,
-                    height: member.heights[side],
-                    dof: floor.and_then(|floor| equations.horizontal(floors[floor])),
-                    forms: [axial, shear, moment],
-                    across: Some([
-                        shear_across.unwrap_or(nothing),
-                        across.unwrap_or(nothing),
-                        torsion,
-                    ]),
-                }
-            });
-            let sections = sections.collect();
-            self.members.push(MemberSections {
-                frame: None,
-                place,
-                sections,
-                shared: None,
-            });
-        }
     }
 
     /// Adds up the axial forces that two frames give to one column.
@@ -456,7 +392,7 @@ impl MemberForces {
     }
 
     /// Where a form stands in the list, to which it is added if it is new.
-    fn index_of(&mut self, form: LinearForm) -> usize {
+    pub(super) fn index_of(&mut self, form: LinearForm) -> usize {
         // Those that are equal belong to one member or column line: look at the latest first.
         let known = self.forms.iter().rposition(|known| *known == form);
         known.unwrap_or_else(|| {
@@ -560,14 +496,20 @@ impl<'a> Cuts<'a> {
         }
     }
 
-    fn moment(&self, place: MemberPlace, at: SectionAt, element: usize, side: usize) -> LinearForm {
+    fn moment(
+        &self,
+        member: &FrameMember,
+        at: SectionAt,
+        element: usize,
+        side: usize,
+    ) -> LinearForm {
         let end = match at {
             SectionAt::First => Some(MemberEnd::First),
             SectionAt::Last => Some(MemberEnd::Last),
             _ => None,
         };
         let hinge = end.and_then(|end| {
-            let hinge = match place {
+            let hinge = match member.place {
                 MemberPlace::Column { line, storey } => SpringPlace::Column { storey, line, end },
                 MemberPlace::Beam { floor, span } => SpringPlace::Beam {
                     floor,
@@ -575,6 +517,10 @@ impl<'a> Cuts<'a> {
                     end,
                 },
                 MemberPlace::InSpace(_) => return None,
+            };
+            let hinge = match member.frame {
+                Some(frame) => hinge.in_frame(frame + 1)?,
+                None => hinge,
             };
             let mut places = self.building.discretization.spring_places.iter();
             places.position(|place| *place == hinge)
@@ -694,7 +640,7 @@ impl LinearForm {
     }
 
     /// Adds a share of a force on which neither contacts nor links act directly.
-    fn add(&mut self, share: f64, other: &Self) {
+    pub(super) fn add(&mut self, share: f64, other: &Self) {
         let scaled = |list: &[(usize, f64)]| -> Vec<(usize, f64)> {
             list.iter()
                 .map(|(index, value)| (*index, share * value))
@@ -708,7 +654,7 @@ impl LinearForm {
         self.constant += share * other.constant;
     }
 
-    fn tidy(mut self) -> Self {
+    pub(super) fn tidy(mut self) -> Self {
         self.displacement = merged(self.displacement);
         self.velocity = merged(self.velocity);
         self.acceleration = merged(self.acceleration);

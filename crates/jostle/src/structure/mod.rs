@@ -10,6 +10,8 @@ mod member_forces;
 mod path;
 mod plan_frames;
 mod space_frame;
+mod space_joints;
+mod space_member_forces;
 mod spring_place;
 mod step_equations;
 mod stick_model;
@@ -28,11 +30,12 @@ pub use member_forces::{
     SectionAt,
 };
 pub use space_frame::{Bending, CondensedFrame, CondensedJoint, CondensedMember};
+pub use space_joints::{JointNodes, JointedFrame, JointedMember};
 pub use spring_place::{BaseMotion, MemberEnd, SpringPlace};
 pub use step_equations::{StepEquations, solve_once};
 pub use stick_model::{
-    Coupling, FrameNode, Hinge, Member, Node, RigidFoundation, Spring, StickModel, StickPlanSpring,
-    Support,
+    Coupling, DeformationElement, FrameNode, Hinge, Member, Node, RigidFoundation, Spring,
+    StickModel, StickPlanSpring, Support,
 };
 pub use storey_forces::{StoreyForce, StoreyForces};
 pub(crate) use tiers::motion_at;

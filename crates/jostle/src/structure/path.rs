@@ -217,8 +217,10 @@ fn node_order(stick_model: &StickModel) -> Vec<(usize, usize)> {
         count[a] += 1;
         count[b] += 1;
     }
-    // An interior node of a beam or a column has two elements of one direction.
+    // An interior node of a beam or a column has two elements of one direction. Those of a space frame are known.
     let stage = |node: usize| match (horizontal[node], vertical[node]) {
+        _ if stick_model.space_joints.contains(&node) => 2,
+        _ if stick_model.space_ends.contains(&node) => 0,
         (2, 0) => 0,
         (0, 2) => 1,
         _ => 2,

@@ -25,7 +25,9 @@ pub(super) fn add_frames(
     }
     let floors = discretization.floors.clone();
     let sticks = &mut discretization.stick_model;
-    sticks.frame_nodes = vec![None; sticks.nodes.len()];
+    // Hinges of a space frame come before.
+    let first_place = sticks.hinges.len();
+    sticks.frame_nodes.resize(sticks.nodes.len(), None);
     let shared = tiers.shared_columns();
     let (mut offset, mut hinge_places) = (0.0, Vec::new());
     for (index, plan_frame) in tiers.frames.iter().enumerate() {
@@ -69,7 +71,8 @@ pub(super) fn add_frames(
         }
     }
     // Hinges come before springs.
-    discretization.spring_places.splice(0..0, hinge_places);
+    let before = first_place..first_place;
+    discretization.spring_places.splice(before, hinge_places);
     discretization.frames = tiers.frames.iter().map(|own| own.name.clone()).collect();
     discretization.shared_columns = shared;
 }

@@ -61,13 +61,15 @@ pub(super) type LowerTriangle = Vec<Vec<f64>>;
 
 /// A displacement on which a deformation depends.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Unknown {
+pub(super) enum Unknown {
     Joint(usize),
     Floor(usize),
+    /// Rotation of an end of a member beyond a hinge, about an axis of the lines.
+    End(usize),
 }
 
 /// A deformation as a sum of displacements.
-type Deformation = Vec<(Unknown, f64)>;
+pub(super) type Deformation = Vec<(Unknown, f64)>;
 
 /// Displacements of one end of a member.
 #[derive(Clone, Debug, Default)]
@@ -82,19 +84,19 @@ struct End {
 type JointUnknowns = [Option<usize>; 3];
 
 /// The unknowns of all joints.
-struct Joints {
+pub(super) struct Joints {
     /// By floor, then by crossing; `None` where no member reaches it.
-    unknowns: Vec<Option<JointUnknowns>>,
-    count: usize,
+    pub(super) unknowns: Vec<Option<JointUnknowns>>,
+    pub(super) count: usize,
     /// Crossings of a floor.
-    per_floor: usize,
+    pub(super) per_floor: usize,
     lines_x: usize,
 }
 
 impl Joints {
     /// Numbers them floor by floor, along the shorter side of the grid, so that what they couple stays close. A joint above a
     /// column that keeps its length rises with the one below.
-    fn new(frame: &SpaceFrame, floors: usize) -> Self {
+    pub(super) fn new(frame: &SpaceFrame, floors: usize) -> Self {
         let (lines_x, lines_y) = (frame.lines_x.len(), frame.lines_y.len());
         let per_floor = lines_x * lines_y;
         let place = |[x, y]: [usize; 2]| y * lines_x + x;
@@ -146,7 +148,7 @@ impl Joints {
         }
     }
 
-    fn at(&self, floor: usize, [x, y]: [usize; 2]) -> JointUnknowns {
+    pub(super) fn at(&self, floor: usize, [x, y]: [usize; 2]) -> JointUnknowns {
         self.unknowns[floor * self.per_floor + y * self.lines_x + x].unwrap_or_default()
     }
 }
@@ -159,15 +161,15 @@ enum Spring {
 }
 
 /// Direction of the deflection in a plane of bending, axis of rotation, and sign of the slope that a rotation about it is.
-type Plane = (usize, usize, f64);
+pub(super) type Plane = (usize, usize, f64);
 
 /// A member as springs.
-struct SpringMember {
-    length: f64,
-    axial: Option<(f64, Deformation)>,
-    torsion: (f64, Deformation),
-    bending: ([f64; 2], [Deformation; 2]),
-    across: Option<([f64; 2], [Deformation; 2])>,
+pub(super) struct SpringMember {
+    pub(super) length: f64,
+    pub(super) axial: Option<(f64, Deformation)>,
+    pub(super) torsion: (f64, Deformation),
+    pub(super) bending: ([f64; 2], [Deformation; 2]),
+    pub(super) across: Option<([f64; 2], [Deformation; 2])>,
 }
 
 impl SpringMember {
@@ -214,15 +216,40 @@ fn chord_rotation(slope: f64, turned: &Deformation, chord: &Deformation) -> Defo
 }
 
 /// The frame between floors with these centres \[m\].
-struct Assembly<'a> {
+pub(super) struct Assembly<'a> {
     frame: &'a SpaceFrame,
     heights: &'a [f64],
     /// Centres of mass in the axes of the lines.
     centres: Vec<PlanPoint>,
-    joints: Joints,
+    pub(super) joints: Joints,
 }
 
-impl Assembly<'_> {
+/// The planes in which a member bends between joints: those along x and across of a column, that of a beam.
+pub(super) fn planes(place: SpacePlace) -> &'static [Plane] {
+    match place {
+        SpacePlace::Column { .. } => &[(0, 1, 1.0), (1, 0, -1.0)],
+        SpacePlace::BeamX { .. } => &[(2, 1, -1.0)],
+        SpacePlace::BeamY { .. } => &[(2, 0, 1.0)],
+    }
+}
+
+impl<'a> Assembly<'a> {
+    pub(super) fn new(
+        frame: &'a SpaceFrame,
+        storey_heights: &'a [f64],
+        lumped: &[LumpedFloor],
+    ) -> Self {
+        let centres = lumped
+            .iter()
+            .map(|floor| frame.from_site(floor.tier.centre));
+        Self {
+            frame,
+            heights: storey_heights,
+            centres: centres.collect(),
+            joints: Joints::new(frame, lumped.len()),
+        }
+    }
+
     /// Displacements of a joint; the ground is floor `None`.
     fn end(&self, floor: Option<usize>, crossing: [usize; 2]) -> End {
         let Some(floor) = floor else {
@@ -247,21 +274,33 @@ impl Assembly<'_> {
         }
     }
 
-    fn springs(&self, place: SpacePlace, section: &SpaceSection) -> SpringMember {
+    /// A member as springs. `hinged`: numbers of the rotations of its first and last end beyond hinges, by plane of bending.
+    pub(super) fn springs(
+        &self,
+        place: SpacePlace,
+        section: &SpaceSection,
+        hinged: [Option<[usize; 2]>; 2],
+    ) -> SpringMember {
         let storey = place.storey();
         let [first, last] = place.crossings();
         let length = self.frame.length(place, self.heights);
-        let (below, axis, planes): (Option<usize>, usize, &[Plane]) = match place {
-            SpacePlace::Column { .. } => (storey.checked_sub(1), 2, &[(0, 1, 1.0), (1, 0, -1.0)]),
-            SpacePlace::BeamX { .. } => (Some(storey), 0, &[(2, 1, -1.0)]),
-            SpacePlace::BeamY { .. } => (Some(storey), 1, &[(2, 0, 1.0)]),
+        let planes = planes(place);
+        let (below, axis) = match place {
+            SpacePlace::Column { .. } => (storey.checked_sub(1), 2),
+            SpacePlace::BeamX { .. } => (Some(storey), 0),
+            SpacePlace::BeamY { .. } => (Some(storey), 1),
         };
         let ends = [self.end(below, first), self.end(Some(storey), last)];
         let [a, b] = &ends;
         let bend = |plane: usize| {
             let (towards, about, slope) = planes[plane];
             let chord = difference(1.0 / length, &b.moved[towards], &a.moved[towards]);
-            let rotations = [a, b].map(|end| chord_rotation(slope, &end.turned[about], &chord));
+            let rotations = match hinged[plane] {
+                None => [a, b].map(|end| chord_rotation(slope, &end.turned[about], &chord)),
+                Some(ends) => {
+                    ends.map(|end| chord_rotation(slope, &vec![(Unknown::End(end), 1.0)], &chord))
+                }
+            };
             (bending_stiffness(section, plane, length), rotations)
         };
         let is_column = planes.len() == 2;
@@ -352,19 +391,11 @@ pub(super) fn condense(
     lumped: &[LumpedFloor],
 ) -> Option<(LowerTriangle, CondensedFrame)> {
     let floors = lumped.len();
-    let centres = lumped
-        .iter()
-        .map(|floor| frame.from_site(floor.tier.centre));
-    let assembly = Assembly {
-        frame,
-        heights: storey_heights,
-        centres: centres.collect(),
-        joints: Joints::new(frame, floors),
-    };
+    let assembly = Assembly::new(frame, storey_heights, lumped);
     let springs: Vec<SpringMember> = frame
         .members
         .iter()
-        .map(|member| assembly.springs(member.place, &member.section))
+        .map(|member| assembly.springs(member.place, &member.section, [None; 2]))
         .collect();
     let motions = assembly.joint_motions(&springs, floors)?;
     let order = 3 * floors;
@@ -379,6 +410,8 @@ pub(super) fn condense(
                         *value += share * motion[*joint];
                     }
                 }
+                // Frames with hinges keep their joints.
+                Unknown::End(_) => {}
             }
         }
         turn_row(&mut row, frame.direction);

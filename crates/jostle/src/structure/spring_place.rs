@@ -1,7 +1,7 @@
 //! Places of the springs of a building that yield.
 
 use crate::hysteresis::Side;
-use crate::model::PlanAxis;
+use crate::model::{PlanAxis, SpacePlace};
 
 /// Which end of a member a hinge is at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -10,6 +10,22 @@ pub enum MemberEnd {
     First,
     /// The upper end of a column, the right end of a beam.
     Last,
+}
+
+impl MemberEnd {
+    /// In words at a member of a space frame: foot and head of a column, left and right of a beam along x, first and last of a beam
+    /// across.
+    #[must_use]
+    pub fn in_space(self, place: SpacePlace) -> &'static str {
+        match (place, self) {
+            (SpacePlace::Column { .. }, Self::First) => "foot",
+            (SpacePlace::Column { .. }, Self::Last) => "head",
+            (SpacePlace::BeamX { .. }, Self::First) => "left",
+            (SpacePlace::BeamX { .. }, Self::Last) => "right",
+            (SpacePlace::BeamY { .. }, Self::First) => "first",
+            (SpacePlace::BeamY { .. }, Self::Last) => "last",
+        }
+    }
 }
 
 /// Where a spring that yields sits; floors, storeys, column lines and bays count from 1, from the ground up and from
@@ -64,6 +80,15 @@ pub enum SpringPlace {
         bay: usize,
         /// Which end.
         end: MemberEnd,
+    },
+    /// At an end of a member of a space frame, in one plane of bending.
+    InSpace {
+        /// The member; its place counts from 0.
+        place: SpacePlace,
+        /// Which end.
+        end: MemberEnd,
+        /// Along which lines it bends.
+        axis: PlanAxis,
     },
     /// A whole storey of a shear building.
     Storey {
@@ -224,6 +249,14 @@ impl std::fmt::Display for SpringPlace {
             } => {
                 let own = Self::Beam { floor, bay, end };
                 write!(formatter, "frame {frame}, {own}")
+            }
+            Self::InSpace { place, end, axis } => {
+                write!(formatter, "{place}, {}", end.in_space(place))?;
+                // A beam bends along its own line only.
+                match place {
+                    SpacePlace::Column { .. } => write!(formatter, ", {}", axis.name()),
+                    SpacePlace::BeamX { .. } | SpacePlace::BeamY { .. } => Ok(()),
+                }
             }
             Self::Storey { storey } => write!(formatter, "storey {storey}"),
             Self::Base { line, motion } => {

@@ -1,5 +1,7 @@
 //! Lumped masses joined by massless beams, hinges and springs.
 
+use std::ops::Range;
+
 use crate::hysteresis::Hysteresis;
 
 /// Lumped masses and the massless elements between them, in the plane.
@@ -15,13 +17,19 @@ pub struct StickModel {
     pub springs: Vec<Spring>,
     /// Entries of given matrices.
     pub couplings: Vec<Coupling>,
+    /// Members of a space frame whose joints have displacements of their own.
+    pub deformation_elements: Vec<DeformationElement>,
+    /// Nodes that are the displacements of its joints.
+    pub space_joints: Range<usize>,
+    /// Nodes that are rotations of member ends beyond hinges.
+    pub space_ends: Range<usize>,
     /// Springs between floors in plan that yield.
     pub plan_springs: Vec<StickPlanSpring>,
     /// Whether nodes are floors in plan: their vertical displacement is then the one across the row, and their rotation is
     /// about a vertical axis.
     pub in_plan: bool,
-    /// Nodes of plane frames that stand in a plan: they move in the plane of their frame. Empty without such frames, otherwise as
-    /// long as the nodes; `None` is a floor or the ground.
+    /// Nodes of plane frames that stand in a plan: they move in the plane of their frame; joints and member ends of a space frame,
+    /// which no floor moves by itself. Empty without such frames, otherwise as long as the nodes; `None` is a floor or the ground.
     pub frame_nodes: Vec<Option<FrameNode>>,
     /// Masses that act on one displacement of a node alone: node, displacement, mass \[kg\].
     pub one_way_masses: Vec<(usize, usize, f64)>,
@@ -209,6 +217,15 @@ pub struct StickPlanSpring {
     pub at: [f64; 2],
     /// What it remembers; positive is the displacement of the upper end against the lower one.
     pub hysteresis: Hysteresis,
+}
+
+/// A stiffness over one deformation, or over two that are coupled: an element of a member of a space frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DeformationElement {
+    /// Force per deformation: of each by itself, and of each by the other \[N/m, N·m/rad\].
+    pub stiffness: [f64; 2],
+    /// One or two deformations, as displacements of nodes (0 horizontal, 1 vertical, 2 rotation) with their shares.
+    pub deformations: Vec<Vec<((usize, usize), f64)>>,
 }
 
 /// A spring and dashpot between any two displacements, as an entry of a given matrix off its diagonal stands for one. Its

@@ -6,6 +6,7 @@ use super::discretization::Discretization;
 use super::element::{THETA, X, Y};
 use super::plan_frames::add_frames;
 use super::space_frame::condense;
+use super::space_joints::add_space_joints;
 use super::spring_place::SpringPlace;
 use super::stick_model::{Coupling, Node, StickModel, StickPlanSpring, Support};
 use crate::model::{Gravity, LumpedFloor, PlanPoint, TierStorey, Tiers};
@@ -55,13 +56,24 @@ pub(super) fn discretize_tiers(tiers: &Tiers, gravity: Gravity) -> Discretizatio
             matrix.add_storey(&lumped, index, &softening, Part::Softening);
         }
     }
-    let condensed = tiers.space_frame.as_ref().and_then(|frame| {
+    // Joints follow the floors until a hinge yields.
+    let elastic = tiers.space_frame.as_ref().filter(|own| !own.may_yield());
+    let yielding = tiers.space_frame.as_ref().filter(|own| own.may_yield());
+    let condensed = elastic.and_then(|frame| {
         let (stiffness, own) = condense(frame, &tiers.storey_heights, &lumped)?;
         matrix.add_stiffness(&stiffness);
         Some(Arc::new(own))
     });
     stick_model.couplings = matrix.couplings(ground, &floors);
-    let mut spring_places = Vec::with_capacity(tiers.yielding.len());
+    let (jointed, mut spring_places) = match yielding {
+        Some(frame) => {
+            let heights = &tiers.storey_heights;
+            let sticks = &mut stick_model;
+            let (own, places) = add_space_joints(frame, heights, &lumped, sticks, ground, &floors);
+            (Some(Arc::new(own)), places)
+        }
+        None => (None, Vec::new()),
+    };
     for own in &tiers.yielding {
         let (storey, axis) = (own.storey, own.axis);
         let arm = |floor: usize| motion_at(own.at, lumped[floor].tier.centre)[axis.index()][2];
@@ -97,6 +109,7 @@ pub(super) fn discretize_tiers(tiers: &Tiers, gravity: Gravity) -> Discretizatio
         frames: Vec::new(),
         shared_columns: Vec::new(),
         space_frame: condensed,
+        jointed_frame: jointed,
     };
     add_frames(tiers, &lumped, &mut discretization);
     discretization

@@ -376,7 +376,7 @@ impl BuildingSystem {
 
     /// Circular frequencies with all displacements but those along x held, rising \[rad/s\].
     fn frequencies_along(&self) -> Vec<f64> {
-        if !self.discretization.frames.is_empty() {
+        if !self.discretization.stick_model.frame_nodes.is_empty() {
             return self.frequencies_of_frames_along();
         }
         let equations = &self.equations;

@@ -90,6 +90,7 @@ pub(crate) fn assembled(stick_model: StickModel, floors: Vec<usize>) -> Building
         frames: Vec::new(),
         shared_columns: Vec::new(),
         space_frame: None,
+        jointed_frame: None,
         element_names: Vec::new(),
         stick_model,
         left_face: floors.clone(),

@@ -254,6 +254,7 @@ fn clamped_beam(length: f64, mass: f64, moment: f64) -> BuildingSystem {
         frames: Vec::new(),
         shared_columns: Vec::new(),
         space_frame: None,
+        jointed_frame: None,
         element_names: Vec::new(),
     };
     BuildingSystem::new("beam", discretization)

@@ -46,6 +46,7 @@ fn between_stops(mass: f64, stiffness: f64, stop: Stop) -> System {
         frames: Vec::new(),
         shared_columns: Vec::new(),
         space_frame: None,
+        jointed_frame: None,
         element_names: Vec::new(),
         stick_model,
         floors: vec![1],

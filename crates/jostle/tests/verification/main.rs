@@ -38,3 +38,4 @@ mod total_force_of_a_gap;
 mod wide_gap_leaves_buildings_independent;
 mod yielding_frames;
 mod yielding_in_space;
+mod yielding_space_frames;

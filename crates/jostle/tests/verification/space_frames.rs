@@ -47,32 +47,32 @@ fn grid(lines_x: &[f64], lines_y: &[f64], storeys: usize, flexible: Flexible) ->
     for storey in 0..storeys {
         for y in 0..ny {
             for x in 0..nx {
-                members.push(SpaceMember {
-                    place: SpacePlace::Column {
+                members.push(SpaceMember::elastic(
+                    SpacePlace::Column {
                         line: [x, y],
                         storey,
                     },
-                    section: column([0.5, 0.4], flexible),
-                });
+                    column([0.5, 0.4], flexible),
+                ));
                 if x + 1 < nx {
-                    members.push(SpaceMember {
-                        place: SpacePlace::BeamX {
+                    members.push(SpaceMember::elastic(
+                        SpacePlace::BeamX {
                             span: x,
                             line: y,
                             floor: storey,
                         },
-                        section: beam([0.3, 0.6], flexible),
-                    });
+                        beam([0.3, 0.6], flexible),
+                    ));
                 }
                 if y + 1 < ny {
-                    members.push(SpaceMember {
-                        place: SpacePlace::BeamY {
+                    members.push(SpaceMember::elastic(
+                        SpacePlace::BeamY {
                             line: x,
                             span: y,
                             floor: storey,
                         },
-                        section: beam([0.25, 0.5], flexible),
-                    });
+                        beam([0.25, 0.5], flexible),
+                    ));
                 }
             }
         }

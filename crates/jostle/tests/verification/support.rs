@@ -314,6 +314,7 @@ pub(crate) fn slider(name: &str, mass: f64, stiffness: Option<f64>) -> BuildingS
         frames: Vec::new(),
         shared_columns: Vec::new(),
         space_frame: None,
+        jointed_frame: None,
         element_names: Vec::new(),
         stick_model,
         floors: vec![1],

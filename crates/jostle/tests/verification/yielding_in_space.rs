@@ -7,9 +7,9 @@ use std::ops::ControlFlow;
 use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
 use jostle::{
     Analysis, Axial, Base, Bearing, Building, ContactLaw, Damping, Frame, FrameHinges, Gap,
-    Gravity, GroundMotion, Hinges, Joint, LawKind, Model, Outcome, Plan, PlanArea, PlanAxis,
-    PlanFrame, PlanPoint, PlanSpring, RestitutionIs, RunEnd, Section, Settings, Shear, Solver,
-    Structure, System, Tier, TierStorey, Tiers, simulate,
+    Gravity, GroundMotion, Hinges, Joint, LawKind, MemberRequest, Model, Outcome, Plan, PlanArea,
+    PlanAxis, PlanFrame, PlanPoint, PlanSpring, RestitutionIs, RunEnd, Section, Settings, Shear,
+    Solver, Structure, System, Tier, TierStorey, Tiers, simulate,
 };
 
 const LAW: ContactLaw = ContactLaw {
@@ -584,9 +584,10 @@ fn two_equal_frames_in_plan_yield_as_one_in_the_plane() {
         let mut model = model(vec![own], Vec::new());
         model.analysis.contact_step = None;
         model.analysis.solver = Some(Solver::Riccati);
+        model.analysis.members = MemberRequest::all();
         model
     };
-    let (_, flat) = run(&with(plane), &motion);
+    let (plane, flat) = run(&with(plane), &motion);
     let (system, deep) = run(&with(space), &motion);
     assert!(flat.energy.hysteretic > 1e3, "{}", flat.energy.hysteretic);
     let same = |a: f64, b: f64, what: &str| {
@@ -604,6 +605,25 @@ fn two_equal_frames_in_plan_yield_as_one_in_the_plane() {
             own.peak_force,
             "moment",
         );
+    }
+    // Members of the first frame have the forces of those of the plane one, moments of hinges included; beams have no axial force.
+    let own = system.buildings[0].members.members.iter();
+    let own: Vec<_> = own.filter(|member| member.frame == Some(0)).collect();
+    let of_plane = &plane.buildings[0].members.members;
+    assert_eq!(own.len(), of_plane.len());
+    for (member, other) in own.into_iter().zip(of_plane) {
+        assert_eq!(member.place, other.place);
+        let kinds = if other.place.is_column() { 0..3 } else { 1..3 };
+        for (section, of_plane) in member.sections.iter().zip(&other.sections) {
+            for kind in kinds.clone() {
+                let forces = deep.members[0][section.forms[kind]];
+                let expected = flat.members[0][of_plane.forms[kind]];
+                for (a, b) in forces.into_iter().zip(expected) {
+                    let apart = (a - b).abs();
+                    assert!(apart < 1e-9 * 1e6, "{:?}: {a} against {b}", member.place);
+                }
+            }
+        }
     }
     let discretization = &system.buildings[0].discretization;
     let name = discretization.spring_places[count].named(&[], &discretization.frames);

@@ -1,0 +1,179 @@
+//! `hinges` of a space frame, and `hinge` of some of its columns and beams.
+
+use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
+use jostle::{PlanAxis, SpaceSection};
+
+use super::building::has_length;
+use super::hinges::{Initial, note, read_initial, read_moments, read_rule};
+use crate::keys::Section;
+use crate::reader::{Field, Reader, View};
+
+/// Moments of the hinges of a member: by plane of bending, with the table that has them; `None` stays elastic.
+pub(super) type Moments<'n> = [Option<([Corners; 2], Field<'n>)>; 2];
+
+/// `hinges` of a building.
+pub(super) struct SpaceHinges<'n> {
+    rule: HysteresisRule,
+    initial: Initial,
+    /// One for all storeys, or one per storey; none stay elastic.
+    columns: Vec<Moments<'n>>,
+    beams: Vec<Moments<'n>>,
+}
+
+/// Keys that hinges of frames in one plane have, and those of a space frame have not.
+const OF_SECTIONS: [&str; 2] = ["from", "method"];
+
+impl<'n> SpaceHinges<'n> {
+    /// Reads `hinges` of a building with this number of storeys; `None` without the table, or after a fault.
+    pub(super) fn read(
+        reader: &mut Reader<'_>,
+        building: &View<'n>,
+        storeys: usize,
+    ) -> Option<Self> {
+        let field = reader.get(building, "hinges")?;
+        let view = reader.open(&field, &[Section::SpaceHinges, Section::Hinges])?;
+        for key in OF_SECTIONS {
+            if let Some(field) = reader.get(&view, key) {
+                *reader.bad(&field, "is not possible for space frames yet") = Some(
+                    "give the moments of column and beam; \"jostle section\" computes them from bars"
+                        .into(),
+                );
+                return None;
+            }
+        }
+        let rule = read_rule(reader, &view);
+        let initial = read_initial(reader, &view);
+        let [columns, beams] = ["column", "beam"].map(|key| {
+            let Some(field) = reader.get(&view, key) else {
+                return Some(Vec::new());
+            };
+            let entries = field.entries();
+            if let Some(entries) = &entries {
+                has_length(reader, &field, entries.len(), Some(storeys))?;
+            }
+            let tables = entries.unwrap_or_else(|| vec![field.clone()]);
+            let read = tables.iter().map(|table| {
+                let rigid = initial == Some(Initial::Rigid);
+                moments(reader, table, key == "column", rule, rigid)
+            });
+            let read: Vec<_> = read.collect();
+            read.into_iter().collect()
+        });
+        Some(Self {
+            rule: rule?,
+            initial: initial?,
+            columns: columns?,
+            beams: beams?,
+        })
+    }
+
+    /// Whether no member has moments here.
+    pub(super) fn is_empty(&self) -> bool {
+        self.columns.is_empty() && self.beams.is_empty()
+    }
+
+    /// Reads `hinge` of some members.
+    pub(super) fn of_entry(
+        &self,
+        reader: &mut Reader<'_>,
+        field: &Field<'n>,
+        is_column: bool,
+    ) -> Option<Moments<'n>> {
+        let rigid = self.initial == Initial::Rigid;
+        moments(reader, field, is_column, Some(self.rule), rigid)
+    }
+
+    /// Moments of a column or a beam of a storey without a `hinge` of its own.
+    pub(super) fn usual(&self, is_column: bool, storey: usize) -> Option<&Moments<'n>> {
+        let list = if is_column {
+            &self.columns
+        } else {
+            &self.beams
+        };
+        list.get(if list.len() > 1 { storey } else { 0 })
+    }
+
+    /// The hinges of a member.
+    ///
+    /// # Errors
+    /// Noted at the table of the moments.
+    pub(super) fn springs(
+        &self,
+        reader: &mut Reader<'_>,
+        moments: &Moments<'n>,
+        section: &SpaceSection,
+        length: f64,
+    ) -> Result<[Option<Hysteresis>; 2], ()> {
+        let mut found = [None; 2];
+        for (plane, moments) in moments.iter().enumerate() {
+            let Some((sides, field)) = moments else {
+                continue;
+            };
+            let stiffness = self
+                .initial
+                .stiffness(section.flexural_rigidity[plane], length);
+            let [a, b] = sides.map(|side| match self.rule {
+                HysteresisRule::Elastic => side,
+                _ => self.initial.ratios(side),
+            });
+            let spring = Backbone::from_forces(stiffness, a, b)
+                .and_then(|backbone| Hysteresis::new(self.rule, backbone));
+            match spring {
+                Ok(spring) => found[plane] = Some(spring),
+                Err(faults) => {
+                    note(reader, field, faults);
+                    return Err(());
+                }
+            }
+        }
+        Ok(found)
+    }
+}
+
+/// Moments of a table: of a beam in its plane; of a column in both planes alike, or in those of `x` and `y`.
+fn moments<'n>(
+    reader: &mut Reader<'_>,
+    field: &Field<'n>,
+    is_column: bool,
+    rule: Option<HysteresisRule>,
+    rigid: bool,
+) -> Option<Moments<'n>> {
+    let sections: &'static [Section] = if is_column {
+        &[Section::ColumnHinge]
+    } else {
+        &[Section::Hinge, Section::ColumnHinge]
+    };
+    let view = reader.open(field, sections)?;
+    let axes = PlanAxis::BOTH.map(|axis| reader.get(&view, axis.name()));
+    if !is_column {
+        if let Some(axis) = axes.iter().flatten().next() {
+            *reader.bad(
+                axis,
+                "has no meaning for a beam: rigid floors let it bend in its vertical plane only",
+            ) = Some("give yield and the others without x and y".into());
+            return None;
+        }
+        let sides = read_moments(reader, field, &view, None, rule, rigid)?;
+        return Some([Some((sides, field.clone())), None]);
+    }
+    if axes.iter().all(Option::is_none) {
+        let sides = read_moments(reader, field, &view, None, rule, rigid)?;
+        return Some([0, 1].map(|_| Some((sides, field.clone()))));
+    }
+    for key in ["positive", "negative"] {
+        if let Some(side) = reader.get(&view, key) {
+            *reader.bad(&side, "stands beside x or y") = Some(format!("move {key} into x and y"));
+            return None;
+        }
+    }
+    let mut found = [None, None];
+    let mut sound = true;
+    for (axis, found) in axes.into_iter().zip(&mut found) {
+        let Some(axis) = axis else { continue };
+        let own = reader.open(&axis, &[Section::Hinge]);
+        let sides = own.and_then(|own| read_moments(reader, &axis, &own, Some(&view), rule, rigid));
+        sound &= sides.is_some();
+        *found = sides.map(|sides| (sides, axis));
+    }
+    sound.then_some(found)
+}

@@ -1,0 +1,278 @@
+//! Space frames with hinges: joints and ends of members keep displacements of their own.
+//!
+//! Where a hinge yields, the motion of joints no longer follows from that of the floors by constant shares. So the rise and both
+//! rotations of every joint are unknowns of the equations, and so are the rotations of member ends beyond their hinges. Each is a node of
+//! the stick model without mass that only turns; a hinge joins the rotation of a joint with that of a member end about the same axis.
+//! Members are the same springs over deformations as in a frame without hinges.
+
+use std::ops::Range;
+
+use super::element::{Place, THETA, X, Y};
+use super::space_frame::{Assembly, Deformation, SpringMember, Unknown, planes};
+use super::spring_place::{MemberEnd, SpringPlace};
+use super::stick_model::{DeformationElement, FrameNode, Hinge, Node, StickModel, Support};
+use crate::model::{LumpedFloor, PlanAxis, SpaceFrame, SpaceMember, SpacePlace};
+
+/// A column or a beam of a space frame with hinges, and its elements in the stick model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JointedMember {
+    /// Where it is.
+    pub place: SpacePlace,
+    /// Heights of its ends above the base \[m\].
+    pub heights: [f64; 2],
+    /// Length \[m\].
+    pub length: f64,
+    /// Its element of axial force; `None` where it keeps its length.
+    pub axial: Option<usize>,
+    /// Its element of torsion.
+    pub torsion: usize,
+    /// Its elements of bending in the vertical plane along x of a column, in that of a beam, and in the plane across of a column.
+    pub bending: [Option<usize>; 2],
+}
+
+/// A joint of a space frame with hinges.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointNodes {
+    /// Lines at whose crossing it is, from 0.
+    pub crossing: [usize; 2],
+    /// Floor, from 0.
+    pub floor: usize,
+    /// Nodes whose rotations are its rise, and its rotations about the axes of the lines along x and across; `None` does not move.
+    pub nodes: [Option<usize>; 3],
+}
+
+/// A space frame with hinges, as it stands in the stick model.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct JointedFrame {
+    /// Its columns and beams, in the order of the model.
+    pub members: Vec<JointedMember>,
+    /// Its joints, floor by floor.
+    pub joints: Vec<JointNodes>,
+}
+
+/// Adds a frame to a stick model whose `ground` and `floors` are nodes already; returns it with the places of its hinges.
+pub(super) fn add_space_joints(
+    frame: &SpaceFrame,
+    storey_heights: &[f64],
+    lumped: &[LumpedFloor],
+    sticks: &mut StickModel,
+    ground: usize,
+    floors: &[usize],
+) -> (JointedFrame, Vec<SpringPlace>) {
+    let assembly = Assembly::new(frame, storey_heights, lumped);
+    let joint_nodes = add_joints(&assembly, sticks, floors);
+    // Floors come after all joints at their height.
+    for &floor in floors {
+        sticks.nodes[floor].x = assembly.joints.count as f64;
+    }
+    let mut builder = Builder {
+        assembly,
+        sticks,
+        ground,
+        floors,
+        joints: joint_nodes,
+        ends: Vec::new(),
+        places: Vec::new(),
+    };
+    let first_end = builder.sticks.nodes.len();
+    let members = frame
+        .members
+        .iter()
+        .map(|member| builder.add_member(member, frame.direction));
+    let mut members: Vec<JointedMember> = members.collect();
+    for member in &mut members {
+        let storey = member.place.storey();
+        let top = builder.sticks.nodes[floors[storey]].y;
+        member.length = frame.length(member.place, storey_heights);
+        member.heights = match member.place {
+            SpacePlace::Column { .. } => {
+                let below = storey.checked_sub(1).map_or(ground, |below| floors[below]);
+                [builder.sticks.nodes[below].y, top]
+            }
+            SpacePlace::BeamX { .. } | SpacePlace::BeamY { .. } => [top; 2],
+        };
+    }
+    let joints = builder.joint_list(frame);
+    let places = builder.places;
+    sticks.space_ends = first_end..sticks.nodes.len();
+    (JointedFrame { members, joints }, places)
+}
+
+/// Adds a node for every unknown of a joint; returns them.
+fn add_joints(assembly: &Assembly<'_>, sticks: &mut StickModel, floors: &[usize]) -> Range<usize> {
+    let joints = &assembly.joints;
+    // Columns that keep their length share their rise: it belongs to the highest floor.
+    let mut levels = vec![0; joints.count];
+    for (at, unknowns) in joints.unknowns.iter().enumerate() {
+        for unknown in unknowns.iter().flatten().flatten() {
+            levels[*unknown] = levels[*unknown].max(at / joints.per_floor);
+        }
+    }
+    let first = sticks.nodes.len();
+    for (unknown, level) in levels.into_iter().enumerate() {
+        let height = sticks.nodes[floors[level]].y;
+        sticks.add_turning(unknown as f64, height, level);
+    }
+    sticks.space_joints = first..sticks.nodes.len();
+    sticks.space_joints.clone()
+}
+
+impl StickModel {
+    /// Adds a node without mass that has a single displacement, its rotation, and belongs to no floor.
+    fn add_turning(&mut self, x: f64, height: f64, level: usize) -> usize {
+        let index = self.nodes.len();
+        self.frame_nodes.resize(index, None);
+        self.nodes.push(Node {
+            x,
+            y: height,
+            mass: 0.0,
+            rotary_inertia: 0.0,
+            support: Support::Turning,
+        });
+        self.frame_nodes.push(Some(FrameNode {
+            shares: [0.0; 3],
+            floor: None,
+            level,
+            counted_elsewhere: true,
+            vertical_mass: 0.0,
+        }));
+        index
+    }
+}
+
+struct Builder<'a> {
+    assembly: Assembly<'a>,
+    sticks: &'a mut StickModel,
+    ground: usize,
+    floors: &'a [usize],
+    /// Nodes of the unknowns of joints.
+    joints: Range<usize>,
+    /// Nodes of member ends, by their numbers.
+    ends: Vec<usize>,
+    places: Vec<SpringPlace>,
+}
+
+impl Builder<'_> {
+    fn add_member(&mut self, member: &SpaceMember, direction: [f64; 2]) -> JointedMember {
+        let hinged = [0, 1].map(|plane| self.add_hinges(member, plane));
+        let own = self.assembly.springs(member.place, &member.section, hinged);
+        let SpringMember {
+            length,
+            axial,
+            torsion,
+            bending,
+            across,
+        } = own;
+        let mut add = |stiffness: [f64; 2], deformations: &[Deformation]| {
+            let deformations = deformations.iter();
+            let deformations = deformations.map(|own| self.places_of(own, direction));
+            self.sticks.deformation_elements.push(DeformationElement {
+                stiffness,
+                deformations: deformations.collect(),
+            });
+            self.sticks.deformation_elements.len() - 1
+        };
+        JointedMember {
+            place: member.place,
+            heights: [0.0; 2],
+            length,
+            axial: axial.map(|(stiffness, own)| add([stiffness, 0.0], &[own])),
+            torsion: add([torsion.0, 0.0], &[torsion.1]),
+            bending: [
+                Some(add(bending.0, &bending.1)),
+                across.map(|(stiffness, own)| add(stiffness, &own)),
+            ],
+        }
+    }
+
+    /// Adds the ends of a member in a plane of bending, and the hinges between them and its joints; returns the numbers of the ends.
+    ///
+    /// A hinge is positive where a moment stretches the bottom of a beam, or the face of a column on the side of the plane: at the
+    /// first end of a column, and the last of a beam, where the joint is turned further along the slope than the member.
+    fn add_hinges(&mut self, member: &SpaceMember, plane: usize) -> Option<[usize; 2]> {
+        let hysteresis = member.hinges[plane]?;
+        let &(_, axis, slope) = planes(member.place).get(plane)?;
+        let level = member.place.storey();
+        let is_column = matches!(member.place, SpacePlace::Column { .. });
+        let numbers = [MemberEnd::First, MemberEnd::Last].map(|end| {
+            let floor = match (is_column, end) {
+                (true, MemberEnd::First) => level.checked_sub(1),
+                _ => Some(level),
+            };
+            let crossing = member.place.crossings()[end as usize];
+            // Rotations about x and across stand after the rise.
+            let joint = floor.and_then(|floor| self.assembly.joints.at(floor, crossing)[1 + axis]);
+            let joint = joint.map_or(self.ground, |unknown| self.joints.start + unknown);
+            let node = {
+                let at = self.sticks.nodes[floor.map_or(self.ground, |floor| self.floors[floor])];
+                let x = self.ends.len() as f64;
+                self.sticks.add_turning(x, at.y, floor.unwrap_or(0))
+            };
+            let joint_leads = (is_column == (end == MemberEnd::First)) == (slope > 0.0);
+            let ends = if joint_leads {
+                [joint, node]
+            } else {
+                [node, joint]
+            };
+            self.sticks.hinges.push(Hinge::yielding(ends, hysteresis));
+            self.places.push(SpringPlace::InSpace {
+                place: member.place,
+                end,
+                axis: match (member.place, plane) {
+                    (SpacePlace::Column { .. }, 1) | (SpacePlace::BeamY { .. }, _) => PlanAxis::Y,
+                    _ => PlanAxis::X,
+                },
+            });
+            self.ends.push(node);
+            self.ends.len() - 1
+        });
+        Some(numbers)
+    }
+
+    /// A deformation over displacements of nodes; those of floors are along the axes of the site.
+    fn places_of(&self, own: &Deformation, [c, s]: [f64; 2]) -> Vec<(Place, f64)> {
+        let mut list: Vec<(Place, f64)> = Vec::with_capacity(own.len() + 2);
+        let mut add =
+            |place: Place, share: f64| match list.iter_mut().find(|(known, _)| *known == place) {
+                Some((_, sum)) => *sum += share,
+                None => list.push((place, share)),
+            };
+        for (unknown, share) in own {
+            match *unknown {
+                Unknown::Joint(index) => add((self.joints.start + index, THETA), *share),
+                Unknown::End(index) => add((self.ends[index], THETA), *share),
+                Unknown::Floor(motion) => {
+                    let floor = self.floors[motion / 3];
+                    match motion % 3 {
+                        0 => {
+                            add((floor, X), c * share);
+                            add((floor, Y), s * share);
+                        }
+                        1 => {
+                            add((floor, X), -s * share);
+                            add((floor, Y), c * share);
+                        }
+                        _ => add((floor, THETA), *share),
+                    }
+                }
+            }
+        }
+        list.retain(|(_, share)| *share != 0.0);
+        list
+    }
+
+    fn joint_list(&self, frame: &SpaceFrame) -> Vec<JointNodes> {
+        let joints = &self.assembly.joints;
+        let lines_x = frame.lines_x.len();
+        let all = joints.unknowns.iter().enumerate();
+        let own = all.filter_map(|(at, unknowns)| {
+            let crossing = at % joints.per_floor;
+            Some(JointNodes {
+                crossing: [crossing % lines_x, crossing / lines_x],
+                floor: at / joints.per_floor,
+                nodes: (*unknowns)?.map(|own| own.map(|index| self.joints.start + index)),
+            })
+        });
+        own.collect()
+    }
+}

@@ -1,0 +1,232 @@
+//! Forces of columns and beams of space frames as linear forms of the motion.
+
+use super::element::{THETA, X, Y};
+use super::member_forces::{
+    LinearForm, MemberForces, MemberPlace, MemberSection, MemberSections, SectionAt,
+};
+use super::space_frame::CondensedFrame;
+use super::space_joints::{JointedFrame, JointedMember};
+use super::spring_place::{MemberEnd, SpringPlace};
+use super::stick_model::DeformationElement;
+use crate::model::{PlanAxis, SpacePlace};
+use crate::structure::AssembledBuilding;
+
+impl MemberForces {
+    /// Adds the members of a space frame: their forces follow from the motions of the floors.
+    pub(super) fn add_space_frame(&mut self, building: &AssembledBuilding, frame: &CondensedFrame) {
+        let equations = &building.equations;
+        let floors = &building.discretization.floors;
+        let of_floor = |floor: &usize| [X, Y, THETA].map(|component| (*floor, component));
+        let dofs = floors.iter().flat_map(of_floor);
+        let dofs: Vec<Option<usize>> = dofs.map(|place| equations.dof(place)).collect();
+        let nothing = self.index_of(LinearForm::default());
+        for member in &frame.members {
+            // Every row occurs once.
+            let mut add = |row: &[f64]| {
+                let entries = dofs.iter().zip(row);
+                let entries = entries.filter_map(|(dof, share)| Some(((*dof)?, *share)));
+                let mut displacement: Vec<(usize, f64)> = entries.collect();
+                displacement.retain(|(_, share)| *share != 0.0);
+                if displacement.is_empty() {
+                    return nothing;
+                }
+                self.forms.push(LinearForm {
+                    displacement,
+                    ..LinearForm::default()
+                });
+                self.forms.len() - 1
+            };
+            let (axial, torsion) = (add(&member.axial), add(&member.torsion));
+            let shear = add(&member.bending.shear);
+            let shear_across = member.across.as_ref().map(|own| add(&own.shear));
+            let place = MemberPlace::InSpace(member.place);
+            let level = member.place.storey();
+            let sections = [SectionAt::First, SectionAt::Last].into_iter().enumerate();
+            let sections = sections.map(|(side, at)| {
+                let moment = add(&member.bending.moments[side]);
+                let across = member.across.as_ref().map(|own| add(&own.moments[side]));
+                let floor = match (place.is_column(), side) {
+                    (true, 0) => level.checked_sub(1),
+                    _ => Some(level),
+                };
+                MemberSection {
+                    at,
+                    height: member.heights[side],
+                    dof: floor.and_then(|floor| equations.horizontal(floors[floor])),
+                    forms: [axial, shear, moment],
+                    across: Some([
+                        shear_across.unwrap_or(nothing),
+                        across.unwrap_or(nothing),
+                        torsion,
+                    ]),
+                }
+            });
+            let sections = sections.collect();
+            self.members.push(MemberSections {
+                frame: None,
+                place,
+                sections,
+                shared: None,
+            });
+        }
+    }
+
+    /// Adds the members of a space frame with hinges. Moments at hinges are those of the hinges.
+    pub(super) fn add_jointed_frame(&mut self, building: &AssembledBuilding, frame: &JointedFrame) {
+        let cuts = JointedCuts { building, frame };
+        let floors = &building.discretization.floors;
+        let bending = frame.members.iter().map(|own| cuts.bending(own));
+        let bending: Vec<[Option<PlaneForces>; 2]> = bending.collect();
+        let axial = cuts.axial(&bending);
+        for ((member, planes), axial) in frame.members.iter().zip(bending).zip(axial) {
+            let axial = self.index_of(axial);
+            let torque = cuts.forces(member.torsion)[0].clone();
+            let torque = self.index_of(torque);
+            let place = MemberPlace::InSpace(member.place);
+            let indices = planes.map(|plane| {
+                let plane = plane.unwrap_or_default();
+                let shear = self.index_of(plane.shear);
+                (shear, plane.moments.map(|form| self.index_of(form)))
+            });
+            let level = member.place.storey();
+            let [(shear, moments), (shear_across, moments_across)] = indices;
+            let sections = [SectionAt::First, SectionAt::Last].into_iter().enumerate();
+            let sections = sections.map(|(side, at)| {
+                let floor = match (place.is_column(), side) {
+                    (true, 0) => level.checked_sub(1),
+                    _ => Some(level),
+                };
+                MemberSection {
+                    at,
+                    height: member.heights[side],
+                    dof: floor.and_then(|floor| building.equations.horizontal(floors[floor])),
+                    forms: [axial, shear, moments[side]],
+                    across: Some([shear_across, moments_across[side], torque]),
+                }
+            });
+            self.members.push(MemberSections {
+                frame: None,
+                place,
+                sections: sections.collect(),
+                shared: None,
+            });
+        }
+    }
+}
+
+/// Shear and end moments in one plane.
+#[derive(Clone, Default)]
+struct PlaneForces {
+    shear: LinearForm,
+    moments: [LinearForm; 2],
+}
+
+/// A space frame with hinges, ready to be cut.
+struct JointedCuts<'a> {
+    building: &'a AssembledBuilding,
+    frame: &'a JointedFrame,
+}
+
+impl JointedCuts<'_> {
+    /// The forces that belong to the deformations of an element.
+    fn forces(&self, element: usize) -> Vec<LinearForm> {
+        let sticks = &self.building.discretization.stick_model;
+        let DeformationElement {
+            stiffness: [own, other],
+            deformations,
+        } = &sticks.deformation_elements[element];
+        let force = |index: usize| {
+            let mut form = LinearForm::default();
+            for (at, deformation) in deformations.iter().enumerate() {
+                let stiffness = if at == index { own } else { other };
+                let entries = deformation.iter().filter_map(|(place, share)| {
+                    Some((self.building.equations.dof(*place)?, stiffness * share))
+                });
+                form.displacement.extend(entries);
+            }
+            form.tidy()
+        };
+        (0..deformations.len()).map(force).collect()
+    }
+
+    fn bending(&self, member: &JointedMember) -> [Option<PlaneForces>; 2] {
+        let is_column = matches!(member.place, SpacePlace::Column { .. });
+        let sign = if is_column { 1.0 } else { -1.0 };
+        let places = &self.building.discretization.spring_places;
+        let hinge = |end: MemberEnd, plane: usize| {
+            let axis = match (member.place, plane) {
+                (SpacePlace::Column { .. }, 1) | (SpacePlace::BeamY { .. }, _) => PlanAxis::Y,
+                _ => PlanAxis::X,
+            };
+            let own = SpringPlace::InSpace {
+                place: member.place,
+                end,
+                axis,
+            };
+            places.iter().position(|place| *place == own)
+        };
+        [0, 1].map(|plane| {
+            let forces = self.forces(member.bending[plane]?);
+            let [first, last] = &forces[..] else {
+                return None;
+            };
+            let mut shear = LinearForm::default();
+            for own in [first, last] {
+                shear.add(-sign / member.length, own);
+            }
+            let moment = |end: MemberEnd, own: &LinearForm, sign: f64| {
+                let mut form = LinearForm::default();
+                match hinge(end, plane) {
+                    Some(spring) => form.springs.push((spring, 1.0)),
+                    None => form.add(sign, own),
+                }
+                form
+            };
+            Some(PlaneForces {
+                shear: shear.tidy(),
+                moments: [
+                    moment(MemberEnd::First, first, sign),
+                    moment(MemberEnd::Last, last, -sign),
+                ],
+            })
+        })
+    }
+
+    /// Axial forces of all members. A column that keeps its length carries the one above it and the shears of the beams at its head.
+    fn axial(&self, bending: &[[Option<PlaneForces>; 2]]) -> Vec<LinearForm> {
+        let members = &self.frame.members;
+        let of_stretch = |member: &JointedMember| {
+            let forces = member.axial.map(|element| self.forces(element));
+            forces.map_or_else(LinearForm::default, |mut own| own.swap_remove(0))
+        };
+        let mut axial: Vec<LinearForm> = members.iter().map(of_stretch).collect();
+        let is_column = |place: SpacePlace| matches!(place, SpacePlace::Column { .. });
+        let mut rigid: Vec<usize> = (0..members.len())
+            .filter(|index| is_column(members[*index].place) && members[*index].axial.is_none())
+            .collect();
+        rigid.sort_by_key(|index| std::cmp::Reverse(members[*index].place.storey()));
+        for column in rigid {
+            let storey = members[column].place.storey();
+            let [line, _] = members[column].place.crossings();
+            let mut sum = LinearForm::default();
+            for (index, other) in members.iter().enumerate() {
+                let [first, last] = other.place.crossings();
+                if is_column(other.place) {
+                    if first == line && other.place.storey() == storey + 1 {
+                        sum.add(1.0, &axial[index]);
+                    }
+                } else if other.place.storey() == storey
+                    && let Some(plane) = &bending[index][0]
+                {
+                    if first == line {
+                        sum.add(-1.0, &plane.shear);
+                    } else if last == line {
+                        sum.add(1.0, &plane.shear);
+                    }
+                }
+            }
+            axial[column] = sum.tidy();
+        }
+        axial
+    }
+}
