@@ -204,6 +204,13 @@ fn describe(text: &mut String, model: &Model, system: &System) -> std::fmt::Resu
         }
         if let Some(mat) = building.discretization.mat {
             describe_bearings(text, &mat)?;
+            if let Some(own) = &building.mat_in_plan {
+                let given = matches!(
+                    &model.buildings[index].structure,
+                    Structure::Tiers(tiers) if !tiers.bearings.is_empty()
+                );
+                describe_bearing_places(text, &own.bearings, mat.weight, given)?;
+            }
         }
         if let Some(foundation) = building.foundation {
             describe_foundation(text, &foundation)?;
@@ -500,6 +507,35 @@ fn describe_foundation(
 
 /// Amplitude at which the equivalent linear bearings are given, where there is no limit \[m\].
 const AMPLITUDE: f64 = 0.1;
+
+/// Where bearings stand in plan.
+fn describe_bearing_places(
+    text: &mut String,
+    places: &[[f64; 2]],
+    weight: f64,
+    given: bool,
+) -> std::fmt::Result {
+    let listed: Vec<String> = places
+        .iter()
+        .take(MOST_PLACES)
+        .map(|[x, y]| format!("({x:.2}, {y:.2})"))
+        .collect();
+    let more = if places.len() > MOST_PLACES {
+        ", …"
+    } else {
+        ""
+    };
+    let each = weight * 1e-3 / places.len() as f64;
+    let what = if given {
+        format!("{} bearings with {each:.0} kN each", places.len())
+    } else {
+        "four bearings stand for an even spread".to_owned()
+    };
+    writeln!(text, "  {what}, at {}{more} m", listed.join(", "))
+}
+
+/// Bearings whose places are listed.
+const MOST_PLACES: usize = 8;
 
 /// Bearings, and the linear ones that take their place at an amplitude (theory, Eq. B7).
 fn describe_bearings(text: &mut String, mat: &jostle::structure::Mat) -> std::fmt::Result {

@@ -453,7 +453,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Building, "p_delta", Flag, "false", "Include P-Delta from the weight above."),
 
     default(S::Frame, "base", WordOrTable("fixed", &[S::ShearBase, S::FrameBase]), "\"fixed\"", "Springs and dashpots under every column."),
-    optional(S::Frame, "isolation", Kind::Table(S::Isolation), "Bearings and a mat under the building, instead of base; in one plane."),
+    optional(S::Frame, "isolation", Kind::Table(S::Isolation), "Bearings and a mat under the building, instead of base."),
     optional(S::Frame, "foundation", Kind::Table(S::Foundation), "Rigid foundation on [soil], instead of base; in one plane."),
     required(S::Frame, "spans", Quantities(D::Length), "Widths of the bays from left to right."),
     required(S::Frame, "column", TablePerStorey(S::Column), "Column section: one, or a list from the ground up."),
@@ -474,7 +474,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Frame, "shear_failure", Kind::Table(S::ShearFailure), "Lets columns fail in shear; without it their shear strength has no limit."),
 
     default(S::Shear, "base", WordOrTable("fixed", &[S::ShearBase]), "\"fixed\"", "Horizontal spring and dashpot under the building."),
-    optional(S::Shear, "isolation", Kind::Table(S::Isolation), "Bearings and a mat under the building, instead of base; in one plane."),
+    optional(S::Shear, "isolation", Kind::Table(S::Isolation), "Bearings and a mat under the building, instead of base; under a plan without frames."),
     optional(S::Shear, "foundation", Kind::Table(S::Foundation), "Rigid foundation on [soil], instead of base; in one plane."),
     required(S::Shear, "mass", PerStorey(D::Mass), "Floor masses from the ground up. A weight is converted."),
     optional(S::Shear, "stiffness", Kind::PlanStiffness, "Storey stiffnesses from the ground up; required without elements. With a plan also { x, y, torsion }: a bare value is along x, y is then the same, and torsion that of stiffness spread evenly over the plan."),
@@ -621,7 +621,8 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Isolation, "slip_displacement", Quantity(D::Length), "\"1 mm\"", "friction-pendulum: displacement at which friction is fully mobilised."),
     default(S::Isolation, "damping", Quantity(D::Damping), "0", "Dashpot beside the bearings."),
     optional(S::Isolation, "damping_ratio", Quantity(D::Dimensionless), "linear: ratio of critical damping of the whole mass on the bearings, instead of damping."),
-    optional(S::Isolation, "stop", Kind::Table(S::IsolationStop), "Elastic stops of the mat, or hardening of the bearings."),
+    optional(S::Isolation, "stop", Kind::Table(S::IsolationStop), "Elastic stops of the mat, or hardening of the bearings; with a plan a ring, the same all round."),
+    optional(S::Isolation, "bearings", Kind::PlanPoints, "With a plan: places of the bearings, from the origin of the plan; each takes an equal share of all. Without it four stand for bearings spread evenly over the plan of the lowest floor."),
     optional(S::Isolation, "limit", Quantity(D::Length), "Displacement that the bearings allow. A run that exceeds it warns."),
     default(S::Isolation, "weight", Quantity(D::Force), "(building + mat) · 9.80665 m/s2", "Weight on the bearings."),
 

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use jostle::history::MemberHistory;
-use jostle::hysteresis::Side;
+use jostle::hysteresis::{ForceRow, Side};
 use jostle::quantity::Read;
 use jostle::results::in_plan::ImpactSliding;
 use jostle::results::summary::{
@@ -576,6 +576,17 @@ fn parts(place: Option<SpringPlace>) -> (&'static str, Option<usize>, Option<usi
             (kind, Some(level), Some(x + 1), end.in_space(place))
         }
         Some(SpringPlace::Bearings) => ("isolation", Some(0), None, "bearings"),
+        Some(SpringPlace::BearingInPlan { bearing, row }) => {
+            ("isolation", Some(0), Some(bearing), row.name())
+        }
+        Some(SpringPlace::Ring { row }) => {
+            let direction = match row {
+                ForceRow::X => "ring, x",
+                ForceRow::Y => "ring, y",
+                ForceRow::Between => "ring",
+            };
+            ("isolation", Some(0), None, direction)
+        }
         Some(SpringPlace::Stop { side }) => {
             let side = match side {
                 Side::Negative => "left stop",
@@ -653,13 +664,15 @@ fn column_name(model: &Model, contacts: &[String], links: &[String], column: Col
         Column::LinkForce { .. } | Column::LinkStroke { .. } | Column::LinkSpeed { .. } => {
             joint(links, "link")
         }
-        Column::SupportForce { .. } => match wall_behind(model, index) {
-            Some(wall) => format!("{}.", plain(wall)),
-            None => {
-                let name = model.buildings.get(index).map(|b| plain(&b.name));
-                format!("{}.isolation.", name.unwrap_or_default())
+        Column::SupportForce { .. } | Column::SupportForceAcross { .. } => {
+            match wall_behind(model, index) {
+                Some(wall) => format!("{}.", plain(wall)),
+                None => {
+                    let name = model.buildings.get(index).map(|b| plain(&b.name));
+                    format!("{}.isolation.", name.unwrap_or_default())
+                }
             }
-        },
+        }
         Column::GroundDisplacement { .. } => match ground_under(model, index) {
             Some(name) => format!("{}.", plain(name)),
             None => format!("B{}.", index + 1),

@@ -37,12 +37,14 @@ class LoopChart {
     this.view = view;
     this.name = data.name;
     this.time = unpack(data.time);
-    const [dUnit, fUnit] = data.over_time ? ["s", "kN"] : data.storey ? ["mm", "kN"] : ["mrad", "kN·m"];
+    const [dUnit, fUnit] = data.is_path ? ["mm", "mm"] : data.over_time ? ["s", "kN"] : data.storey ? ["mm", "kN"] : ["mrad", "kN·m"];
     this.x = data.over_time ? this.time : scaled(unpack(data.deformation), 1e3);
-    this.y = scaled(unpack(data.force), 1e-3);
+    this.isPath = data.is_path;
+    const factor = this.isPath ? 1e3 : 1e-3;
+    this.y = scaled(unpack(data.force), factor);
     this.ends = data.over_time && [0, page.duration];
     this.marks = (data.marks ?? []).map((at) => 1e3 * at);
-    this.backbone = data.backbone.map(([x, y]) => [1e3 * x, 1e-3 * y]);
+    this.backbone = data.backbone.map(([x, y]) => [1e3 * x, factor * y]);
     const figure = html("figure", "multiple loop", undefined, host);
     const caption = html("figcaption", "", undefined, figure);
     html("span", "", data.name, caption);
@@ -66,9 +68,15 @@ class LoopChart {
     const moved = Math.max(1e-9, greatest(this.x));
     // Stops and limits are shown where they are near.
     this.marks = this.marks.filter((at) => Math.abs(at) < 1.6 * moved);
-    const reach = 1.06 * Math.max(moved, greatest(this.marks));
-    const top = 1.1 * Math.max(1e-9, greatest(this.y), ...this.backbone.filter(([x]) => Math.abs(x) <= reach).map(([, y]) => Math.abs(y)));
+    let reach = 1.06 * Math.max(moved, greatest(this.marks));
+    let top = 1.1 * Math.max(1e-9, greatest(this.y), ...this.backbone.filter(([x]) => Math.abs(x) <= reach).map(([, y]) => Math.abs(y)));
     const { width, height, margin } = LoopChart;
+    if (this.isPath) {
+      // Both axes to the same scale.
+      const share = (height - margin.top - margin.bottom) / (width - margin.left - margin.right);
+      const most = 1.06 * Math.max(moved, greatest(this.y), ...this.backbone.map(([x]) => Math.abs(x)));
+      [reach, top] = [most / share, most];
+    }
     const ends = { x: this.ends || [-reach, reach], y: [-top, top], xUnit: dUnit, yUnit: fUnit };
     const { px, py, inside } = smallPlot(this.svg, { width, height, margin, ...ends });
     Object.assign(this, { px, py });

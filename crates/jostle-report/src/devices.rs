@@ -1,5 +1,7 @@
 //! Bearings, links, dampers and walls: loops of force over displacement, and a table of what they went through.
 
+use std::f64::consts::TAU;
+
 use jostle::history::Column;
 use jostle::hysteresis::Side;
 use jostle::model::{Isolation, Link, LinkLaw, Model};
@@ -29,6 +31,8 @@ pub(crate) struct Device<'a> {
     pub(crate) marks: Vec<f64>,
     /// Whether its force is shown over time: loops of cables and stoppers are single lines.
     pub(crate) over_time: bool,
+    /// Whether it is a path in plan: displacement across over that along x.
+    pub(crate) is_path: bool,
     source: Source<'a>,
 }
 
@@ -36,6 +40,10 @@ pub(crate) struct Device<'a> {
 #[derive(Clone, Copy)]
 enum Source<'a> {
     Bearings(usize),
+    /// The same across.
+    BearingsAcross(usize),
+    /// The path of the mat in plan.
+    Path(usize),
     /// Index among all links.
     Link(usize, &'a Link, [Option<usize>; 2]),
 }
@@ -48,6 +56,18 @@ impl Device<'_> {
                 page.history
                     .column(Column::Displacement { building, floor: 0 })?,
                 page.history.column(Column::SupportForce { building })?,
+            ),
+            Source::BearingsAcross(building) => (
+                page.history
+                    .column(Column::DisplacementAcross { building, floor: 0 })?,
+                page.history
+                    .column(Column::SupportForceAcross { building })?,
+            ),
+            Source::Path(building) => (
+                page.history
+                    .column(Column::Displacement { building, floor: 0 })?,
+                page.history
+                    .column(Column::DisplacementAcross { building, floor: 0 })?,
             ),
             Source::Link(index, link, floors) => (
                 stroke(page, index, link, floors)?,
@@ -109,17 +129,41 @@ pub(crate) fn side_column(
 pub(crate) fn devices<'a>(page: &Page<'a>) -> Vec<Device<'a>> {
     let mut devices = Vec::new();
     for (index, isolation, result) in isolated(page) {
-        devices.push(Device {
-            name: message::name_kind_bearings(&page.summary.buildings[index].name, result.kind),
+        let name = message::name_kind_bearings(&page.summary.buildings[index].name, result.kind);
+        let own = |name: String, moved: f64, source: Source<'a>| Device {
+            name,
             building: index,
-            note: note(
-                result.displacement_peak_m(),
-                result.hysteretic_j + result.damped_j,
-            ),
+            note: note(moved, result.hysteretic_j + result.damped_j),
             outline: first_loading(isolation, result),
             marks: marks(isolation),
             over_time: false,
-            source: Source::Bearings(index),
+            is_path: false,
+            source,
+        };
+        let along = result.displacement_max_m.max(-result.displacement_min_m);
+        let Some(in_plan) = &result.in_plan else {
+            devices.push(own(name, along, Source::Bearings(index)));
+            continue;
+        };
+        let across = in_plan
+            .displacement_across_max_m
+            .max(-in_plan.displacement_across_min_m);
+        devices.push(own(
+            message::bearings_along(&name),
+            along,
+            Source::Bearings(index),
+        ));
+        devices.push(own(
+            message::bearings_across(&name),
+            across,
+            Source::BearingsAcross(index),
+        ));
+        devices.push(Device {
+            note: message::path_of_mat(format::millimetres(in_plan.stroke_peak_m)),
+            outline: circle(isolation),
+            marks: Vec::new(),
+            is_path: true,
+            ..own(message::path_in_plan(&name), along, Source::Path(index))
         });
     }
     let mut links: Vec<(usize, &LinkSummary, &Link, &LinkFloorSummary)> = Vec::new();
@@ -155,6 +199,7 @@ pub(crate) fn devices<'a>(page: &Page<'a>) -> Vec<Device<'a>> {
             },
             marks: Vec::new(),
             over_time: matches!(link.law, LinkLaw::Cable { .. } | LinkLaw::Stopper { .. }),
+            is_path: false,
             source: Source::Link(index, link, floor.floors),
         });
     }
@@ -237,6 +282,21 @@ fn symmetric(deformation: f64, force: f64, [reach, end]: [f64; 2]) -> Vec<[f64; 
         [reach, end],
     ]
 }
+
+/// The ring that stops a mat in plan, or else the limit of its bearings; empty without both \[m\].
+fn circle(isolation: &Isolation) -> Vec<[f64; 2]> {
+    let ring = isolation.stops[0].map(|stop| stop.at);
+    let Some(radius) = ring.or(isolation.limit) else {
+        return Vec::new();
+    };
+    let corners = (0..=CORNERS).map(|corner| TAU * f64::from(corner) / f64::from(CORNERS));
+    corners
+        .map(|angle| [radius * angle.cos(), radius * angle.sin()])
+        .collect()
+}
+
+/// Corners of a drawn circle.
+const CORNERS: u32 = 72;
 
 /// Displacements of stops and limits \[m\].
 fn marks(isolation: &Isolation) -> Vec<f64> {
@@ -327,10 +387,22 @@ fn sentence(name: &str, isolation: &Isolation, result: &IsolationSummary) -> Str
         let used = format::fixed(100.0 * moved / limit, 0);
         text.push_str(&message::share_of_limit(&used, format::millimetres(limit)));
     }
+    let residual = match &result.in_plan {
+        Some(own) => own.residual_stroke_m,
+        None => result.residual_m.abs(),
+    };
     text.push_str(&message::they_dissipate_residual_displacement(
         format::energy(result.hysteretic_j + result.damped_j),
-        format::millimetres(result.residual_m.abs()),
+        format::millimetres(residual),
     ));
+    if let Some(own) = &result.in_plan {
+        text.push_str(&message::worst_bearing(
+            own.stroke_bearing,
+            own.bearings,
+            format::force(result.force_peak_n),
+            format::force(own.force_across_peak_n),
+        ));
+    }
     if let Some(force) = result.stop_force_peak_n.filter(|force| *force > 0.0) {
         text.push_str(&message::a_stop_is_hit(format::force(force)));
     }
@@ -350,14 +422,19 @@ fn rows(page: &Page) -> (Vec<Row>, usize) {
         rows.push((
             message::name_kind_bearings(&page.summary.buildings[index].name, result.kind),
             [
-                kilo(result.force_peak_n),
+                kilo(result.in_plan.map_or(result.force_peak_n, |own| {
+                    own.force_across_peak_n.max(result.force_peak_n)
+                })),
                 milli(moved),
                 isolation.limit.map_or_else(none, milli),
                 isolation
                     .limit
                     .map_or_else(none, |limit| format::fixed(100.0 * moved / limit, 0)),
                 none(),
-                milli(result.residual_m),
+                milli(match result.in_plan {
+                    Some(own) => own.residual_stroke_m,
+                    None => result.residual_m,
+                }),
                 kilo(result.hysteretic_j + result.damped_j),
             ],
         ));

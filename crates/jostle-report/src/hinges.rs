@@ -143,7 +143,10 @@ pub(crate) fn coordinates(at: SpringPlace) -> (char, usize, usize, usize) {
         SpringPlace::Base { line, motion } => {
             ('f', 0, line, usize::from(motion == BaseMotion::Sliding))
         }
-        SpringPlace::Bearings | SpringPlace::Stop { .. } => ('i', 0, 0, 0),
+        SpringPlace::Bearings
+        | SpringPlace::BearingInPlan { .. }
+        | SpringPlace::Ring { .. }
+        | SpringPlace::Stop { .. } => ('i', 0, 0, 0),
     }
 }
 

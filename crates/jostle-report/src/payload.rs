@@ -111,6 +111,7 @@ struct DeviceData {
     outline: Vec<[f64; 2]>,
     marks: Vec<f64>,
     over_time: bool,
+    is_path: bool,
     time: Packed,
     deformation: Packed,
     force: Packed,
@@ -424,6 +425,7 @@ fn devices(page: &Page, time: &[f64], budget: usize, pack: &mut Packer) -> Vec<D
             outline: device.outline,
             marks: device.marks,
             over_time: device.over_time,
+            is_path: device.is_path,
         }
     });
     data.collect()

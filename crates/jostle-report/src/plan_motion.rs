@@ -4,7 +4,7 @@ use jostle::results::summary::ContactSummary;
 use jostle::{Column, Gap, History, Model, PlanPoint, Structure};
 
 /// Displacement of a point of a floor, over the rows of a history: along x and across \[m\]; `None` if the floor has no
-/// plan or was not recorded. Floors count from 1.
+/// plan or was not recorded. Floors count from 1; 0 is a mat.
 pub(crate) fn point_motion(
     model: &Model,
     history: &History,
@@ -14,7 +14,10 @@ pub(crate) fn point_motion(
     let Structure::Tiers(tiers) = &model.buildings.get(building)?.structure else {
         return None;
     };
-    let centre = tiers.floors.get(floor.checked_sub(1)?)?.centre;
+    let centre = match floor.checked_sub(1) {
+        Some(index) => tiers.floors.get(index)?.centre,
+        None => tiers.mat(0.0).tier.centre,
+    };
     let arm = [point[0] - centre[0], point[1] - centre[1]];
     let turn = history.column(Column::Rotation { building, floor })?;
     let mut x = history.column(Column::Displacement { building, floor })?;

@@ -268,6 +268,20 @@ fn write_isolation(text: &mut String, summary: &Summary) -> std::fmt::Result {
         let stop = own.stop_force_peak_n.map_or_else(String::new, |force| {
             format!(", {:.0} kN on a stop", force * 1e-3)
         });
+        if let Some(plan) = &own.in_plan {
+            writeln!(
+                text,
+                "\nmat of {}: bearing {} of {} moves {:.1} mm, {:.0} kN in the bearings along x and {:.0} kN across{stop}, {:.1} mm at the end",
+                building.name,
+                plan.stroke_bearing,
+                plan.bearings,
+                plan.stroke_peak_m * 1e3,
+                own.force_peak_n * 1e-3,
+                plan.force_across_peak_n * 1e-3,
+                plan.residual_stroke_m * 1e3
+            )?;
+            continue;
+        }
         writeln!(
             text,
             "\nmat of {}: {:.1} mm, {:.0} kN in the bearings{stop}, {:.1} mm at the end",

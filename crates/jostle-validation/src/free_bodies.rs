@@ -90,6 +90,7 @@ fn building(stored: &Value) -> Building {
             frames: Vec::new(),
             space_frame: None,
             yielding: Vec::new(),
+            bearings: Vec::new(),
             element_names: Vec::new(),
         }),
         damping: Damping::Rayleigh {

@@ -122,6 +122,7 @@ fn building(stored: &Value) -> Building {
             frames: Vec::new(),
             space_frame: None,
             yielding: Vec::new(),
+            bearings: Vec::new(),
             element_names: Vec::new(),
         }),
         damping: Damping::Rayleigh {
@@ -647,6 +648,7 @@ fn polygons() -> Vec<Row> {
                     frames: Vec::new(),
                     space_frame: None,
                     yielding: Vec::new(),
+                    bearings: Vec::new(),
                     element_names: Vec::new(),
                 }),
                 damping: Damping::Ratio {

@@ -110,6 +110,7 @@ fn model(depth: f64, turn: f64, points: usize) -> Model {
             structure: Structure::Tiers(Tiers {
                 frames: Vec::new(),
                 yielding: Vec::new(),
+                bearings: Vec::new(),
                 element_names: Vec::new(),
                 floors: vec![tier],
                 storeys: vec![storey],

@@ -145,6 +145,11 @@ pub enum Column {
         /// Building index; walls are counted on from the buildings.
         building: usize,
     },
+    /// The same across, of bearings in plan \[N\].
+    SupportForceAcross {
+        /// Building index.
+        building: usize,
+    },
     /// Displacement from rest of the ground under a building or a wall, where grounds move apart \[m\].
     GroundDisplacement {
         /// Building index; walls are counted on from the buildings.
@@ -193,6 +198,7 @@ impl Column {
             Self::LinkStroke { .. } => of("link", "stroke", Unit::M, "shortening of the link since rest; with `links = true` under `[output]`"),
             Self::LinkSpeed { .. } => of("link", "speed", Unit::M_S, "its rate; with `links = true` under `[output]`"),
             Self::SupportForce { .. } => of("isolation", "force", Unit::N, "force of bearings, stops not included; of a wall, that of its spring and dashpot"),
+            Self::SupportForceAcross { .. } => of("isolation", "force_across", Unit::N, "the same across, of buildings in space"),
             Self::Energy(EnergyTerm::Input) => of("energy", "input", Unit::J, "work of the ground motion until then"),
             Self::Energy(EnergyTerm::Ground) => of("energy", "ground", Unit::J, "work of grounds that move apart, through contacts and links, until then"),
             Self::Energy(EnergyTerm::Kinetic) => of("energy", "kinetic", Unit::J, "kinetic energy relative to the ground"),
@@ -224,9 +230,9 @@ impl Column {
             Self::LinkForce { link } | Self::LinkStroke { link } | Self::LinkSpeed { link } => {
                 [link, 0]
             }
-            Self::SupportForce { building } | Self::GroundDisplacement { building } => {
-                [building, 0]
-            }
+            Self::SupportForce { building }
+            | Self::SupportForceAcross { building }
+            | Self::GroundDisplacement { building } => [building, 0],
         }
     }
 }
@@ -508,6 +514,35 @@ pub struct SupportPeaks {
     /// Greatest force of springs, friction and dashpot together, without stops, either sign \[N\].
     pub force: f64,
     /// Energy dissipated in the dashpot \[J\].
+    pub damped: f64,
+    /// Those of a mat that moves across and turns too.
+    pub in_plan: Option<MatPeaks>,
+}
+
+/// Peaks of a mat in plan beside those along x.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MatPeaks {
+    /// Greatest and least displacement of its centre across \[m\].
+    pub across: [Extreme; 2],
+    /// Greatest rotation counter-clockwise, and least \[rad\].
+    pub rotation: [Extreme; 2],
+    /// Greatest length of the displacement of a bearing \[m\].
+    pub stroke: Extreme,
+    /// That bearing, from 0.
+    pub bearing: usize,
+    /// Greatest displacement of a corner of the mat \[m\].
+    pub corner: f64,
+    /// Greatest total acceleration across, either sign \[m/s²\].
+    pub total_acceleration_across: f64,
+    /// Greatest force of bearings across, dashpots included, without the ring \[N\].
+    pub force_across: f64,
+    /// Greatest force of bearings and ring across, without dashpots \[N\].
+    pub base_shear_across: f64,
+    /// Greatest torque of these forces about the centre of mass of the lowest floor \[N·m\].
+    pub base_torque: f64,
+    /// Greatest force of the ring that stops it, in any direction \[N\].
+    pub ring_force: f64,
+    /// Energy dissipated in its dashpots \[J\].
     pub damped: f64,
 }
 

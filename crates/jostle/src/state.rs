@@ -229,6 +229,9 @@ impl BuildingSystem {
         let Some(support) = &self.support else {
             return 0.0;
         };
+        if let Some([along, ..]) = self.bearing_forces(state) {
+            return along;
+        }
         let yielding = support.spring.map_or(0.0, |spring| {
             state.springs[self.spring_offset + spring].force()
         });

@@ -107,7 +107,8 @@ impl Materials {
             HysteresisRule::Failing(_) => Err("shear_failure"),
             rule @ (HysteresisRule::Takeda { .. }
             | HysteresisRule::DegradingTrilinear
-            | HysteresisRule::Sliding { .. }) => Err(rule.name()),
+            | HysteresisRule::Sliding { .. }
+            | HysteresisRule::InPlan { .. }) => Err(rule.name()),
         }
     }
 

@@ -66,6 +66,13 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
                 "rises with the speed, which the exported springs cannot do; give one coefficient, such as friction = 0.05".into(),
             );
         }
+        let in_plan = matches!(building.structure, jostle::Structure::Tiers(_));
+        if in_plan && building.base.isolation.is_some() {
+            refuse(
+                format!("building[{index}].isolation"),
+                "is not exported yet for a building with a plan; leave it out to compare the buildings on rigid ground".into(),
+            );
+        }
         let structure = export.system.structures().get(index);
         if structure.is_some_and(|own| own.modal_damping.is_some()) {
             refuse(

@@ -210,7 +210,11 @@ fn read(
     let is_shear = kind == Kind::Shear;
     if kind != Kind::Given {
         building.base = read_base(reader, &view, kind != Kind::Frame);
-        building.base.isolation = isolation::read(reader, &view);
+        let places = match &mut building.structure {
+            Structure::Tiers(tiers) => Some(&mut tiers.bearings),
+            Structure::Frame(_) | Structure::Shear(_) | Structure::Given(_) => None,
+        };
+        building.base.isolation = isolation::read(reader, &view, places);
         building.base.foundation = soil::read_foundation(reader, &view);
     }
     let Base {

@@ -1,7 +1,8 @@
 //! `[building.isolation]`: bearings under a building, and the mat on them.
 
-use jostle::{Isolation, Isolator, IsolatorDamping, SpeedFriction, Stop};
+use jostle::{Isolation, Isolator, IsolatorDamping, PlanPoint, SpeedFriction, Stop};
 
+use super::plan::pair;
 use crate::keys::{ISOLATORS, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
@@ -10,8 +11,13 @@ use crate::tree::Value;
 /// Displacement at which sliding bearings slip, where none is given \[m\].
 const SLIP: f64 = 1e-3;
 
-/// Reads the isolation of a building; `None` after a fault, or if it has none.
-pub(super) fn read(reader: &mut Reader<'_>, building: &View<'_>) -> Option<Isolation> {
+/// Reads the isolation of a building; `None` after a fault, or if it has none. Places of its bearings in a plan go into `places`, which
+/// is `None` for a building in one plane.
+pub(super) fn read(
+    reader: &mut Reader<'_>,
+    building: &View<'_>,
+    places: Option<&mut Vec<PlanPoint>>,
+) -> Option<Isolation> {
     let field = reader.get(building, "isolation")?;
     if let Some(base) = reader.get(building, "base") {
         *reader.bad(&base, "cannot stand beside isolation") =
@@ -63,6 +69,7 @@ pub(super) fn read(reader: &mut Reader<'_>, building: &View<'_>) -> Option<Isola
     };
     let stops = stops(reader, &view);
     let limit = given(reader, &view, "limit", Dimension::Length);
+    read_places(reader, &view, places);
     let weight = given(reader, &view, "weight", Dimension::Force);
     Some(Isolation {
         isolator: isolator?,
@@ -72,6 +79,29 @@ pub(super) fn read(reader: &mut Reader<'_>, building: &View<'_>) -> Option<Isola
         limit,
         weight,
     })
+}
+
+/// Where bearings stand in the plan, from its origin.
+fn read_places(reader: &mut Reader<'_>, view: &View<'_>, places: Option<&mut Vec<PlanPoint>>) {
+    let Some(field) = reader.get(view, "bearings") else {
+        return;
+    };
+    let Some(places) = places else {
+        *reader.bad(&field, "is for a building with a plan") = Some(
+            "leave it out: bearings of a building in one plane act as one, or add plan".into(),
+        );
+        return;
+    };
+    let entries = field.entries().unwrap_or_default();
+    if entries.is_empty() {
+        let found = field.node.describe();
+        reader.bad(
+            &field,
+            format!("expected a list of places, such as [[\"1 m\", \"1 m\"], [\"19 m\", \"1 m\"]]; found {found}"),
+        );
+        return;
+    }
+    places.extend(entries.iter().filter_map(|entry| pair(reader, entry)));
 }
 
 /// Keys of one kind of bearings, which mean nothing under another.

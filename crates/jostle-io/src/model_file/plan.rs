@@ -168,6 +168,7 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, held_by: HeldBy) ->
             space_frame,
             yielding,
             element_names,
+            bearings: Vec::new(),
         },
         at,
     }

@@ -208,7 +208,7 @@ messages! {
     moved_dissipated_dissipated(moved, dissipated) = "{moved}, {dissipated} dissipated";
     floors_left_right(left, right) = "floors {left}–{right}";
     floor_one(one) = "floor {one}";
-    force_over_displacement_bearings = "Force over displacement; bearings with their dashpots, without stops. Links: positive where they are shorter and push. Dashed: first loading; dotted: stops and limits. Cables and stoppers: force over time.";
+    force_over_displacement_bearings = "Force over displacement; bearings with their dashpots, without stops. Links: positive where they are shorter and push. Dashed: first loading; dotted: stops and limits. Cables and stoppers: force over time. Path of a mat: y over x, both in mm; dashed: its ring, or the limit of its bearings.";
     where_word = "where";
     the_that_dissipate_most(most_rows, all) = "The {most_rows} that dissipate most, of {all}; summary.json has all of them.";
     capacity = "capacity";
@@ -218,6 +218,11 @@ messages! {
     bearings = "bearings";
     links_and_dampers = "links and dampers";
     walls = "walls";
+    bearings_along(name) = "{name}, along x";
+    bearings_across(name) = "{name}, across";
+    path_in_plan(name) = "{name}, path of the mat in plan";
+    path_of_mat(moved) = "a bearing moved {moved}";
+    worst_bearing(number, count, along, across) = " Bearing {number} of {count} moves farthest. Peak forces of all: {along} along x, {across} across.";
     moves_on_its_bearings(name, moved) = "{name} moves {moved} on its bearings";
     share_of_limit(used, limit) = ", {used} % of their limit of {limit}";
     they_dissipate_residual_displacement(damped, residual) = ". They dissipate {damped}. Residual displacement: {residual}.";

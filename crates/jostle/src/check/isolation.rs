@@ -1,9 +1,14 @@
 //! Faults of isolation and of walls.
 
+use super::plan::is_inside_hull;
 use super::{Faults, each};
 use crate::model::{
-    Base, Building, Damping, Isolation, Isolator, IsolatorDamping, Model, Structure, WALL,
+    Base, Building, Damping, Isolation, Isolator, IsolatorDamping, Model, PlanPoint, Structure,
+    Tiers, WALL,
 };
+
+/// Least distance of two bearings that keep a mat from turning \[m\].
+const LEAST_APART: f64 = 1e-2;
 
 /// Faults of the isolation of a building.
 pub(super) fn check_isolation(faults: &mut Faults, path: &str, building: &Building) {
@@ -18,13 +23,14 @@ pub(super) fn check_isolation(faults: &mut Faults, path: &str, building: &Buildi
     faults.require(building.base == plain, own.as_str(), || {
         "cannot stand beside base: the bearings are the base; leave out base".into()
     });
-    let stands = matches!(
-        building.structure,
-        Structure::Frame(_) | Structure::Shear(_)
-    );
-    faults.require(stands, own.as_str(), || {
-        "is for frames and shear buildings in one plane; leave it out".into()
-    });
+    match &building.structure {
+        Structure::Frame(_) | Structure::Shear(_) => {}
+        Structure::Given(_) => faults.add(
+            own.as_str(),
+            "is for frames, shear buildings and buildings with a plan; leave it out",
+        ),
+        Structure::Tiers(tiers) => check_isolation_in_plan(faults, path, isolation, tiers),
+    }
     faults.require(
         !matches!(building.damping, Damping::AllModes { .. }),
         format!("{path}.damping.modes"),
@@ -55,6 +61,53 @@ pub(super) fn check_isolation(faults: &mut Faults, path: &str, building: &Buildi
             });
         }
     }
+}
+
+/// What bearings of a building with a plan cannot do.
+fn check_isolation_in_plan(faults: &mut Faults, path: &str, isolation: &Isolation, tiers: &Tiers) {
+    let own = format!("{path}.isolation");
+    let has_frames = !tiers.frames.is_empty() || tiers.space_frame.is_some();
+    faults.require(!has_frames, own.as_str(), || {
+        "is not possible yet under frames with a plan: only storey springs and elements stand on a mat there; give stiffness or [[building.element]] instead of frames, or leave it out".into()
+    });
+    if let Isolator::Pendulum { friction, .. } = isolation.isolator {
+        faults.require(friction.is_constant(), format!("{own}.friction"), || {
+            "cannot change with speed under a building with a plan yet; give one coefficient, such as friction = 0.05".into()
+        });
+    }
+    let [left, right] = isolation.stops;
+    faults.require(left == right, format!("{own}.stop"), || {
+        "is a ring under a building with a plan, the same all round: give at and stiffness instead of left and right, or moat walls ([[wall]] with from and to)".into()
+    });
+    let places = &tiers.bearings;
+    let at = format!("{own}.bearings");
+    faults.require(
+        places.iter().flatten().all(|value| value.is_finite()),
+        at.as_str(),
+        || "must be finite".into(),
+    );
+    let Some(floor) = tiers.floors.first() else {
+        return;
+    };
+    for (index, place) in places.iter().enumerate() {
+        faults.require(
+            is_inside_hull(*place, &floor.plan),
+            format!("{at}[{index}]"),
+            || "lies outside the plan of the lowest floor; measure it from the same origin as the corners of the plan".into(),
+        );
+    }
+    let apart = |place: &PlanPoint| {
+        let first = places[0];
+        (place[0] - first[0]).hypot(place[1] - first[1]) > LEAST_APART
+    };
+    faults.require(
+        places.is_empty() || places.iter().any(apart),
+        at.as_str(),
+        || {
+            "must be at two different points at least: otherwise nothing keeps the mat from turning"
+                .into()
+        },
+    );
 }
 
 fn check_isolator(faults: &mut Faults, own: &str, isolation: &Isolation) {

@@ -113,9 +113,21 @@ pub(super) fn check_tiers(faults: &mut Faults, path: &str, tiers: &Tiers, buildi
     }
     plan_frames::check_plan_frames(faults, path, tiers, building);
     space_frame::check_space_frame(faults, path, tiers, building);
-    faults.require(building.base == Base::default(), at("base"), || {
-        "is not possible for a building with a plan yet; leave it out, or give it to a frame".into()
+    let base = Base {
+        isolation: None,
+        ..building.base
+    };
+    faults.require(base == Base::default(), at("base"), || {
+        "is not possible for a building with a plan yet; leave it out, give it to a frame, or use isolation".into()
     });
+    faults.require(
+        tiers.bearings.is_empty() || building.base.isolation.is_some(),
+        at("isolation.bearings"),
+        || {
+            "are those of an isolated building, and this one has no isolation; leave them out"
+                .into()
+        },
+    );
     faults.require(building.hinges.is_none(), at("hinges"), || {
         "are those of frames and of storeys in one plane; a building with a plan has its own, Tiers::yielding".into()
     });
@@ -185,7 +197,7 @@ fn cross(first: [PlanPoint; 2], second: [PlanPoint; 2]) -> bool {
 }
 
 /// Whether a point lies within the convex hull of corners: on no line through two of them are all corners on its far side.
-fn is_inside_hull(point: PlanPoint, plan: &[PlanPoint]) -> bool {
+pub(super) fn is_inside_hull(point: PlanPoint, plan: &[PlanPoint]) -> bool {
     let pairs = plan
         .iter()
         .flat_map(|a| plan.iter().map(move |b| [*a, *b]))

@@ -23,6 +23,7 @@
 //! ```
 
 mod backbone;
+mod circular;
 mod degrading;
 mod failing;
 mod friction;
@@ -33,6 +34,7 @@ mod rule;
 mod sliders;
 
 pub use backbone::{Backbone, BackboneSide, Corner, Corners, Quantity, Side, SpringFault};
+pub use circular::{CircularLaw, ForceRow};
 pub use failing::FallingBranch;
 pub use friction::Rates;
 pub use memory::{HysteresisMemory, Response, Stage};

@@ -1,6 +1,7 @@
 //! A rule on a backbone: the restoring force as a pure function of memory and deformation.
 
 use super::backbone::{Backbone, Corner, Corners, Quantity, Side, SpringFault};
+use super::circular::{CircularLaw, ForceRow};
 use super::failing::{self, FallingBranch};
 use super::friction::{Rates, Strength};
 use super::memory::{Branch, HysteresisMemory, Response, Stage};
@@ -51,6 +52,14 @@ pub enum HysteresisRule {
     /// Elastic to the yield force, then falling to a residual force: columns that fail in shear;
     /// [`Hysteresis::failing`] makes it.
     Failing(FallingBranch),
+    /// A row of a force in plan that is the same in every direction; [`Hysteresis::in_plan`] makes all three. On its own a row
+    /// along x or across is that force on a straight line.
+    InPlan {
+        /// Slider or ring.
+        law: CircularLaw,
+        /// Its direction.
+        row: ForceRow,
+    },
 }
 
 impl HysteresisRule {
@@ -86,7 +95,8 @@ impl HysteresisRule {
             | Self::Sliding { .. }
             | Self::Stop { .. }
             | Self::Pinched(_)
-            | Self::Failing(_) => true,
+            | Self::Failing(_)
+            | Self::InPlan { .. } => true,
         }
     }
 
@@ -103,7 +113,8 @@ impl HysteresisRule {
             | Self::DegradingTrilinear
             | Self::Stop { .. }
             | Self::Pinched(_)
-            | Self::Failing(_) => false,
+            | Self::Failing(_)
+            | Self::InPlan { .. } => false,
         }
     }
 
@@ -121,6 +132,10 @@ impl HysteresisRule {
             Self::Stop { .. } => "stop",
             Self::Pinched(_) => "pinched",
             Self::Failing(_) => "failing",
+            Self::InPlan { law, .. } => match law {
+                CircularLaw::Slider => "friction in plan",
+                CircularLaw::Ring => "ring",
+            },
         }
     }
 }
@@ -128,8 +143,8 @@ impl HysteresisRule {
 /// A rule on a backbone. It is immutable; the state is a [`HysteresisMemory`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hysteresis {
-    rule: HysteresisRule,
-    backbone: Backbone,
+    pub(super) rule: HysteresisRule,
+    pub(super) backbone: Backbone,
 }
 
 impl Hysteresis {
@@ -314,7 +329,15 @@ impl Hysteresis {
     #[must_use]
     pub fn initial_tangent(&self) -> f64 {
         match self.rule {
-            HysteresisRule::Stop { .. } => 0.0,
+            HysteresisRule::Stop { .. }
+            | HysteresisRule::InPlan {
+                law: CircularLaw::Ring,
+                ..
+            }
+            | HysteresisRule::InPlan {
+                row: ForceRow::Between,
+                ..
+            } => 0.0,
             HysteresisRule::Elastic
             | HysteresisRule::Bilinear
             | HysteresisRule::Normal
@@ -323,6 +346,7 @@ impl Hysteresis {
             | HysteresisRule::DegradingTrilinear
             | HysteresisRule::Pinched(_)
             | HysteresisRule::Failing(_)
+            | HysteresisRule::InPlan { .. }
             | HysteresisRule::Sliding { .. } => self.backbone.initial(),
         }
     }
@@ -409,6 +433,7 @@ impl Hysteresis {
             HysteresisRule::Failing(falling) => {
                 failing::respond(&self.backbone, &falling, memory, deformation)
             }
+            HysteresisRule::InPlan { row, .. } => self.on_a_line(row, memory, deformation),
         };
         let force = response.force;
         response.memory.stand_at(deformation, force, side);
@@ -469,7 +494,7 @@ impl Hysteresis {
     #[inline]
     pub(crate) fn commit(&self, memory: &mut HysteresisMemory, deformation: f64, force: f64) {
         match self.rule {
-            HysteresisRule::Sliding { .. } => {
+            HysteresisRule::Sliding { .. } | HysteresisRule::InPlan { .. } => {
                 let side = Side::from_change(deformation - memory.deformation);
                 memory.stand_at(deformation, force, side);
             }
@@ -495,13 +520,22 @@ impl Hysteresis {
             HysteresisRule::DegradingTrilinear => {
                 degrading::factor(&self.backbone, memory) * self.backbone.initial()
             }
-            HysteresisRule::Stop { .. } if memory.force == 0.0 => 0.0,
+            HysteresisRule::Stop { .. }
+            | HysteresisRule::InPlan {
+                law: CircularLaw::Ring,
+                ..
+            } if memory.force == 0.0 => 0.0,
+            HysteresisRule::InPlan {
+                row: ForceRow::Between,
+                ..
+            } => 0.0,
             HysteresisRule::Elastic
             | HysteresisRule::Bilinear
             | HysteresisRule::Normal
             | HysteresisRule::PeakOriented
             | HysteresisRule::Sliding { .. }
             | HysteresisRule::Failing(_)
+            | HysteresisRule::InPlan { .. }
             | HysteresisRule::Stop { .. } => self.backbone.initial(),
             HysteresisRule::Pinched(pinching) => {
                 pinched::unloading_stiffness(&self.backbone, &pinching, memory)
@@ -560,6 +594,7 @@ impl Hysteresis {
             HysteresisRule::Failing(falling) => {
                 failing::next_corner(&self.backbone, &falling, memory, towards)
             }
+            HysteresisRule::InPlan { .. } => towards.sign() * f64::INFINITY,
         }
     }
 
@@ -569,7 +604,8 @@ impl Hysteresis {
         memory.greatest(side) / self.backbone.side(side).yielding.deformation
     }
 
-    /// Largest loading stage so far, on either side. Elastic springs and stops never crack; a spring that failed has yielded.
+    /// Largest loading stage so far, on either side. Elastic springs, stops and rows of a force in plan never
+    /// crack; a spring that failed has yielded.
     #[must_use]
     pub fn stage(&self, memory: &HysteresisMemory) -> Stage {
         if let HysteresisRule::Failing(_) = self.rule {
@@ -581,7 +617,7 @@ impl Hysteresis {
         }
         if matches!(
             self.rule,
-            HysteresisRule::Elastic | HysteresisRule::Stop { .. }
+            HysteresisRule::Elastic | HysteresisRule::Stop { .. } | HysteresisRule::InPlan { .. }
         ) {
             return Stage::Uncracked;
         }

@@ -6,6 +6,8 @@ use crate::model::{Gap, Model, PlanPoint, Structure};
 
 /// Plans on one side of a gap, from the ground up, with the heights of the floors; that of a wall stands for every height.
 struct Side {
+    /// Number of the first plan: 0 for a mat and for a wall, 1 for a floor.
+    first: usize,
     plans: Vec<Vec<PlanPoint>>,
     heights: Vec<f64>,
 }
@@ -14,20 +16,26 @@ impl Side {
     fn new(model: &Model, side: Option<usize>) -> Option<Self> {
         if let Some(wall) = model.wall(side) {
             return Some(Self {
+                first: 0,
                 plans: vec![wall.plan()?],
                 heights: Vec::new(),
             });
         }
         let building = model.buildings.get(side?)?;
         match &building.structure {
-            Structure::Tiers(tiers) => Some(Self {
-                plans: tiers
-                    .floors
-                    .iter()
-                    .map(|floor| floor.plan.clone())
-                    .collect(),
-                heights: building.floor_heights(),
-            }),
+            Structure::Tiers(tiers) => {
+                let floors = tiers.floors.iter().map(|floor| floor.plan.clone());
+                // The mat has the plan of the lowest floor.
+                let isolated = building.base.isolation.is_some();
+                let lowest = tiers.floors.first().map(|floor| floor.plan.clone());
+                let mat = isolated.then_some(lowest).flatten();
+                let heights = mat.as_ref().map(|_| 0.0).into_iter();
+                Some(Self {
+                    first: usize::from(mat.is_none()),
+                    heights: heights.chain(building.floor_heights()).collect(),
+                    plans: mat.into_iter().chain(floors).collect(),
+                })
+            }
             _ => None,
         }
     }
@@ -41,8 +49,8 @@ impl Side {
     }
 }
 
-/// Faces of a gap with the indices of their floors, from the lowest up, 0 for a wall; `None` where its buildings or floors do
-/// not fit.
+/// Faces of a gap with the numbers of their floors, from the lowest up, 0 for a mat and for a wall; `None` where its buildings or
+/// floors do not fit.
 pub(crate) fn faces_of_gap(model: &Model, gap: &Gap) -> Option<Vec<([usize; 2], PlanFace)>> {
     let [a, b] = gap.between;
     let sides = [Side::new(model, a)?, Side::new(model, b)?];
@@ -55,7 +63,8 @@ pub(crate) fn faces_of_gap(model: &Model, gap: &Gap) -> Option<Vec<([usize; 2], 
         };
         let plans = (sides[0].plans.get(i)?, sides[1].plans.get(j)?);
         let faces = plan_faces(plans.0, plans.1, &gap.in_plan);
-        found.extend(faces.into_iter().map(|face| ([i, j], face)));
+        let numbers = [sides[0].first + i, sides[1].first + j];
+        found.extend(faces.into_iter().map(|face| (numbers, face)));
     }
     found.sort_by_key(|(floors, _)| *floors);
     Some(found)

@@ -10,6 +10,7 @@ mod integrator;
 mod isolation;
 mod link_law;
 mod members;
+mod plan_bearings;
 mod plan_frame;
 mod plan_spring;
 mod shear_spring;

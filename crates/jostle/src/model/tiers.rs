@@ -29,6 +29,7 @@ pub type PlanPoint = [f64; 2];
 ///     space_frame: None,
 ///     yielding: Vec::new(),
 ///     element_names: Vec::new(),
+///     bearings: Vec::new(),
 /// };
 /// assert_eq!(tiers.floors.len(), tiers.storeys.len());
 /// ```
@@ -48,6 +49,9 @@ pub struct Tiers {
     pub yielding: Vec<PlanSpring>,
     /// Names of the columns and walls to which such springs belong, as far as they have one.
     pub element_names: Vec<Option<String>>,
+    /// Places of the bearings of an isolated building on the site, each with an equal share of all; empty takes four that stand for
+    /// an even spread, [`Tiers::bearing_points`] \[m\].
+    pub bearings: Vec<PlanPoint>,
 }
 
 /// A floor in plan.
@@ -155,6 +159,7 @@ impl Tiers {
         self.yielding
             .iter_mut()
             .for_each(|spring| shift(&mut spring.at));
+        self.bearings.iter_mut().for_each(shift);
     }
 
     /// Whether springs or frames may crack or yield.

@@ -225,13 +225,16 @@ pub(super) fn building_in_plan(index: usize, outcome: &Outcome) -> Option<Buildi
     let lowest = floor_in_plan(index, 0, outcome)?;
     let floors = (0..).map_while(|floor| floor_in_plan(index, floor, outcome));
     let floors: Vec<FloorInPlan> = floors.collect();
+    let mat = outcome.supports.get(index).and_then(|own| own.in_plan);
     let greatest = |of: &dyn Fn(&FloorInPlan) -> f64| floors.iter().map(of).fold(0.0, f64::max);
     Some(BuildingInPlan {
         corner_displacement_peak_m: greatest(&|floor| floor.corner_displacement_peak_m),
         rotation_peak_rad: greatest(&|floor| floor.rotation_max_rad.max(-floor.rotation_min_rad)),
         drift_across_peak: greatest(&|floor| floor.storey_drift_across_peak),
-        base_shear_across_peak_n: lowest.storey_shear_across_peak_n,
-        base_torque_peak_n_m: lowest.storey_torque_peak_n_m,
+        base_shear_across_peak_n: mat.map_or(lowest.storey_shear_across_peak_n, |own| {
+            own.base_shear_across
+        }),
+        base_torque_peak_n_m: mat.map_or(lowest.storey_torque_peak_n_m, |own| own.base_torque),
     })
 }
 

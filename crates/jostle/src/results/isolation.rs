@@ -1,9 +1,10 @@
 //! What a run does to bearings and walls.
 
 use super::response::FloorResponse;
-use super::summary::{FloorSummary, GapSummary, IsolationSummary, WallSummary};
+use super::summary::{FloorSummary, GapSummary, IsolationInPlan, IsolationSummary, WallSummary};
 use crate::history::SupportPeaks;
 use crate::results::Run;
+use crate::results::in_plan::FloorInPlan;
 use crate::results::response::Amplification;
 use crate::stepping::Outcome;
 use crate::structure::SpringPlace;
@@ -29,12 +30,15 @@ pub(super) fn isolation_summary(
             continue;
         };
         match place {
-            SpringPlace::Bearings => {
+            SpringPlace::Bearings | SpringPlace::BearingInPlan { .. } => {
                 let memory = &outcome.state.springs[global];
                 hysteretic += totals.work - own.hysteresis.recoverable_energy(memory);
             }
             SpringPlace::Stop { .. } => {
                 stop = Some(totals.peak_force.max(stop.unwrap_or(0.0)));
+            }
+            SpringPlace::Ring { .. } => {
+                stop = peaks.in_plan.map(|own| own.ring_force);
             }
             SpringPlace::Column { .. }
             | SpringPlace::Beam { .. }
@@ -59,10 +63,57 @@ pub(super) fn isolation_summary(
         hysteretic_j: hysteretic,
         damped_j: peaks.damped,
         stop_force_peak_n: stop,
-        limit_exceeded: mat
-            .isolation
-            .limit
-            .is_some_and(|limit| max.max(-min) > limit),
+        limit_exceeded: mat.isolation.limit.is_some_and(|limit| {
+            let stroke = peaks.in_plan.map(|own| own.stroke.value);
+            stroke.unwrap_or(max.max(-min)) > limit
+        }),
+        in_plan: isolation_in_plan(building, &peaks, outcome),
+    })
+}
+
+/// Of bearings in plan; `None` in one plane.
+fn isolation_in_plan(
+    building: &BuildingSystem,
+    peaks: &SupportPeaks,
+    outcome: &Outcome,
+) -> Option<IsolationInPlan> {
+    let (mat, own) = (building.mat_in_plan.as_ref()?, peaks.in_plan?);
+    let u = &outcome.state.displacement;
+    let residual = mat.bearings.iter().map(|at| {
+        let [x, y] = [[1.0, 0.0], [0.0, 1.0]].map(|axis| mat.row_at(*at, axis).value(u));
+        x.hypot(y)
+    });
+    Some(IsolationInPlan {
+        bearings: mat.bearings.len(),
+        stroke_peak_m: own.stroke.value,
+        stroke_peak_at_s: own.stroke.at,
+        stroke_bearing: own.bearing + 1,
+        residual_stroke_m: residual.fold(0.0, f64::max),
+        displacement_across_max_m: own.across[0].value,
+        displacement_across_min_m: own.across[1].value,
+        residual_across_m: u[mat.dofs[1]],
+        force_across_peak_n: own.force_across,
+    })
+}
+
+/// The mat of an isolated building in plan as its floor 0.
+fn mat_in_plan(index: usize, outcome: &Outcome) -> Option<FloorInPlan> {
+    let own = outcome.supports.get(index)?.in_plan?;
+    let ([across, back], [turned, other]) = (own.across, own.rotation);
+    Some(FloorInPlan {
+        displacement_across_max_m: across.value,
+        displacement_across_max_at_s: across.at,
+        displacement_across_min_m: back.value,
+        displacement_across_min_at_s: back.at,
+        rotation_max_rad: turned.value,
+        rotation_max_at_s: turned.at,
+        rotation_min_rad: other.value,
+        rotation_min_at_s: other.at,
+        corner_displacement_peak_m: own.corner,
+        total_acceleration_across_peak_m_s2: own.total_acceleration_across,
+        storey_drift_across_peak: 0.0,
+        storey_shear_across_peak_n: own.base_shear_across,
+        storey_torque_peak_n_m: own.base_torque,
     })
 }
 
@@ -106,7 +157,7 @@ pub(super) fn mat_summary(
         floor: 0,
         height_m: 0.0,
         response,
-        in_plan: None,
+        in_plan: mat_in_plan(index, run.outcome),
         without_contact,
         amplification: without_contact
             .map(|without| Amplification::new(FloorResponse::QUANTITIES, &response, &without)),

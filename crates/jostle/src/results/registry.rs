@@ -10,10 +10,10 @@ use super::response::{BuildingResponse, FloorResponse};
 use super::summary::{
     AcceptanceSummary, AcrossSummary, AxialFailureSummary, BuildingSummary, CapacitySummary,
     ContactSummary, EnergySummary, ExceededSummary, FloorSummary, ForcesSummary, FoundationSummary,
-    GapSummary, HingeSummary, ImpactSummary, IsolationSummary, JointRatio, JointSummary,
-    LinkFloorSummary, LinkSummary, MemberComparison, MotionSummary, PromiseSummary, RatioPlace,
-    RatioSummary, SectionSummary, ShearFailure, ShearFailureSummary, SpringSummary, StruckSummary,
-    Summary, WallSummary, WorkSummary,
+    GapSummary, HingeSummary, ImpactSummary, IsolationInPlan, IsolationSummary, JointRatio,
+    JointSummary, LinkFloorSummary, LinkSummary, MemberComparison, MotionSummary, PromiseSummary,
+    RatioPlace, RatioSummary, SectionSummary, ShearFailure, ShearFailureSummary, SpringSummary,
+    StruckSummary, Summary, WallSummary, WorkSummary,
 };
 use crate::quantity::{Places, Quantity};
 
@@ -69,6 +69,7 @@ pub fn owners() -> Vec<Owner> {
         owner("Floors", "buildings[].floors[]", Some("floors.parquet"), "J1.floor3.", &[entries(FloorSummary::QUANTITIES), entries(FloorResponse::QUANTITIES)]),
         owner("Floors in plan", "buildings[].floors[]", None, "A.floor3.", &[entries(FloorInPlan::QUANTITIES)]),
         owner("Bearings", "buildings[].isolation", None, "", &[entries(IsolationSummary::QUANTITIES)]),
+        owner("Bearings in plan", "buildings[].isolation", None, "", &[entries(IsolationInPlan::QUANTITIES)]),
         owner("Foundations", "buildings[].foundation", None, "", &[entries(FoundationSummary::QUANTITIES)]),
         owner("Ground under a building", "buildings[].ground", None, "", &[entries(GroundSummary::QUANTITIES)]),
         owner("Hinges of a building", "buildings[].hinges", None, "", &[entries(HingeSummary::QUANTITIES)]),

@@ -229,7 +229,7 @@ fn hinge_summary(building: &BuildingSystem, outcome: &Outcome) -> HingeSummary {
     summary
 }
 
-/// Peaks of every spring of a building that can yield, in the order of
+/// Peaks of every spring of a building that can yield and of every row of a force in plan, in the order of
 /// [`Discretization::spring_places`](crate::structure::Discretization::spring_places).
 #[must_use]
 pub fn springs_of(building: &BuildingSystem, outcome: &Outcome) -> Vec<SpringSummary> {
@@ -277,6 +277,10 @@ pub fn springs_of(building: &BuildingSystem, outcome: &Outcome) -> Vec<SpringSum
             dissipated_j: totals.work - rule.recoverable_energy(memory),
         }
     };
+    // The row between two directions has no force.
+    let is_force = |place: Option<&SpringPlace>| !place.is_some_and(SpringPlace::has_no_force);
+    let places = &building.discretization.spring_places;
+    let springs = springs.filter(|(index, _)| is_force(places.get(*index)));
     springs.map(summary).collect()
 }
 
@@ -600,7 +604,12 @@ fn warnings(run: &Run) -> Vec<String> {
             && own.limit_exceeded
         {
             warnings.push(format!(
-                "the mat of \"{}\" moves {:.0} mm, beyond the {:.0} mm that its bearings allow",
+                "{} of \"{}\" moves {:.0} mm, beyond the {:.0} mm that its bearings allow",
+                if own.in_plan.is_some() {
+                    "a bearing"
+                } else {
+                    "the mat"
+                },
                 building.name,
                 1e3 * own.displacement_peak_m(),
                 1e3 * limit

@@ -18,6 +18,7 @@ mod expected_work;
 mod face_forces;
 mod force_equations;
 mod gap_forces;
+mod mat_peaks;
 mod member_peaks;
 mod member_ratios;
 pub mod modal;

@@ -643,7 +643,10 @@ fn frequency_errors<'a>(
         let mut damping = 0.5 * (equations.alpha / omega + equations.beta * omega);
         if let Some(support) = &building.support {
             // Rayleigh damping acts on motion relative to the support, and the dashpot of the support beside it.
-            let moved = mode.shape[support.dof - building.offset].powi(2);
+            let moved = match &building.mat_in_plan {
+                Some(mat) => mat.mean_square(&mode.shape),
+                None => mode.shape[support.dof - building.offset].powi(2),
+            };
             damping *= (1.0 - support.stiffness * moved / (omega * omega)).max(0.0);
             damping += 0.5 * support.damping * moved / omega;
         }

@@ -4,6 +4,7 @@ use super::acceleration_parts::AccelerationParts;
 use super::corner_distances::CornerDistances;
 use super::energy::EnergyAudit;
 use super::events::Cubic;
+use super::mat_peaks::MatRecorder;
 use super::member_peaks::MemberPeaks;
 use super::outcome::PlanPeaks;
 use crate::history::{
@@ -23,6 +24,7 @@ pub(crate) struct Recorder {
     /// Of every displacement of the floors, direction by direction.
     pub(crate) floors: Vec<Vec<FloorPeaks>>,
     corners: CornerDistances,
+    mats: MatRecorder,
     pub(crate) closing: Vec<Extreme>,
     pub(crate) base_shear: Vec<f64>,
     pub(crate) supports: Vec<SupportPeaks>,
@@ -100,6 +102,17 @@ pub(crate) fn columns(system: &System, grounds: &RunGrounds<'_>) -> Vec<Column> 
             Column::TotalAcceleration { building, floor },
             Column::SupportForce { building },
         ]);
+        if system.buildings[building].mat_in_plan.is_some() {
+            columns.extend([
+                Column::DisplacementAcross { building, floor },
+                Column::VelocityAcross { building, floor },
+                Column::TotalAccelerationAcross { building, floor },
+                Column::SupportForceAcross { building },
+                Column::Rotation { building, floor },
+                Column::RotationRate { building, floor },
+                Column::RotationAcceleration { building, floor },
+            ]);
+        }
     }
     columns.extend(EnergyTerm::ALL.map(Column::Energy));
     if grounds.part {
@@ -141,6 +154,7 @@ impl Recorder {
                 .map(|b| vec![FloorPeaks::default(); b.tracks.len()])
                 .collect(),
             corners: CornerDistances::new(system),
+            mats: MatRecorder::new(system),
             closing: vec![Extreme::default(); system.contacts.len()],
             base_shear: vec![0.0; system.buildings.len()],
             supports: vec![SupportPeaks::default(); system.buildings.len()],
@@ -190,6 +204,17 @@ impl Recorder {
         (floors, in_plan)
     }
 
+    /// Peaks of bearings and walls.
+    pub(crate) fn take_supports(&mut self) -> Vec<SupportPeaks> {
+        let mut supports = std::mem::take(&mut self.supports);
+        for (building, peaks) in self.mats.finish() {
+            let own = &mut supports[building];
+            own.damped = peaks.damped;
+            own.in_plan = Some(peaks);
+        }
+        supports
+    }
+
     pub(crate) fn into_history(self) -> Option<History> {
         self.history
     }
@@ -203,6 +228,7 @@ impl Recorder {
             self.before.push((u[track.dof], v[track.dof]));
         }
         self.corners.before_step(system, state);
+        self.mats.before_step(system, state);
         for (index, contact) in system.contacts.iter().enumerate() {
             let ports = &contact.ports;
             let [moved, rate, _] = grounds.closing(index, 0);
@@ -241,7 +267,7 @@ impl Recorder {
             for (peaks, track) in self.floors[index].iter_mut().zip(&building.tracks) {
                 let now = (u[track.dof], v[track.dof]);
                 if track.is_lowest && track.direction != Direction::Along {
-                    below = 0.0;
+                    below = building.below_lowest(track.direction, u);
                 }
                 if let Some(&then) = before.next() {
                     take_extremes(
@@ -271,6 +297,7 @@ impl Recorder {
             self.base_shear[index] = self.base_shear[index].max(shear.abs());
         }
         self.corners.after_step(system, state, start, step);
+        self.mats.after_step(system, state, all, start, step);
         let contacts = system.contacts.iter().zip(&mut self.closing);
         for (index, (contact, closing)) in contacts.enumerate() {
             if let Some(&then) = before.next() {
@@ -292,7 +319,9 @@ impl Recorder {
             if let Some(&then) = before.next() {
                 let now = (u[support.dof], v[support.dof]);
                 let moved = now.0 - then.0;
-                peaks.damped += support.damping * moved * moved / step;
+                if building.mat_in_plan.is_none() {
+                    peaks.damped += support.damping * moved * moved / step;
+                }
                 take_extremes(
                     [&mut peaks.displacement_max, &mut peaks.displacement_min],
                     [then, now],
@@ -431,6 +460,19 @@ impl Recorder {
                 put(state.acceleration[support.dof] + ground.of(index)[0]);
                 put(building.support_force(state));
             }
+            let Some((mat, forces)) =
+                (building.mat_in_plan.as_ref()).zip(building.bearing_forces(state))
+            else {
+                continue;
+            };
+            let [_, across, turn] = mat.dofs;
+            put(state.displacement[across]);
+            put(state.velocity[across]);
+            put(state.acceleration[across] + ground.of(index)[1]);
+            put(forces[1]);
+            put(state.displacement[turn]);
+            put(state.velocity[turn]);
+            put(state.acceleration[turn]);
         }
         let Energy {
             input,
@@ -471,7 +513,7 @@ pub(crate) fn forces_of_faces(system: &System, phases: &[ContactPhase], mut put:
 }
 
 /// Updates the extremes of a displacement with a step between (value, slope) at its ends.
-fn take_extremes(
+pub(super) fn take_extremes(
     [max, min]: [&mut Extreme; 2],
     [then, now]: [(f64, f64); 2],
     start: f64,

@@ -91,9 +91,13 @@ impl Discretization {
                 discretize_shear(shear, &building.base, springs)
             }
             Structure::Given(given) => discretize_given(given),
-            Structure::Tiers(tiers) => discretize_tiers(tiers, building.gravity),
+            Structure::Tiers(tiers) => {
+                let isolation = building.base.isolation.as_ref();
+                discretize_tiers(tiers, building.gravity, isolation)
+            }
         };
-        if let Some(isolation) = &building.base.isolation {
+        let in_plan = matches!(building.structure, Structure::Tiers(_));
+        if let (Some(isolation), false) = (&building.base.isolation, in_plan) {
             discretization.put_on_bearings(isolation);
         }
         discretization
@@ -140,6 +144,10 @@ impl Discretization {
         let (Some(mat), true) = (self.mat, alpha > 0.0) else {
             return;
         };
+        if self.stick_model.in_plan {
+            self.damp_relative_to_mat_in_plan(alpha);
+            return;
+        }
         let sticks = &mut self.stick_model;
         let Some(ground) =
             (0..sticks.nodes.len()).find(|&n| sticks.nodes[n].support == Support::Fixed)

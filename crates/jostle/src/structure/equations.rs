@@ -4,7 +4,7 @@ use crate::hysteresis::Hysteresis;
 use crate::linear::SparseSymmetric;
 use crate::structure::element::{self, Part, X, Y};
 use crate::structure::path::Path;
-use crate::structure::{StickModel, Support};
+use crate::structure::{PlanMat, StickModel, Support};
 
 /// M ü + (α M + β K + C′) u̇ + (K + K′) u = −M r a_g + contact forces, for one building.
 ///
@@ -32,9 +32,12 @@ pub struct Equations {
     pub undamped: SparseSymmetric,
     /// C′: base dashpots.
     pub dashpots: SparseSymmetric,
-    /// Springs that yield: hinges first, then storey springs, then those in plan, each in the order of the stick model. They are not part of
-    /// K, and stiffness-proportional damping does not act on them.
+    /// Springs that yield: hinges first, then storey springs, then those in plan, each in the order of the stick model, then three rows
+    /// of every force in plan that is the same in every direction. They are not part of K, and stiffness-proportional damping does
+    /// not act on them.
     pub springs: Vec<YieldingSpring>,
+    /// Number of springs that yield by themselves; the rows of forces in plan follow them.
+    pub single_springs: usize,
     /// Mass-proportional damping α \[1/s\].
     pub alpha: f64,
     /// Stiffness-proportional damping β \[s\].
@@ -211,6 +214,9 @@ impl Equations {
         if !of_supports || on_soil {
             base_shear = summed(&base_shear, n);
         }
+        let springs = yielding_springs(stick_model, &path);
+        let in_plan = stick_model.plan_mat.iter().flat_map(PlanMat::forces);
+        let single_springs = springs.len() - 3 * in_plan.count();
         let [stiffness, undamped, dashpots] =
             triplets.map(|triplets| SparseSymmetric::from_triplets(n, &triplets));
         Self {
@@ -222,7 +228,8 @@ impl Equations {
             driven_turning,
             polar_mass,
             moved_mass,
-            springs: yielding_springs(stick_model, &path),
+            single_springs,
+            springs,
             stiffness,
             undamped,
             dashpots,
@@ -365,5 +372,24 @@ fn yielding_springs(stick_model: &StickModel, path: &Path) -> Vec<YieldingSpring
             ..spring([upper, lower], own.component, own.hysteresis)
         }
     });
-    hinges.chain(storeys).chain(in_plan).collect()
+    let bearings = stick_model.plan_mat.iter().flat_map(|mat| {
+        let dof = |component: usize| path.dof(mat.node, component);
+        let [x, y, turning] = [dof(X), dof(Y), dof(element::THETA)];
+        mat.forces().flat_map(move |(rows, [along, across])| {
+            let places = [
+                ([x, None], along),
+                ([y, None], across),
+                ([x, y], along - across),
+            ];
+            let rows = places.into_iter().zip(rows).enumerate();
+            rows.map(move |(row, ((dofs, arm), hysteresis))| YieldingSpring {
+                dofs,
+                levers: [turning.zip((arm != 0.0).then_some(arm)), None],
+                hysteresis,
+                carries_base_shear: row == 0,
+            })
+        })
+    });
+    let single = hinges.chain(storeys).chain(in_plan);
+    single.chain(bearings).collect()
 }

@@ -9,6 +9,8 @@ mod member_end;
 mod member_forces;
 mod path;
 mod plan_frames;
+mod plan_mat;
+mod plan_matrix;
 mod space_frame;
 mod space_joints;
 mod space_member_forces;
@@ -34,7 +36,7 @@ pub use space_joints::{JointNodes, JointedFrame, JointedMember};
 pub use spring_place::{BaseMotion, MemberEnd, SpringPlace};
 pub use step_equations::{StepEquations, solve_once};
 pub use stick_model::{
-    Coupling, DeformationElement, FrameNode, Hinge, Member, Node, RigidFoundation, Spring,
+    Coupling, DeformationElement, FrameNode, Hinge, Member, Node, PlanMat, RigidFoundation, Spring,
     StickModel, StickPlanSpring, Support,
 };
 pub use storey_forces::{StoreyForce, StoreyForces};

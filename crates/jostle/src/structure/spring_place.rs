@@ -1,6 +1,6 @@
 //! Places of the springs of a building that yield.
 
-use crate::hysteresis::Side;
+use crate::hysteresis::{ForceRow, Side};
 use crate::model::{PlanAxis, SpacePlace};
 
 /// Which end of a member a hinge is at.
@@ -120,6 +120,18 @@ pub enum SpringPlace {
     },
     /// The bearings of an isolated building, all together.
     Bearings,
+    /// A bearing of an isolated building in plan, in one direction; the row between both directions has no force.
+    BearingInPlan {
+        /// Its number in the order of the model, or of the four that stand for all.
+        bearing: usize,
+        /// Its direction.
+        row: ForceRow,
+    },
+    /// The ring that stops the mat of an isolated building in plan, in one direction.
+    Ring {
+        /// The direction.
+        row: ForceRow,
+    },
     /// A stop of its mat.
     Stop {
         /// The direction of motion in which it is reached: right is positive.
@@ -186,7 +198,24 @@ impl SpringPlace {
     /// Whether it belongs to the isolation of a building rather than to its structure.
     #[must_use]
     pub fn is_isolation(&self) -> bool {
-        matches!(self, Self::Bearings | Self::Stop { .. })
+        matches!(
+            self,
+            Self::Bearings | Self::BearingInPlan { .. } | Self::Ring { .. } | Self::Stop { .. }
+        )
+    }
+
+    /// Whether it is the row between two directions of a force in plan, which has no force.
+    #[must_use]
+    pub fn has_no_force(&self) -> bool {
+        matches!(
+            self,
+            Self::BearingInPlan {
+                row: ForceRow::Between,
+                ..
+            } | Self::Ring {
+                row: ForceRow::Between
+            }
+        )
     }
 
     /// Whether it is the shear of a column, which fails rather than yields.
@@ -279,6 +308,10 @@ impl std::fmt::Display for SpringPlace {
                 axis.name()
             ),
             Self::Bearings => formatter.write_str("bearings"),
+            Self::BearingInPlan { bearing, row } => {
+                write!(formatter, "bearing {bearing}, {}", row.name())
+            }
+            Self::Ring { row } => write!(formatter, "ring, {}", row.name()),
             Self::Stop {
                 side: Side::Positive,
             } => formatter.write_str("right stop"),

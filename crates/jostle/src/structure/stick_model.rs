@@ -25,6 +25,8 @@ pub struct StickModel {
     pub space_ends: Range<usize>,
     /// Springs between floors in plan that yield.
     pub plan_springs: Vec<StickPlanSpring>,
+    /// The mat of an isolated building in plan.
+    pub plan_mat: Option<PlanMat>,
     /// Whether nodes are floors in plan: their vertical displacement is then the one across the row, and their rotation is
     /// about a vertical axis.
     pub in_plan: bool,
@@ -228,6 +230,34 @@ pub struct DeformationElement {
     pub deformations: Vec<Vec<((usize, usize), f64)>>,
 }
 
+/// A mat on bearings that moves in both horizontal directions and turns.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlanMat {
+    /// Its node.
+    pub node: usize,
+    /// Its centre of mass on the site \[m\].
+    pub centre: [f64; 2],
+    /// Places of the bearings on the site; each takes an equal share of all \[m\].
+    pub bearings: Vec<[f64; 2]>,
+    /// Rows of the slider of every bearing, if bearings yield or slide.
+    pub slider: Option<[Hysteresis; 3]>,
+    /// Rows of the ring that stops the centre.
+    pub ring: Option<[Hysteresis; 3]>,
+}
+
+impl PlanMat {
+    /// Forces in plan that are the same in every direction: those of the bearings, then the ring, each with how far a rotation of
+    /// the mat moves its point along x and across \[m\].
+    pub fn forces(&self) -> impl Iterator<Item = ([Hysteresis; 3], [f64; 2])> + '_ {
+        let [x, y] = self.centre;
+        let sliders = self.bearings.iter().filter_map(move |at| {
+            let levers = [y - at[1], at[0] - x];
+            Some((self.slider?, levers))
+        });
+        sliders.chain(self.ring.map(|ring| (ring, [0.0; 2])))
+    }
+}
+
 /// A spring and dashpot between any two displacements, as an entry of a given matrix off its diagonal stands for one. Its
 /// stiffness and its dashpot may be negative.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -236,7 +266,7 @@ pub struct Coupling {
     pub ends: [(usize, usize); 2],
     /// Force per difference of both \[N/m, N, N·m\].
     pub stiffness: f64,
-    /// What P-Delta takes from the stiffness; stiffness-proportional damping does not act on it.
+    /// What P-Delta takes from the stiffness, negative for bearings; stiffness-proportional damping does not act on it.
     pub softening: f64,
     /// Force per difference of their rates \[N·s/m, N·s, N·m·s\].
     pub dashpot: f64,

@@ -134,7 +134,7 @@ impl StoreyForces {
                 let force = share * value;
                 storey.of_displacements.push((dof, [force, arm * force]));
             }
-            let others = equations.springs.len() - stick_model.plan_springs.len();
+            let others = equations.single_springs - stick_model.plan_springs.len();
             for (index, spring) in stick_model.plan_springs.iter().enumerate() {
                 let [x, y] = spring.at;
                 // A force at a point has a torque about the axis of its own.

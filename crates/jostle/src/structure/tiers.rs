@@ -3,16 +3,15 @@
 use std::sync::Arc;
 
 use super::discretization::Discretization;
-use super::element::{THETA, X, Y};
+use super::element::{X, Y};
 use super::plan_frames::add_frames;
+use super::plan_mat::put_on_mat;
+use super::plan_matrix::{Part, PlanMatrix};
 use super::space_frame::condense;
 use super::space_joints::add_space_joints;
 use super::spring_place::SpringPlace;
-use super::stick_model::{Coupling, Node, StickModel, StickPlanSpring, Support};
-use crate::model::{Gravity, LumpedFloor, PlanPoint, TierStorey, Tiers};
-
-/// Displacements of a floor.
-const COMPONENTS: [usize; 3] = [X, Y, THETA];
+use super::stick_model::{Node, StickModel, StickPlanSpring, Support};
+use crate::model::{Gravity, Isolation, PlanPoint, Tiers};
 
 /// Motion of a plan point per displacement of a floor with its centre of mass at `centre`: rows x, across and rotation.
 pub(crate) fn motion_at(point: PlanPoint, centre: PlanPoint) -> [[f64; 3]; 3] {
@@ -21,7 +20,11 @@ pub(crate) fn motion_at(point: PlanPoint, centre: PlanPoint) -> [[f64; 3]; 3] {
 }
 
 /// The lumped masses and the stiffness of a building; with P-Delta, what the weight above every storey takes from it.
-pub(super) fn discretize_tiers(tiers: &Tiers, gravity: Gravity) -> Discretization {
+pub(super) fn discretize_tiers(
+    tiers: &Tiers,
+    gravity: Gravity,
+    isolation: Option<&Isolation>,
+) -> Discretization {
     let mut stick_model = StickModel {
         in_plan: true,
         ..StickModel::default()
@@ -39,21 +42,28 @@ pub(super) fn discretize_tiers(tiers: &Tiers, gravity: Gravity) -> Discretizatio
         stick_model.nodes.len() - 1
     };
     let ground = add(0.0, Support::Fixed, 0.0, 0.0);
+    let mat = isolation.map(|own| tiers.mat(own.mat_mass));
+    let foot = match &mat {
+        Some(mat) => add(0.0, Support::Free, mat.tier.mass, mat.tier.polar_mass),
+        None => ground,
+    };
     let mut floors = Vec::with_capacity(tiers.floors.len());
     let own = lumped.iter().map(|floor| &floor.tier);
     for (floor, storey_height) in own.zip(&tiers.storey_heights) {
         height += storey_height;
         floors.push(add(height, Support::Free, floor.mass, floor.polar_mass));
     }
-    let n = floors.len();
-    let mut matrix = PlanMatrix::new(3 * n);
-    for index in 0..n {
+    // All that moves, from the ground up.
+    let first = usize::from(mat.is_some());
+    let moving: Vec<_> = mat.iter().chain(&lumped).cloned().collect();
+    let mut matrix = PlanMatrix::new(3 * moving.len());
+    for index in 0..floors.len() {
         if let Some(storey) = tiers.storeys.get(index) {
-            matrix.add_storey(&lumped, index, storey, Part::Stiffness);
+            matrix.add_storey(&moving, first + index, storey, Part::Stiffness);
         }
         if gravity.p_delta {
             let softening = tiers.softening(&lumped, index);
-            matrix.add_storey(&lumped, index, &softening, Part::Softening);
+            matrix.add_storey(&moving, first + index, &softening, Part::Softening);
         }
     }
     // Joints follow the floors until a hinge yields.
@@ -64,7 +74,12 @@ pub(super) fn discretize_tiers(tiers: &Tiers, gravity: Gravity) -> Discretizatio
         matrix.add_stiffness(&stiffness);
         Some(Arc::new(own))
     });
-    stick_model.couplings = matrix.couplings(ground, &floors);
+    let nodes: Vec<usize> = mat
+        .iter()
+        .map(|_| foot)
+        .chain(floors.iter().copied())
+        .collect();
+    stick_model.couplings = matrix.couplings(ground, &nodes);
     let (jointed, mut spring_places) = match yielding {
         Some(frame) => {
             let heights = &tiers.storey_heights;
@@ -77,11 +92,14 @@ pub(super) fn discretize_tiers(tiers: &Tiers, gravity: Gravity) -> Discretizatio
     for own in &tiers.yielding {
         let (storey, axis) = (own.storey, own.axis);
         let arm = |floor: usize| motion_at(own.at, lumped[floor].tier.centre)[axis.index()][2];
+        let arm_of_mat = mat.as_ref().map_or(0.0, |mat| {
+            motion_at(own.at, mat.tier.centre)[axis.index()][2]
+        });
         let below = storey.checked_sub(1);
         stick_model.plan_springs.push(StickPlanSpring {
-            ends: [below.map_or(ground, |below| floors[below]), floors[storey]],
+            ends: [below.map_or(foot, |below| floors[below]), floors[storey]],
             component: [X, Y][axis.index()],
-            levers: [below.map_or(0.0, arm), arm(storey)],
+            levers: [below.map_or(arm_of_mat, arm), arm(storey)],
             at: own.at,
             hysteresis: own.hysteresis,
         });
@@ -112,91 +130,11 @@ pub(super) fn discretize_tiers(tiers: &Tiers, gravity: Gravity) -> Discretizatio
         jointed_frame: jointed,
     };
     add_frames(tiers, &lumped, &mut discretization);
+    if let Some((isolation, mat)) = isolation.zip(mat) {
+        let places = [ground, foot];
+        put_on_mat(tiers, isolation, &mat.tier, places, &mut discretization);
+    }
     discretization
-}
-
-/// The matrix an entry belongs to.
-#[derive(Clone, Copy)]
-enum Part {
-    Stiffness,
-    Softening,
-}
-
-/// A symmetric matrix over three displacements of every floor, in parts; block tridiagonal without a space frame.
-struct PlanMatrix {
-    rows: Vec<Vec<[f64; 2]>>,
-}
-
-impl PlanMatrix {
-    fn new(order: usize) -> Self {
-        Self {
-            rows: (0..order).map(|row| vec![[0.0; 2]; row + 1]).collect(),
-        }
-    }
-
-    /// Adds Bᵀ diag(k) B of a storey.
-    fn add_storey(
-        &mut self,
-        floors: &[LumpedFloor],
-        index: usize,
-        storey: &TierStorey,
-        part: Part,
-    ) {
-        let upper = motion_at(storey.centre, floors[index].tier.centre);
-        let mut places: Vec<(usize, [f64; 3])> = Vec::with_capacity(6);
-        if index > 0 {
-            let lower = motion_at(storey.centre, floors[index - 1].tier.centre);
-            places.extend((0..3).map(|c| (3 * (index - 1) + c, [0, 1, 2].map(|r| -lower[r][c]))));
-        }
-        places.extend((0..3).map(|c| (3 * index + c, [0, 1, 2].map(|r| upper[r][c]))));
-        for (i, (row, a)) in places.iter().enumerate() {
-            for (column, b) in &places[..=i] {
-                let value: f64 = (0..3).map(|r| storey.stiffness[r] * a[r] * b[r]).sum();
-                self.rows[*row][*column][part as usize] += value;
-            }
-        }
-    }
-
-    /// Adds a lower triangle of stiffness over all displacements.
-    fn add_stiffness(&mut self, triangle: &[Vec<f64>]) {
-        for (row, own) in self.rows.iter_mut().zip(triangle) {
-            for (entry, value) in row.iter_mut().zip(own) {
-                entry[Part::Stiffness as usize] += value;
-            }
-        }
-    }
-
-    /// As springs between displacements, and between displacements and the ground.
-    fn couplings(&self, ground: usize, floors: &[usize]) -> Vec<Coupling> {
-        let place = |at: usize| (floors[at / 3], COMPONENTS[at % 3]);
-        let coupling = |ends, [stiffness, softening]: [f64; 2]| Coupling {
-            ends,
-            stiffness,
-            softening,
-            dashpot: 0.0,
-        };
-        let mut list = Vec::new();
-        let mut sums = vec![[0.0; 2]; self.rows.len()];
-        for (row, values) in self.rows.iter().enumerate() {
-            for (column, value) in values.iter().enumerate() {
-                for part in 0..2 {
-                    sums[row][part] += value[part];
-                    if row != column {
-                        sums[column][part] += value[part];
-                    }
-                }
-                if row != column && *value != [0.0; 2] {
-                    list.push(coupling([place(row), place(column)], value.map(|v| -v)));
-                }
-            }
-        }
-        for (at, sum) in sums.into_iter().enumerate() {
-            if sum != [0.0; 2] {
-                list.push(coupling([(ground, X), place(at)], sum));
-            }
-        }
-        list
-    }
 }
 
 #[cfg(test)]

@@ -323,10 +323,18 @@ fn plan_contacts(
     let [Some(a), Some(b)] = gap.between else {
         return Default::default();
     };
-    // None of a wall.
-    let floors = |side: usize| match model.buildings.get(side).map(|own| &own.structure) {
-        Some(Structure::Tiers(tiers)) => tiers.lumped_floors(),
-        _ => Vec::new(),
+    // By number, the mat first; none of a wall.
+    let floors = |side: usize| {
+        let Some(building) = model.buildings.get(side) else {
+            return Vec::new();
+        };
+        let Structure::Tiers(tiers) = &building.structure else {
+            return Vec::new();
+        };
+        let mat = building.base.isolation.map_or(0.0, |own| own.mat_mass);
+        let mut all = vec![tiers.mat(mat)];
+        all.extend(tiers.lumped_floors());
+        all
     };
     let (own, other) = (floors(a), floors(b));
     let found = faces_of_gap(model, gap).unwrap_or_default();
@@ -362,12 +370,19 @@ fn plan_contacts(
                 if building >= model.buildings.len() {
                     return None;
                 }
+                let (row, height) = match (floor.checked_sub(1), &own.mat_in_plan) {
+                    (Some(index), _) => {
+                        let row = own.row_at(index, point.at, direction);
+                        (row, own.floors[index].height)
+                    }
+                    (None, mat) => (mat.as_ref()?.row_at(point.at, direction), 0.0),
+                };
                 Some(Port {
                     building,
-                    row: own.row_at(floor, point.at, direction),
+                    row,
                     mass: point.share * mass,
-                    floor: Some(floor + 1),
-                    height: own.floors[floor].height,
+                    floor: Some(floor),
+                    height,
                 })
             };
             let ports = |direction| {

@@ -3,6 +3,7 @@
 use std::ops::Deref;
 use std::sync::Arc;
 
+use super::plan_mat::MatInPlan;
 use super::soil::FoundationPlace;
 use super::weakening::Weakening;
 use crate::eigen::{
@@ -42,6 +43,8 @@ pub struct BuildingSystem {
     pub foot: Option<usize>,
     /// What moves it as a whole, where results are wanted of it.
     pub support: Option<SpringSupport>,
+    /// Its mat, if it is isolated and in space.
+    pub mat_in_plan: Option<MatInPlan>,
     /// The rigid foundation on which it stands.
     pub foundation: Option<FoundationPlace>,
     /// The ratio of critical damping that all modes have, where damping is not Rayleigh's \[–\].
@@ -167,6 +170,7 @@ impl BuildingSystem {
         let foot = structure.discretization.foot;
         let foot = foot.and_then(|node| structure.equations.horizontal(node));
         let support = spring_support(&structure);
+        let mat_in_plan = MatInPlan::new(&structure);
         let modes = if structure.discretization.stick_model.in_plan {
             modes_dense(&structure, |lower| {
                 let (values, vectors) = symmetric::eigen(lower);
@@ -186,6 +190,7 @@ impl BuildingSystem {
             rest: Settled::default(),
             spring_offset: 0,
             support,
+            mat_in_plan,
             foundation: None,
             modal_damping: None,
             modes,
@@ -420,6 +425,9 @@ impl BuildingSystem {
 
     /// Places the corners of its floors, given on the site from the ground up \[m\].
     pub(crate) fn place_corners(&mut self, plans: &[&[PlanPoint]]) {
+        if let (Some(mat), Some(plan)) = (&mut self.mat_in_plan, plans.first()) {
+            mat.place_corners(plan);
+        }
         let n = self.floors.len();
         for (floor, corners) in plans.iter().enumerate().take(n) {
             let dofs = [0, 1, 2].map(|block| self.tracks[block * n + floor].dof - self.offset);

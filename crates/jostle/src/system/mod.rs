@@ -6,6 +6,7 @@ mod finite;
 mod grounds;
 mod half_space;
 mod members;
+mod plan_mat;
 mod rating;
 mod soil;
 mod weakening;
@@ -17,6 +18,7 @@ use crate::model::{LEVEL_TOLERANCE, WALL};
 
 pub use building::{BuildingSystem, Corner, Direction, Floor, SpringSupport, Track};
 pub(crate) use grounds::{GroundsAt, OverStep, RunGrounds};
+pub use plan_mat::MatInPlan;
 pub use rating::{MemberRating, RatedPart};
 pub use soil::FoundationPlace;
 
@@ -85,6 +87,9 @@ impl System {
                 track.dof = track.dof - building.offset + offset;
             }
             building.foot = building.foot.map(|dof| dof - building.offset + offset);
+            if let Some(mat) = &mut building.mat_in_plan {
+                mat.move_to(building.offset, offset);
+            }
             if let Some(support) = &mut building.support {
                 support.dof = support.dof - building.offset + offset;
             }

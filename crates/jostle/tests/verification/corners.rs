@@ -57,6 +57,7 @@ impl Site {
                 frames: Vec::new(),
                 space_frame: None,
                 yielding: Vec::new(),
+                bearings: Vec::new(),
                 element_names: Vec::new(),
             }),
             damping: Damping::Rayleigh {

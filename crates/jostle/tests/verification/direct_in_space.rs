@@ -53,6 +53,7 @@ fn tower(
             storey_heights: vec![3.0; storeys],
             frames: Vec::new(),
             yielding: Vec::new(),
+            bearings: Vec::new(),
             element_names: Vec::new(),
             space_frame: None,
         }),

@@ -36,6 +36,7 @@ fn beside_a_wall(polar_share: f64, friction: f64) -> Model {
             frames: Vec::new(),
             space_frame: None,
             yielding: Vec::new(),
+            bearings: Vec::new(),
             element_names: Vec::new(),
         }),
         damping: Damping::Ratio {

@@ -17,6 +17,7 @@ mod given_structures;
 mod grounds;
 mod harmonic_pounding;
 mod isolation;
+mod isolation_in_plan;
 mod linked_modal_stepping;
 mod links_and_walls;
 mod mirrored_model_mirrors_the_answer;

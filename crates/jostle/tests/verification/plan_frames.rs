@@ -62,6 +62,7 @@ fn in_plan(slab: f64, plan: &[PlanPoint], storeys: usize, frames: Vec<PlanFrame>
         frames,
         space_frame: None,
         yielding: Vec::new(),
+        bearings: Vec::new(),
         element_names: Vec::new(),
     })
 }
@@ -510,6 +511,7 @@ fn without_symmetry(columns_flexible: bool) -> (Tiers, Vec<PlanFrame>) {
         frames: frames.clone(),
         space_frame: None,
         yielding: Vec::new(),
+        bearings: Vec::new(),
         element_names: Vec::new(),
     };
     (tiers, frames)

@@ -73,6 +73,7 @@ fn tower(
             frames: Vec::new(),
             space_frame: None,
             yielding: Vec::new(),
+            bearings: Vec::new(),
             element_names: Vec::new(),
         }),
     )

@@ -131,6 +131,7 @@ fn without_symmetry(flexible: Flexible) -> Tiers {
         frames: Vec::new(),
         space_frame: Some(frame),
         yielding: Vec::new(),
+        bearings: Vec::new(),
         element_names: Vec::new(),
     }
 }
@@ -252,6 +253,7 @@ fn columns_without_beams_are_cantilevers() {
             frames: Vec::new(),
             space_frame: Some(frame),
             yielding: Vec::new(),
+            bearings: Vec::new(),
             element_names: Vec::new(),
         });
         let [kx, ky] = [0, 1].map(|plane| {
@@ -309,6 +311,7 @@ fn a_pair_of_frames_is_its_plane_limit() {
             frames,
             space_frame,
             yielding: Vec::new(),
+            bearings: Vec::new(),
             element_names: Vec::new(),
         };
         let own = |section: SpaceSection| Section {

@@ -131,6 +131,7 @@ fn tiers(
         storey_heights: vec![3.0; storeys],
         frames: Vec::new(),
         yielding: springs.collect(),
+        bearings: Vec::new(),
         element_names: Vec::new(),
         space_frame: None,
     }
@@ -284,6 +285,7 @@ fn eccentric_storey() -> (Model, Vec<([f64; 3], f64, f64)>) {
         storey_heights: vec![3.0],
         frames: Vec::new(),
         yielding,
+        bearings: Vec::new(),
         element_names: vec![None; 4],
         space_frame: None,
     };
@@ -574,6 +576,7 @@ fn two_equal_frames_in_plan_yield_as_one_in_the_plane() {
             standing("C", [11.0, 0.0], [0.0, 1.0], across()),
         ],
         yielding: Vec::new(),
+        bearings: Vec::new(),
         element_names: Vec::new(),
         space_frame: None,
     };

@@ -90,13 +90,58 @@ pub struct IsolationSummary {
     pub stop_force_peak_n: Option<f64>,
     /// Whether the mat moved beyond the limit of the bearings; false without a limit.
     pub limit_exceeded: bool,
+    /// Across and over all bearings; absent in one plane.
+    #[serde(flatten)]
+    pub in_plan: Option<IsolationInPlan>,
+}
+
+/// Bearings of a building in plan.
+#[derive(Clone, Copy, Debug, Serialize, PartialEq)]
+pub struct IsolationInPlan {
+    /// Number of bearings.
+    pub bearings: usize,
+    /// Greatest length of the displacement of a bearing \[m\].
+    pub stroke_peak_m: f64,
+    /// Its instant \[s\].
+    pub stroke_peak_at_s: f64,
+    /// That bearing, from 1.
+    pub stroke_bearing: usize,
+    /// Greatest length of the displacement of a bearing at the end \[m\].
+    pub residual_stroke_m: f64,
+    /// Greatest displacement of the mat across \[m\].
+    pub displacement_across_max_m: f64,
+    /// Least displacement of the mat across, ≤ 0 \[m\].
+    pub displacement_across_min_m: f64,
+    /// Displacement of the mat across at the end \[m\].
+    pub residual_across_m: f64,
+    /// Greatest force of bearings and dashpots across, without stops, either sign \[N\].
+    pub force_across_peak_n: f64,
+}
+
+#[rustfmt::skip]
+impl IsolationInPlan {
+    /// Its numbers.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::whole("bearings", "number of bearings; four stand for all where their places are not given", |i| i.bearings),
+        Quantity::<Self>::real("stroke_peak_m", Unit::M, "greatest length of the displacement of a bearing", |i| i.stroke_peak_m),
+        Quantity::<Self>::real("stroke_peak_at_s", Unit::S, "its instant", |i| i.stroke_peak_at_s),
+        Quantity::<Self>::whole("stroke_bearing", "that bearing, from 1", |i| i.stroke_bearing),
+        Quantity::<Self>::real("residual_stroke_m", Unit::M, "greatest length of the displacement of a bearing at the end", |i| i.residual_stroke_m),
+        Quantity::<Self>::real("displacement_across_max_m", Unit::M, "greatest displacement of the mat across the row", |i| i.displacement_across_max_m),
+        Quantity::<Self>::real("displacement_across_min_m", Unit::M, "least displacement of the mat across the row, ≤ 0", |i| i.displacement_across_min_m),
+        Quantity::<Self>::real("residual_across_m", Unit::M, "displacement of the mat across the row at the end", |i| i.residual_across_m),
+        Quantity::<Self>::real("force_across_peak_n", Unit::N, "greatest force of bearings and dashpots across, without stops", |i| i.force_across_peak_n),
+    ];
 }
 
 impl IsolationSummary {
-    /// Greatest displacement of the mat, either sign \[m\].
+    /// Greatest displacement of the mat, either sign; in plan that of a bearing in any direction \[m\].
     #[must_use]
     pub fn displacement_peak_m(&self) -> f64 {
-        self.displacement_max_m.max(-self.displacement_min_m)
+        match self.in_plan {
+            Some(own) => own.stroke_peak_m,
+            None => self.displacement_max_m.max(-self.displacement_min_m),
+        }
     }
 }
 

@@ -6,6 +6,7 @@ mod integrator;
 mod joints;
 mod kernels;
 mod links;
+mod plan_forces;
 mod springs;
 mod trial;
 mod velocity_jump;
@@ -161,7 +162,7 @@ impl<E: StepEquations> Direct<E> {
             gap_forces: run.gap_forces.peaks,
             face_impacts: run.face_forces.impacts,
             in_plan,
-            supports: std::mem::take(&mut self.recorder.supports),
+            supports: self.recorder.take_supports(),
             foundations: std::mem::take(&mut self.recorder.foundations),
             base_shear: std::mem::take(&mut self.recorder.base_shear),
             acceleration_parts: std::mem::take(&mut self.recorder.parts),

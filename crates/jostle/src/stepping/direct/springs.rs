@@ -5,21 +5,21 @@
 //! with. Forces increase with deformation, or fall so slowly that masses outweigh it, so the step has one solution; the
 //! number of lines is finite, so it is reached exactly.
 
-use super::Direct;
+use super::{Direct, plan_forces};
 use crate::history::{SpringEvent, SpringTotals};
 use crate::hysteresis::{HysteresisMemory, Rates, Stage};
 use crate::linear::NotPositive;
 use crate::state::State;
 use crate::stepping::outcome::StepError;
 use crate::stepping::runner::RunState;
-use crate::structure::StepEquations;
+use crate::structure::{StepEquations, YieldingSpring};
 use crate::system::{BuildingSystem, System};
 
 /// A spring in the trial step.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct SpringTrial {
     /// Start of the line: deformation and force.
-    deformation: f64,
+    pub(super) deformation: f64,
     force: f64,
     tangent: f64,
     /// What the committed velocity and acceleration take from the change of deformation (theory, Eq. Y2) \[rad or m\].
@@ -27,12 +27,12 @@ pub(super) struct SpringTrial {
     /// Rates of the deformation; that at the end belongs to no change of deformation.
     rates: Rates,
     /// Force with which the solution before was balanced there.
-    balance: f64,
+    pub(super) balance: f64,
     /// Result of the solution: deformation, force on the line, and response of the rule.
-    reached: f64,
-    on_line: f64,
-    answer: f64,
-    next_tangent: f64,
+    pub(super) reached: f64,
+    pub(super) on_line: f64,
+    pub(super) answer: f64,
+    pub(super) next_tangent: f64,
 }
 
 impl SpringTrial {
@@ -115,7 +115,7 @@ impl YieldingSprings {
 }
 
 /// Tolerance of a spring on its line, as a fraction of the yield force.
-const FIT: f64 = 1e-12;
+pub(super) const FIT: f64 = 1e-12;
 /// Number of iterations before a line search.
 const PLAIN_ITERATIONS: usize = 8;
 /// Largest number of iterations.
@@ -222,7 +222,7 @@ impl<E: StepEquations> Direct<E> {
         let own = &run.system.buildings[building];
         let (building, time) = (own.name.clone(), run.time);
         let falls = |tangents: &[f64]| tangents.iter().any(|tangent| *tangent < 0.0);
-        let springs = own.spring_range();
+        let springs = own.spring_offset..own.spring_offset + own.equations.single_springs;
         let yielding = &self.yielding;
         if [&yielding.wanted, &yielding.tangents]
             .iter()
@@ -267,20 +267,27 @@ impl<E: StepEquations> Direct<E> {
             let (range, springs) = (building.range(), building.spring_range());
             let increment = &self.increment[range];
             let memories = &self.state.springs[springs.clone()];
-            for ((spring, trial), memory) in building
-                .equations
-                .springs
-                .iter()
-                .zip(&mut self.yielding.trials[springs])
-                .zip(memories)
-            {
+            let single = building.equations.single_springs;
+            let (own, in_plan) = building.equations.springs.split_at(single);
+            let (trials, rows) = self.yielding.trials[springs].split_at_mut(single);
+            let reach = |spring: &YieldingSpring, trial: &mut SpringTrial, memory: &_| {
                 let change = spring.deformation(increment) - trial.rate_term;
-                trial.reached = memory.deformation() + change;
+                trial.reached = HysteresisMemory::deformation(memory) + change;
                 trial.on_line = trial.force + trial.tangent * (trial.reached - trial.deformation);
+            };
+            for ((spring, trial), memory) in own.iter().zip(trials).zip(memories) {
+                reach(spring, trial, memory);
                 let rates = trial.rates_to(memory, trial.reached);
                 [trial.answer, trial.next_tangent] =
                     spring.hysteresis.answer(memory, trial.reached, &rates);
                 all_fit &= trial.fits(spring.hysteresis.backbone().yield_force());
+            }
+            let forces = in_plan.chunks_exact(3).zip(rows.chunks_exact_mut(3));
+            for ((springs, rows), memories) in forces.zip(memories[single..].chunks_exact(3)) {
+                for ((spring, row), memory) in springs.iter().zip(&mut *rows).zip(memories) {
+                    reach(spring, row, memory);
+                }
+                all_fit &= plan_forces::follow(springs, rows, memories);
             }
         }
         all_fit
@@ -290,22 +297,28 @@ impl<E: StepEquations> Direct<E> {
     /// slope there is Σ Δδ (m(δ) − m̃), m̃ being the forces that balance the rest of the step (theory, Eq. Y3).
     fn search_on_the_way(&mut self, run: &RunState<'_>) {
         let slope = |share: f64, direct: &Self| -> f64 {
-            let springs = run
-                .system
-                .buildings
-                .iter()
-                .flat_map(|building| &building.equations.springs);
-            let known = direct.yielding.trials.iter().zip(&direct.state.springs);
-            springs
-                .zip(known)
-                .map(|(spring, (trial, memory))| {
+            let mut sum = 0.0;
+            for building in &run.system.buildings {
+                let range = building.spring_range();
+                let single = building.equations.single_springs;
+                let (own, in_plan) = building.equations.springs.split_at(single);
+                let trials = &direct.yielding.trials[range.clone()];
+                let memories = &direct.state.springs[range];
+                let known = trials.iter().zip(memories);
+                for (spring, (trial, memory)) in own.iter().zip(known) {
                     let way = trial.reached - trial.deformation;
                     let at = trial.deformation + share * way;
                     let balance = trial.balance + share * (trial.on_line - trial.balance);
                     let rates = trial.rates_to(memory, at);
-                    way * (spring.hysteresis.answer(memory, at, &rates)[0] - balance)
-                })
-                .sum()
+                    sum += way * (spring.hysteresis.answer(memory, at, &rates)[0] - balance);
+                }
+                let rows = trials[single..].chunks_exact(3);
+                let known = rows.zip(memories[single..].chunks_exact(3));
+                for (springs, (rows, memories)) in in_plan.chunks_exact(3).zip(known) {
+                    sum += plan_forces::slope(springs, rows, memories, share);
+                }
+            }
+            sum
         };
         // Contact forces do not lie on one line over the way: then simply half of it, and back from there.
         let contacts = run.in_contact();
@@ -321,18 +334,29 @@ impl<E: StepEquations> Direct<E> {
                 low = middle;
             }
         }
-        let springs = run
-            .system
-            .buildings
-            .iter()
-            .flat_map(|building| &building.equations.springs);
-        let known = self.yielding.trials.iter_mut().zip(&self.state.springs);
-        for (spring, (trial, memory)) in springs.zip(known) {
-            trial.reached = trial.deformation + high * (trial.reached - trial.deformation);
-            trial.on_line = trial.balance + high * (trial.on_line - trial.balance);
-            let rates = trial.rates_to(memory, trial.reached);
-            [trial.answer, trial.next_tangent] =
-                spring.hysteresis.answer(memory, trial.reached, &rates);
+        for building in &run.system.buildings {
+            let range = building.spring_range();
+            let single = building.equations.single_springs;
+            let (own, in_plan) = building.equations.springs.split_at(single);
+            let (trials, rows) = self.yielding.trials[range.clone()].split_at_mut(single);
+            let memories = &self.state.springs[range];
+            let go_back = |trial: &mut SpringTrial| {
+                trial.reached = trial.deformation + high * (trial.reached - trial.deformation);
+                trial.on_line = trial.balance + high * (trial.on_line - trial.balance);
+            };
+            for (spring, (trial, memory)) in own.iter().zip(trials.iter_mut().zip(memories)) {
+                go_back(trial);
+                let rates = trial.rates_to(memory, trial.reached);
+                [trial.answer, trial.next_tangent] =
+                    spring.hysteresis.answer(memory, trial.reached, &rates);
+            }
+            rows.iter_mut().for_each(go_back);
+            let known = rows
+                .chunks_exact_mut(3)
+                .zip(memories[single..].chunks_exact(3));
+            for (springs, (rows, memories)) in in_plan.chunks_exact(3).zip(known) {
+                plan_forces::answer(springs, rows, memories);
+            }
         }
     }
 

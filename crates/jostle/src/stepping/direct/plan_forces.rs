@@ -1,0 +1,61 @@
+//! Forces in plan in a step: three rows of the list of springs that answer together (theory, Eq. B1p).
+
+use super::springs::{FIT, SpringTrial};
+use crate::hysteresis::HysteresisMemory;
+use crate::structure::YieldingSpring;
+
+/// Takes the force of a solution from the row between to those along x and across, and answers; whether the force lies on the lines.
+pub(super) fn follow(
+    springs: &[YieldingSpring],
+    rows: &mut [SpringTrial],
+    memories: &[HysteresisMemory],
+) -> bool {
+    let [x, y, between] = rows else { return true };
+    x.on_line += between.on_line;
+    y.on_line -= between.on_line;
+    between.on_line = 0.0;
+    let limit = springs[0].hysteresis.backbone().yield_force();
+    answer(springs, rows, memories);
+    let apart = |row: &SpringTrial| row.answer - row.on_line;
+    let apart = apart(&rows[0]).hypot(apart(&rows[1]));
+    apart <= FIT * limit || apart <= FIT * rows[0].answer.hypot(rows[1].answer)
+}
+
+/// Force and tangents at the displacement reached.
+pub(super) fn answer(
+    springs: &[YieldingSpring],
+    rows: &mut [SpringTrial],
+    memories: &[HysteresisMemory],
+) {
+    let Some(law) = springs[0].hysteresis.circular() else {
+        return;
+    };
+    let to = [rows[0].reached, rows[1].reached];
+    let answer = law.answer([&memories[0], &memories[1]], to);
+    let forces = answer.force.into_iter().chain([0.0]);
+    for (row, (force, tangent)) in rows.iter_mut().zip(forces.zip(answer.tangents)) {
+        (row.answer, row.next_tangent) = (force, tangent);
+    }
+}
+
+/// Slope of the potential of the step at a share of the way to the displacement reached, as far as this force goes \[J\].
+pub(super) fn slope(
+    springs: &[YieldingSpring],
+    rows: &[SpringTrial],
+    memories: &[HysteresisMemory],
+    share: f64,
+) -> f64 {
+    let Some(law) = springs[0].hysteresis.circular() else {
+        return 0.0;
+    };
+    let way = [0, 1].map(|row| rows[row].reached - rows[row].deformation);
+    let at = [0, 1].map(|row| rows[row].deformation + share * way[row]);
+    let force = law.answer([&memories[0], &memories[1]], at).force;
+    let own = |row: usize| {
+        let SpringTrial {
+            balance, on_line, ..
+        } = rows[row];
+        way[row] * (force[row] - balance - share * (on_line - balance))
+    };
+    own(0) + own(1)
+}

@@ -1,0 +1,97 @@
+//! Symmetric matrices over the displacements of floors in plan, as springs and dashpots between them.
+
+use super::element::{THETA, X, Y};
+use super::stick_model::Coupling;
+use super::tiers::motion_at;
+use crate::model::{LumpedFloor, TierStorey};
+
+/// Displacements of a floor.
+const COMPONENTS: [usize; 3] = [X, Y, THETA];
+
+/// The matrix an entry belongs to.
+#[derive(Clone, Copy)]
+pub(super) enum Part {
+    /// Stiffness that takes part in stiffness-proportional damping.
+    Stiffness,
+    /// Stiffness that does not: what P-Delta takes away, with its sign turned that of bearings.
+    Softening,
+    /// Dashpots.
+    Dashpot,
+}
+
+/// A symmetric matrix over three displacements of every floor, in parts; block tridiagonal without a space frame.
+pub(super) struct PlanMatrix {
+    rows: Vec<Vec<[f64; 3]>>,
+}
+
+impl PlanMatrix {
+    pub(super) fn new(order: usize) -> Self {
+        Self {
+            rows: (0..order).map(|row| vec![[0.0; 3]; row + 1]).collect(),
+        }
+    }
+
+    /// Adds Bᵀ diag(k) B of a storey.
+    pub(super) fn add_storey(
+        &mut self,
+        floors: &[LumpedFloor],
+        index: usize,
+        storey: &TierStorey,
+        part: Part,
+    ) {
+        let upper = motion_at(storey.centre, floors[index].tier.centre);
+        let mut places: Vec<(usize, [f64; 3])> = Vec::with_capacity(6);
+        if index > 0 {
+            let lower = motion_at(storey.centre, floors[index - 1].tier.centre);
+            places.extend((0..3).map(|c| (3 * (index - 1) + c, [0, 1, 2].map(|r| -lower[r][c]))));
+        }
+        places.extend((0..3).map(|c| (3 * index + c, [0, 1, 2].map(|r| upper[r][c]))));
+        for (i, (row, a)) in places.iter().enumerate() {
+            for (column, b) in &places[..=i] {
+                let value: f64 = (0..3).map(|r| storey.stiffness[r] * a[r] * b[r]).sum();
+                self.rows[*row][*column][part as usize] += value;
+            }
+        }
+    }
+
+    /// Adds a lower triangle of stiffness over all displacements.
+    pub(super) fn add_stiffness(&mut self, triangle: &[Vec<f64>]) {
+        for (row, own) in self.rows.iter_mut().zip(triangle) {
+            for (entry, value) in row.iter_mut().zip(own) {
+                entry[Part::Stiffness as usize] += value;
+            }
+        }
+    }
+
+    /// As springs between displacements, and between displacements and the ground.
+    pub(super) fn couplings(&self, ground: usize, floors: &[usize]) -> Vec<Coupling> {
+        let place = |at: usize| (floors[at / 3], COMPONENTS[at % 3]);
+        let coupling = |ends, [stiffness, softening, dashpot]: [f64; 3]| Coupling {
+            ends,
+            stiffness,
+            softening,
+            dashpot,
+        };
+        let mut list = Vec::new();
+        let mut sums = vec![[0.0; 3]; self.rows.len()];
+        for (row, values) in self.rows.iter().enumerate() {
+            for (column, value) in values.iter().enumerate() {
+                for part in 0..3 {
+                    sums[row][part] += value[part];
+                    if row != column {
+                        sums[column][part] += value[part];
+                    }
+                }
+                if row != column && *value != [0.0; 3] {
+                    list.push(coupling([place(row), place(column)], value.map(|v| -v)));
+                }
+            }
+        }
+        for (at, sum) in sums.into_iter().enumerate() {
+            if sum != [0.0; 3] {
+                list.push(coupling([(ground, X), place(at)], sum));
+            }
+        }
+        list
+    }
+}

@@ -1,0 +1,169 @@
+//! The mat of an isolated building in plan, as runs follow it.
+
+use super::building::{BuildingSystem, Direction};
+use crate::interface::DofRow;
+use crate::model::PlanPoint;
+use crate::state::State;
+use crate::structure::{AssembledBuilding, Mat, PlanMat, motion_at};
+
+/// A mat that moves in both horizontal directions and turns, and what stands under it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MatInPlan {
+    /// Displacements along x and across, and the rotation, in the vectors of a [`State`].
+    pub dofs: [usize; 3],
+    /// Centre of mass on the site \[m\].
+    pub centre: PlanPoint,
+    /// Places of the bearings on the site \[m\].
+    pub bearings: Vec<PlanPoint>,
+    /// Their displacements along x and across, over the displacements of the building.
+    pub(crate) rows: Vec<[DofRow; 2]>,
+    /// Those of the corners of the mat.
+    pub(crate) corners: Vec<[DofRow; 2]>,
+    /// Elastic stiffness of one bearing beside what yields or slides \[N/m\].
+    stiffness: f64,
+    /// Dashpot of one bearing \[N·s/m\].
+    pub(crate) damping: f64,
+    /// First row of its sliders among the springs of the building, if it has some.
+    sliders: Option<usize>,
+    /// First row of the ring that stops it, if it has one.
+    ring: Option<usize>,
+}
+
+/// Forces of all bearings on the ground, along x, across, and the torque about a point, counter-clockwise \[N, N, N·m\].
+pub(crate) type BearingForces = [f64; 3];
+
+impl MatInPlan {
+    pub(super) fn new(structure: &AssembledBuilding) -> Option<Self> {
+        let discretization = &structure.discretization;
+        let PlanMat {
+            node,
+            centre,
+            bearings,
+            slider,
+            ring,
+        } = discretization.stick_model.plan_mat.as_ref()?;
+        let Mat {
+            stiffness, dashpot, ..
+        } = discretization.mat?;
+        let equations = &structure.equations;
+        let dofs = [
+            equations.horizontal(*node)?,
+            equations.vertical(*node)?,
+            equations.rotation(*node)?,
+        ];
+        let share = 1.0 / bearings.len() as f64;
+        let first = equations.single_springs;
+        let sliders = slider.map(|_| first);
+        let after = sliders.map_or(first, |first| first + 3 * bearings.len());
+        let mut own = Self {
+            dofs,
+            centre: *centre,
+            bearings: bearings.clone(),
+            rows: Vec::new(),
+            corners: Vec::new(),
+            stiffness: share * stiffness,
+            damping: share * dashpot,
+            sliders,
+            ring: ring.map(|_| after),
+        };
+        own.rows = bearings.iter().map(|at| own.point(*at)).collect();
+        Some(own)
+    }
+
+    /// Displacements of a point of the mat along x and across, over the displacements at which its own stand.
+    fn point(&self, at: PlanPoint) -> [DofRow; 2] {
+        let [x, y, _] = motion_at(at, self.centre);
+        [x, y].map(|row| DofRow::three(std::array::from_fn(|c| (self.dofs[c], row[c]))))
+    }
+
+    /// The displacement of a point of the mat in a direction, over the vectors of a [`State`].
+    pub(crate) fn row_at(&self, at: PlanPoint, direction: [f64; 2]) -> DofRow {
+        let [x, y, _] = motion_at(at, self.centre);
+        let share = |c: usize| direction[0] * x[c] + direction[1] * y[c];
+        DofRow::three(std::array::from_fn(|c| (self.dofs[c], share(c))))
+    }
+
+    /// Follows the corners of its plan; its displacements are still those of the building alone.
+    pub(super) fn place_corners(&mut self, plan: &[PlanPoint]) {
+        self.corners = plan.iter().map(|at| self.point(*at)).collect();
+    }
+
+    pub(super) fn move_to(&mut self, from: usize, to: usize) {
+        self.dofs = self.dofs.map(|dof| dof - from + to);
+    }
+
+    /// Mean squared displacement of the bearings in a shape of the building.
+    pub(crate) fn mean_square(&self, shape: &[f64]) -> f64 {
+        let squares = self
+            .rows
+            .iter()
+            .flatten()
+            .map(|row| row.value(shape).powi(2));
+        squares.sum::<f64>() / self.rows.len() as f64
+    }
+}
+
+impl BuildingSystem {
+    /// What stands below its lowest floor moves so much in a direction; zero on the ground \[m, rad\].
+    pub(crate) fn below_lowest(&self, direction: Direction, displacement: &[f64]) -> f64 {
+        let dof = match (direction, &self.mat_in_plan) {
+            (Direction::Along, _) => self.foot,
+            (_, None) => None,
+            (Direction::Across, Some(mat)) => Some(mat.dofs[1]),
+            (Direction::Turning, Some(mat)) => Some(mat.dofs[2]),
+        };
+        dof.map_or(0.0, |dof| displacement[dof])
+    }
+
+    /// Forces of its bearings on the ground, dashpots included and the ring not, positive when the mat is to the right and to the
+    /// back, and their torque about the centre of the mat; `None` for a building that is not isolated in plan.
+    pub(crate) fn bearing_forces(&self, state: &State) -> Option<BearingForces> {
+        let mat = self.mat_in_plan.as_ref()?;
+        Some(self.forces_on_ground(state, mat, mat.damping, mat.centre))
+    }
+
+    /// Forces on the ground of bearings without dashpots and of the ring, and their torque about the centre of mass of the lowest
+    /// floor: the base shears and the base torque.
+    pub(crate) fn base_forces_in_plan(&self, state: &State) -> Option<BearingForces> {
+        let mat = self.mat_in_plan.as_ref()?;
+        let about = self.discretization.centres.first()?;
+        let mut sum = self.forces_on_ground(state, mat, 0.0, *about);
+        if let Some([x, y]) = self.ring_force(state) {
+            let arm = [mat.centre[0] - about[0], mat.centre[1] - about[1]];
+            sum = [sum[0] + x, sum[1] + y, sum[2] + arm[0] * y - arm[1] * x];
+        }
+        Some(sum)
+    }
+
+    /// Force of the ring that stops its mat, along x and across; `None` without a ring \[N\].
+    pub(crate) fn ring_force(&self, state: &State) -> Option<[f64; 2]> {
+        let first = self.spring_offset + self.mat_in_plan.as_ref()?.ring?;
+        Some([0, 1].map(|row| state.springs[first + row].force()))
+    }
+
+    fn forces_on_ground(
+        &self,
+        state: &State,
+        mat: &MatInPlan,
+        damping: f64,
+        about: PlanPoint,
+    ) -> BearingForces {
+        let range = self.range();
+        let (u, v) = (&state.displacement[range.clone()], &state.velocity[range]);
+        let mut sum = [0.0; 3];
+        for (index, (rows, at)) in mat.rows.iter().zip(&mat.bearings).enumerate() {
+            let [x, y] = [0, 1].map(|axis| {
+                let row = &rows[axis];
+                let own = mat.stiffness * row.value(u) + damping * row.value(v);
+                let first = mat
+                    .sliders
+                    .map(|first| self.spring_offset + first + 3 * index);
+                own + first.map_or(0.0, |first| state.springs[first + axis].force())
+            });
+            sum[0] += x;
+            sum[1] += y;
+            sum[2] += (at[0] - about[0]) * y - (at[1] - about[1]) * x;
+        }
+        sum
+    }
+}
