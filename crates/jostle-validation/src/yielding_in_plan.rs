@@ -32,7 +32,8 @@ const WALLS: Case = Case {
     tolerances: [5e-5, 1e-8],
 };
 
-/// The same, with steps of 1 ms and ω of 20 rad/s. Springs of OpenSees that are rigid here give way by 2·10⁻⁶ of what members do.
+/// The same, with steps of 1 ms and ω of 20 rad/s. Springs of OpenSees stand for what is rigid here, with 10⁶ times the stiffness of a
+/// column at least: forces of members that they carry beside hinges change by less than a tenth of that.
 const SPACE_FRAME: Case = Case {
     source: "opensees/yielding_space_frame",
     model: include_str!("../data/opensees/yielding_space_frame.toml"),
@@ -42,7 +43,7 @@ const SPACE_FRAME: Case = Case {
         "/hinge_moments_peak_n_m",
         "greatest moments of hinges [N·m]",
     ],
-    tolerances: [5e-5, 1e-5],
+    tolerances: [5e-5, 1e-7],
 };
 
 /// All rows of walls.
