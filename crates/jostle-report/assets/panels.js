@@ -96,7 +96,8 @@ function alongNormal(table, building, { plan, floors }, side) {
   const floor = floors[side];
   const [u, v, r] = ["u", "v", "r"].map((name) => table.columns.get(`${name}:${building}:${floor}`));
   if (!u || !v || !r) return undefined;
-  const { centre } = page.buildings[building].plans[floor - 1];
+  const { plans, mat } = page.buildings[building];
+  const { centre } = floor ? plans[floor - 1] : mat;
   const [dx, dy] = [0, 1].map((axis) => plan.at[axis] - centre[axis]);
   const [nx, ny] = plan.normal;
   return u.map((value, i) => nx * (value - r[i] * dy) + ny * (v[i] + r[i] * dx));

@@ -57,6 +57,8 @@ class SpaceScene {
       plans: building.plans,
       members: (building.members ?? []).map((member, k) => ({ ...member, hinges: hinges.filter((hinge) => hinge.building === i && hinge.line === k + 1) })),
       levels: [0, ...building.heights],
+      // A mat is the floor before the first one.
+      matMotion: building.mat && ["u", "v", "r"].map((name) => run.columns.get(`${name}:${i}:0`)),
       motion: building.plans.map((_, k) => ["u", "v", "r"].map((name) => run.columns.get(`${name}:${i}:${k + 1}`))),
     }));
     this.places = contacts.filter((contact) => contact.plan);
@@ -221,13 +223,19 @@ class SpaceScene {
 
   /** Displacement along x and across, and rotation, of a floor now. */
   floorNow(building, floor) {
-    return this.buildings[building].motion[floor].map((values) => (values ? interpolate(run.time, values, this.time) : 0));
+    const { motion, matMotion } = this.buildings[building];
+    return (floor < 0 ? matMotion : motion[floor]).map((values) => (values ? interpolate(run.time, values, this.time) : 0));
+  }
+
+  /** The same from the floors of all buildings now; those of mats are not among them. */
+  floorIn(state, building, floor) {
+    return floor < 0 ? this.floorNow(building, floor) : state[building][floor];
   }
 
   /** A point of a floor as drawn, at its height. */
   moved(building, floor, [x, y], [u, v, r]) {
-    const { plans, levels } = this.buildings[building];
-    const [cx, cy] = plans[floor].centre;
+    const { plans, mat, levels } = this.buildings[building];
+    const [cx, cy] = (floor < 0 ? mat : plans[floor]).centre;
     const f = this.exaggeration;
     const [sx, sy] = this.shifts[building];
     return [sx + x + f * (u - r * (y - cy)), sy + y + f * (v + r * (x - cx)), levels[floor + 1]];
@@ -291,6 +299,11 @@ class SpaceScene {
     const foot = building.plans[0].corners.map(([x, y]) => this.at([sx + x, sy + y, 0]));
     parts.push({ near: mean(foot) - 1e6, paint: () => this.line(foot, { stroke: colour, width: 1, dash: [4, 3], closed: true }) });
     let below = building.plans[0].corners.map(([x, y]) => [sx + x, sy + y, 0]);
+    if (building.mat) {
+      below = building.mat.corners.map((corner) => this.moved(i, -1, corner, this.floorNow(i, -1)));
+      const seen = below.map((point) => this.at(point));
+      parts.push({ near: mean(seen) - 1e5, paint: () => this.line(seen, { fill: colour, alpha: 0.25, stroke: colour, width: 1.6, closed: true }) });
+    }
     building.plans.forEach((plan, k) => {
       const own = plan.corners.map((corner) => this.moved(i, k, corner, state[k]));
       const seen = own.map((point) => this.at(point));
@@ -367,7 +380,7 @@ class SpaceScene {
       const [a, b] = contact.gap.between;
       const floors = contact.floors.map((floor) => floor - 1);
       const along = [-normal[1], normal[0]];
-      const onSide = (building, side, point) => (building === null ? this.onWall(contact, side, point) : this.moved(building, floors[side], point, state[building][floors[side]]));
+      const onSide = (building, side, point) => (building === null ? this.onWall(contact, side, point) : this.moved(building, floors[side], point, this.floorIn(state, building, floors[side])));
       const sides = (point) => [onSide(a, 0, point), onSide(b, 1, point)];
       const ends = length > 0 ? [-0.5, 0.5].map((s) => [at[0] + s * length * along[0], at[1] + s * length * along[1]]) : [at];
       for (const side of [0, 1]) {
@@ -436,8 +449,9 @@ class SpaceScene {
       // Walls stand on the ground.
       if (building === null) return 0;
       const floor = contact.floors[side] - 1;
-      const [u, v, r] = state[building][floor];
-      const [cx, cy] = this.buildings[building].plans[floor].centre;
+      const [u, v, r] = this.floorIn(state, building, floor);
+      const { plans, mat } = this.buildings[building];
+      const [cx, cy] = (floor < 0 ? mat : plans[floor]).centre;
       return along[0] * (u - r * (point[1] - cy)) + along[1] * (v + r * (point[0] - cx));
     });
     return own - other;

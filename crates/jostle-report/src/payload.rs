@@ -123,6 +123,9 @@ struct Outline<'a> {
     /// Plans of the floors, of buildings in space.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     plans: Vec<PlanData>,
+    /// The mat of an isolated building in space.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    mat: Option<PlanData>,
     /// Columns and beams of a space frame.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     members: Vec<MemberData>,
@@ -461,12 +464,23 @@ fn outline(building: &Building) -> Outline<'_> {
         }
         Structure::Frame(_) | Structure::Shear(_) | Structure::Given(_) => Vec::new(),
     };
+    let mat = match &building.structure {
+        Structure::Tiers(tiers) if building.base.isolation.is_some() => {
+            let mat = tiers.mat(0.0).tier;
+            Some(PlanData {
+                corners: mat.plan,
+                centre: mat.centre,
+            })
+        }
+        _ => None,
+    };
     let members = match &building.structure {
         Structure::Tiers(tiers) => tiers.space_frame.as_ref().map(MemberData::all_of),
         _ => None,
     };
     Outline {
         plans,
+        mat,
         members: members.unwrap_or_default(),
         name: &building.name,
         frame,

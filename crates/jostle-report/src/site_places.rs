@@ -166,7 +166,7 @@ impl SitePlace {
     }
 }
 
-/// A part of a building or a wall in words. Floors count from 1.
+/// A part of a building or a wall in words. Floors count from 1; 0 is a mat.
 pub(crate) fn part_of(model: &Model, side: usize, floor: Option<usize>, part: PlanPart) -> String {
     let Some(building) = model.buildings.get(side) else {
         return match part {
@@ -177,7 +177,10 @@ pub(crate) fn part_of(model: &Model, side: usize, floor: Option<usize>, part: Pl
         };
     };
     let plan = match (&building.structure, floor) {
-        (jostle::Structure::Tiers(tiers), Some(floor)) => tiers.floors.get(floor - 1),
+        (jostle::Structure::Tiers(tiers), Some(floor)) => {
+            // A mat, floor 0, has the plan of the lowest floor.
+            tiers.floors.get(floor.saturating_sub(1))
+        }
         _ => None,
     };
     part_in_words(part, plan.map_or(0, |floor| floor.plan.len()))

@@ -4,9 +4,10 @@ use crate::contact::Memory;
 use crate::history::Extreme;
 use crate::hysteresis::HysteresisMemory;
 use crate::interface::{LinkElement, LinkMemory};
+use crate::model::PlanPoint;
 use crate::motion::{Ground, GroundMotion};
 use crate::structure::{Motion, StoreyForce};
-use crate::system::{BuildingSystem, RunGrounds, System};
+use crate::system::{BuildingSystem, MatInPlan, RunGrounds, System};
 
 /// The state of a row of buildings at one instant; a clone is a checkpoint.
 ///
@@ -209,6 +210,9 @@ impl State {
     }
 }
 
+/// Forces of all bearings on the ground, along x, across, and the torque about a point, counter-clockwise \[N, N, N·m\].
+pub(crate) type BearingForces = [f64; 3];
+
 impl BuildingSystem {
     /// Elastic and hysteretic base shear, positive when the building leans to the right \[N\].
     #[must_use]
@@ -238,6 +242,58 @@ impl BuildingSystem {
         support.stiffness * state.displacement[support.dof]
             + support.damping * state.velocity[support.dof]
             + yielding
+    }
+
+    /// Forces of its bearings on the ground, dashpots included and the ring not, positive when the mat is to the right and to the
+    /// back, and their torque about the centre of the mat; `None` for a building that is not isolated in plan.
+    pub(crate) fn bearing_forces(&self, state: &State) -> Option<BearingForces> {
+        let mat = self.mat_in_plan.as_ref()?;
+        Some(self.forces_on_ground(state, mat, mat.damping, mat.centre))
+    }
+
+    /// Forces on the ground of bearings without dashpots and of the ring, and their torque about the centre of mass of the lowest
+    /// floor: the base shears and the base torque.
+    pub(crate) fn base_forces_in_plan(&self, state: &State) -> Option<BearingForces> {
+        let mat = self.mat_in_plan.as_ref()?;
+        let about = self.discretization.centres.first()?;
+        let mut sum = self.forces_on_ground(state, mat, 0.0, *about);
+        if let Some([x, y]) = self.ring_force(state) {
+            let arm = [mat.centre[0] - about[0], mat.centre[1] - about[1]];
+            sum = [sum[0] + x, sum[1] + y, sum[2] + arm[0] * y - arm[1] * x];
+        }
+        Some(sum)
+    }
+
+    /// Force of the ring that stops its mat, along x and across; `None` without a ring \[N\].
+    pub(crate) fn ring_force(&self, state: &State) -> Option<[f64; 2]> {
+        let first = self.spring_offset + self.mat_in_plan.as_ref()?.ring?;
+        Some([0, 1].map(|row| state.springs[first + row].force()))
+    }
+
+    fn forces_on_ground(
+        &self,
+        state: &State,
+        mat: &MatInPlan,
+        damping: f64,
+        about: PlanPoint,
+    ) -> BearingForces {
+        let range = self.range();
+        let (u, v) = (&state.displacement[range.clone()], &state.velocity[range]);
+        let mut sum = [0.0; 3];
+        for (index, (rows, at)) in mat.rows.iter().zip(&mat.bearings).enumerate() {
+            let [x, y] = [0, 1].map(|axis| {
+                let row = &rows[axis];
+                let own = mat.stiffness * row.value(u) + damping * row.value(v);
+                let first = mat
+                    .sliders
+                    .map(|first| self.spring_offset + first + 3 * index);
+                own + first.map_or(0.0, |first| state.springs[first + axis].force())
+            });
+            sum[0] += x;
+            sum[1] += y;
+            sum[2] += (at[0] - about[0]) * y - (at[1] - about[1]) * x;
+        }
+        sum
     }
 
     /// Calls `take` with every force of columns and beams that is followed, in the order of

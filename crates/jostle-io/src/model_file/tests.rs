@@ -317,20 +317,48 @@ slip_force = 1
 }
 
 #[test]
-fn bearings_need_a_building_in_one_plane() {
-    let text = r#"
+fn bearings_stand_at_places_of_a_plan() {
+    let text = |keys: &str| {
+        format!(
+            r#"
 [[building]]
 kind = "shear"
-plan = ["20 m", "12 m"]
+{keys}
 mass = [4e5]
+storey_height = ["3 m"]
+damping = {{ ratio = 0.02 }}
+"#
+        )
+    };
+    let read = |keys: &str| {
+        super::read_model_text("model.toml", &text(keys), Format::Toml, Path::new(""))
+            .map_err(|error| error.to_string())
+    };
+    let model = read(
+        r#"plan = ["20 m", "12 m"]
+at = ["100 m", "-3 m"]
 stiffness = [{ x = 1e8, y = 1e8, torsion = 1e10 }]
-isolation = { kind = "linear", stiffness = 1e7, mat_mass = 1e5 }
-"#;
-    let error = super::read_model_text("model.toml", text, Format::Toml, Path::new(""))
-        .expect_err("it cannot stand there")
-        .to_string();
+isolation = { kind = "linear", stiffness = 1e7, mat_mass = 1e5, bearings = [["1 m", "1 m"], ["19 m", "11 m"]] }"#,
+    );
+    let model = model.unwrap_or_else(|error| panic!("{error}"));
+    let jostle::Structure::Tiers(tiers) = &model.model.buildings[0].structure else {
+        panic!("it has a plan");
+    };
+    assert_eq!(tiers.bearings, [[101.0, -2.0], [119.0, 8.0]]);
+    let plane = read(
+        r#"stiffness = [1e8]
+isolation = { kind = "linear", stiffness = 1e7, mat_mass = 1e5, bearings = [["1 m", "1 m"]] }"#,
+    );
+    let error = plane.expect_err("it has no plan");
     assert!(
-        error.contains("building[0].isolation: is for frames and shear buildings in one plane"),
+        error.contains("building[0].isolation.bearings: is for a building with a plan"),
         "{error}"
     );
+    let number = read(
+        r#"plan = ["20 m", "12 m"]
+stiffness = [1e8]
+isolation = { kind = "linear", stiffness = 1e7, mat_mass = 1e5, bearings = 4 }"#,
+    );
+    let error = number.expect_err("it is no list");
+    assert!(error.contains("expected a list of places"), "{error}");
 }

@@ -3,13 +3,12 @@
 use super::building::{BuildingSystem, Direction};
 use crate::interface::DofRow;
 use crate::model::PlanPoint;
-use crate::state::State;
 use crate::structure::{AssembledBuilding, Mat, PlanMat, motion_at};
 
 /// A mat that moves in both horizontal directions and turns, and what stands under it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MatInPlan {
-    /// Displacements along x and across, and the rotation, in the vectors of a [`State`].
+    /// Displacements along x and across, and the rotation, in the vectors of a [`crate::State`].
     pub dofs: [usize; 3],
     /// Centre of mass on the site \[m\].
     pub centre: PlanPoint,
@@ -20,17 +19,14 @@ pub struct MatInPlan {
     /// Those of the corners of the mat.
     pub(crate) corners: Vec<[DofRow; 2]>,
     /// Elastic stiffness of one bearing beside what yields or slides \[N/m\].
-    stiffness: f64,
+    pub(crate) stiffness: f64,
     /// Dashpot of one bearing \[N·s/m\].
     pub(crate) damping: f64,
     /// First row of its sliders among the springs of the building, if it has some.
-    sliders: Option<usize>,
+    pub(crate) sliders: Option<usize>,
     /// First row of the ring that stops it, if it has one.
-    ring: Option<usize>,
+    pub(crate) ring: Option<usize>,
 }
-
-/// Forces of all bearings on the ground, along x, across, and the torque about a point, counter-clockwise \[N, N, N·m\].
-pub(crate) type BearingForces = [f64; 3];
 
 impl MatInPlan {
     pub(super) fn new(structure: &AssembledBuilding) -> Option<Self> {
@@ -76,7 +72,7 @@ impl MatInPlan {
         [x, y].map(|row| DofRow::three(std::array::from_fn(|c| (self.dofs[c], row[c]))))
     }
 
-    /// The displacement of a point of the mat in a direction, over the vectors of a [`State`].
+    /// The displacement of a point of the mat in a direction, over the vectors of a [`crate::State`].
     pub(crate) fn row_at(&self, at: PlanPoint, direction: [f64; 2]) -> DofRow {
         let [x, y, _] = motion_at(at, self.centre);
         let share = |c: usize| direction[0] * x[c] + direction[1] * y[c];
@@ -113,57 +109,5 @@ impl BuildingSystem {
             (Direction::Turning, Some(mat)) => Some(mat.dofs[2]),
         };
         dof.map_or(0.0, |dof| displacement[dof])
-    }
-
-    /// Forces of its bearings on the ground, dashpots included and the ring not, positive when the mat is to the right and to the
-    /// back, and their torque about the centre of the mat; `None` for a building that is not isolated in plan.
-    pub(crate) fn bearing_forces(&self, state: &State) -> Option<BearingForces> {
-        let mat = self.mat_in_plan.as_ref()?;
-        Some(self.forces_on_ground(state, mat, mat.damping, mat.centre))
-    }
-
-    /// Forces on the ground of bearings without dashpots and of the ring, and their torque about the centre of mass of the lowest
-    /// floor: the base shears and the base torque.
-    pub(crate) fn base_forces_in_plan(&self, state: &State) -> Option<BearingForces> {
-        let mat = self.mat_in_plan.as_ref()?;
-        let about = self.discretization.centres.first()?;
-        let mut sum = self.forces_on_ground(state, mat, 0.0, *about);
-        if let Some([x, y]) = self.ring_force(state) {
-            let arm = [mat.centre[0] - about[0], mat.centre[1] - about[1]];
-            sum = [sum[0] + x, sum[1] + y, sum[2] + arm[0] * y - arm[1] * x];
-        }
-        Some(sum)
-    }
-
-    /// Force of the ring that stops its mat, along x and across; `None` without a ring \[N\].
-    pub(crate) fn ring_force(&self, state: &State) -> Option<[f64; 2]> {
-        let first = self.spring_offset + self.mat_in_plan.as_ref()?.ring?;
-        Some([0, 1].map(|row| state.springs[first + row].force()))
-    }
-
-    fn forces_on_ground(
-        &self,
-        state: &State,
-        mat: &MatInPlan,
-        damping: f64,
-        about: PlanPoint,
-    ) -> BearingForces {
-        let range = self.range();
-        let (u, v) = (&state.displacement[range.clone()], &state.velocity[range]);
-        let mut sum = [0.0; 3];
-        for (index, (rows, at)) in mat.rows.iter().zip(&mat.bearings).enumerate() {
-            let [x, y] = [0, 1].map(|axis| {
-                let row = &rows[axis];
-                let own = mat.stiffness * row.value(u) + damping * row.value(v);
-                let first = mat
-                    .sliders
-                    .map(|first| self.spring_offset + first + 3 * index);
-                own + first.map_or(0.0, |first| state.springs[first + axis].force())
-            });
-            sum[0] += x;
-            sum[1] += y;
-            sum[2] += (at[0] - about[0]) * y - (at[1] - about[1]) * x;
-        }
-        sum
     }
 }
