@@ -1,86 +1,176 @@
-//! The loops over forces of columns and beams in a step, compiled for the widest available registers. Operations are not
-//! fused or reordered between register widths, so the bits are the same on every processor.
+//! The loops over forces of columns and beams in several steps, compiled for the widest available registers. Operations are
+//! not fused or reordered between register widths, so the bits are the same on every processor.
 
-use pulp::NullaryFnOnce;
+use pulp::{Simd, WithSimd};
 
 use super::member_reach::{BlockWatch, PARTS, PartRows, Reach};
-use super::members::{MemberRows, Passed, PassedBounds, tests_look_always};
+use super::member_steps::{INSTANTS, Steps};
+use super::members::{MemberRows, tests_look_always};
 use super::mode_kernels::ROWS;
 use super::peaks::{BEYOND, Ends};
-use crate::state::ContactPhase;
 
 /// Rounding of sums over modes that are taken in different ways, relative to the greatest force.
 const ROUNDING: f64 = 1e-9;
 
-/// Sums of a block of rows over modes, list by list.
+/// Numbers of eight rows.
+pub(super) type Rows = [f64; ROWS];
+
+/// Adds sums over modes, list by list; `terms`: rows of a block and modal values, mode by mode.
 #[inline(always)]
-fn sums<const N: usize>(block: &[[f64; ROWS]], modal: [&[f64]; N]) -> [[f64; ROWS]; N] {
-    let mut sums = [[0.0; ROWS]; N];
-    let modal = modal.map(|list| &list[..block.len()]);
-    for (mode, shape) in block.iter().enumerate() {
-        for (sums, list) in sums.iter_mut().zip(&modal) {
-            let value = list[mode];
-            for (sum, shape) in sums.iter_mut().zip(shape) {
-                *sum += shape * value;
+fn add_terms<'a, S: Simd, const N: usize>(
+    simd: S,
+    terms: impl Iterator<Item = (&'a Rows, [f64; N])>,
+    to: [&mut Rows; N],
+) {
+    // As many registers as a block needs at any width.
+    let registers = ROWS / S::F64_LANES;
+    let mut sums = [[simd.splat_f64s(0.0); ROWS]; N];
+    for (sums, to) in sums.iter_mut().zip(&to) {
+        let (to, _) = S::as_simd_f64s(&to[..]);
+        sums[..registers].copy_from_slice(&to[..registers]);
+    }
+    for (shape, values) in terms {
+        let (shape, _) = S::as_simd_f64s(shape);
+        for (sums, value) in sums.iter_mut().zip(values) {
+            let value = simd.splat_f64s(value);
+            for register in 0..registers {
+                let more = simd.mul_f64s(shape[register], value);
+                sums[register] = simd.add_f64s(sums[register], more);
             }
         }
     }
+    for (sums, to) in sums.iter().zip(to) {
+        let (to, _) = S::as_mut_simd_f64s(&mut to[..]);
+        to[..registers].copy_from_slice(&sums[..registers]);
+    }
+}
+
+/// Adds sums of a block of rows over modes.
+#[inline(always)]
+pub(super) fn add_sums<S: Simd>(simd: S, block: &[Rows], modal: &[f64], to: &mut Rows) {
+    let terms = block.iter().zip(modal);
+    add_terms(simd, terms.map(|(shape, a)| (shape, [*a])), [to]);
+}
+
+/// Sums of a block of rows over modes.
+#[inline(always)]
+fn sums<S: Simd>(simd: S, block: &[Rows], modal: &[f64]) -> Rows {
+    let mut sums = [0.0; ROWS];
+    add_sums(simd, block, modal, &mut sums);
     sums
 }
 
-/// The same of one list in three parts, which do not wait for each other.
+/// Adds the sums over some modes at every wanted instant, up to four instants at a time; `list` returns their modal values.
 #[inline(always)]
-fn sums_by_thirds(block: &[[f64; ROWS]], modal: &[f64]) -> [f64; ROWS] {
-    let third = block.len() / 3;
-    let [first, second, last] = [0, 1, 2].map(|part| &block[part * third..(part + 1) * third]);
-    let [a, b, c] = [0, 1, 2].map(|part| &modal[part * third..(part + 1) * third]);
-    let mut sums = [[0.0; ROWS]; 3];
-    for mode in 0..third {
-        for row in 0..ROWS {
-            sums[0][row] += first[mode][row] * a[mode];
-            sums[1][row] += second[mode][row] * b[mode];
-            sums[2][row] += last[mode][row] * c[mode];
+pub(super) fn add_sums_at<'a, S: Simd>(
+    simd: S,
+    block: &[Rows],
+    list: impl Fn(usize) -> &'a [f64],
+    wanted: &[bool],
+    to: &mut [Rows],
+) {
+    let mut at = 0;
+    while let Some(first) = wanted[at..].iter().position(|wanted| *wanted) {
+        at += first;
+        // Zipped lists need no bounds checks.
+        match (&wanted[at..], &mut to[at..]) {
+            ([true, true, true, true, ..], [to_a, to_b, to_c, to_d, ..]) => {
+                let [a, b, c, d] = [0, 1, 2, 3].map(|more| list(at + more));
+                let terms = block.iter().zip(a).zip(b).zip(c).zip(d);
+                let terms = terms.map(|((((shape, a), b), c), d)| (shape, [*a, *b, *c, *d]));
+                add_terms(simd, terms, [to_a, to_b, to_c, to_d]);
+                at += 4;
+            }
+            ([true, true, ..], [to_a, to_b, ..]) => {
+                let [a, b] = [0, 1].map(|more| list(at + more));
+                let terms = block.iter().zip(a).zip(b);
+                let terms = terms.map(|((shape, a), b)| (shape, [*a, *b]));
+                add_terms(simd, terms, [to_a, to_b]);
+                at += 2;
+            }
+            (_, to) => {
+                if let Some(to) = to.first_mut() {
+                    add_sums(simd, block, list(at), to);
+                }
+                at += 1;
+            }
         }
     }
-    let mut all = [0.0; ROWS];
-    for (row, all) in all.iter_mut().enumerate() {
-        *all = (sums[0][row] + sums[1][row]) + sums[2][row];
+}
+
+#[inline(always)]
+fn greater(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+#[inline(always)]
+fn lesser(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+/// Greatest and least of every row.
+#[inline(always)]
+pub(super) fn range_of(values: &[Rows]) -> [Rows; 2] {
+    let Some((first, others)) = values.split_first() else {
+        return [[0.0; ROWS]; 2];
+    };
+    let mut range = [*first; 2];
+    for value in others {
+        for row in 0..ROWS {
+            range[0][row] = greater(range[0][row], value[row]);
+            range[1][row] = lesser(range[1][row], value[row]);
+        }
     }
-    all
+    range
 }
 
 /// Greatest and least values of a block so far.
-struct Limits<'a> {
-    greatest: &'a mut [f64; ROWS],
-    least: &'a mut [f64; ROWS],
+pub(super) struct Limits<'a> {
+    pub(super) greatest: &'a mut Rows,
+    pub(super) least: &'a mut Rows,
     /// What its values may lack.
-    loose: [f64; ROWS],
+    pub(super) loose: Rows,
 }
 
 impl Limits<'_> {
     /// What every row may still change by before it exceeds its greatest or least value.
     #[inline(always)]
-    fn slack(&self, [high, low]: [&[f64; ROWS]; 2]) -> [f64; ROWS] {
+    pub(super) fn slack(&self, [high, low]: [&Rows; 2]) -> Rows {
         let mut slack = [0.0; ROWS];
         for (row, slack) in slack.iter_mut().enumerate() {
             let (above, below) = (self.greatest[row] - high[row], low[row] - self.least[row]);
             let range = self.greatest[row] - self.least[row];
-            let least = if above < below { above } else { below };
-            *slack = least - self.loose[row] - ROUNDING * range;
+            *slack = lesser(above, below) - self.loose[row] - ROUNDING * range;
         }
         slack
     }
 
+    /// Takes in values.
     #[inline(always)]
-    fn widen(&mut self, row: usize, ends: Ends, step: f64) {
-        let known = [self.greatest[row], self.least[row]];
-        [self.greatest[row], self.least[row]] = ends.extremes(known, step);
+    pub(super) fn take(&mut self, values: &Rows) {
+        for row in 0..ROWS {
+            self.greatest[row] = greater(self.greatest[row], values[row]);
+            self.least[row] = lesser(self.least[row], values[row]);
+        }
+    }
+
+    /// Takes in cubics between the ends of a step.
+    #[inline(always)]
+    pub(super) fn widen(&mut self, [then, now]: [&Rows; 2], slopes: [&Rows; 2], step: f64) {
+        for row in 0..ROWS {
+            let ends = Ends {
+                then: [then[row], slopes[0][row]],
+                now: [now[row], slopes[1][row]],
+            };
+            let known = [self.greatest[row], self.least[row]];
+            [self.greatest[row], self.least[row]] = ends.extremes(known, step);
+        }
     }
 }
 
 /// What modes that move so far use up of the slack of every row.
 #[inline(always)]
-fn uses(norms: &PartRows, parts: &[f64; PARTS]) -> [f64; ROWS] {
+pub(super) fn uses(norms: &PartRows, parts: &[f64; PARTS]) -> Rows {
     let mut used = [0.0; ROWS];
     for (norms, part) in norms.iter().zip(parts) {
         for (used, norm) in used.iter_mut().zip(norms) {
@@ -92,7 +182,7 @@ fn uses(norms: &PartRows, parts: &[f64; PARTS]) -> [f64; ROWS] {
 
 /// Whether no row can exceed its greatest or least value. Rows that never move have no slack and need none.
 #[inline(always)]
-fn covers(slack: &[f64; ROWS], used: &[f64; ROWS]) -> bool {
+pub(super) fn covers(slack: &Rows, used: &Rows) -> bool {
     let mut all = true;
     for (slack, used) in slack.iter().zip(used) {
         all &= slack >= used;
@@ -100,326 +190,248 @@ fn covers(slack: &[f64; ROWS], used: &[f64; ROWS]) -> bool {
     all
 }
 
-/// The greater and the lesser of two values of every row, and what cubics with these slopes may go beyond.
+/// Most that cubics with these slopes go beyond their ends.
 #[inline(always)]
-fn range_of(
-    [then, now]: [&[f64; ROWS]; 2],
-    slopes: [&[f64; ROWS]; 2],
-    step: f64,
-) -> [[f64; ROWS]; 3] {
-    let mut range = [[0.0; ROWS]; 3];
-    for row in 0..ROWS {
-        let (a, b) = (then[row], now[row]);
-        range[0][row] = if a > b { a } else { b };
-        range[1][row] = if a > b { b } else { a };
-        range[2][row] = BEYOND * step * (slopes[0][row].abs() + slopes[1][row].abs());
+pub(super) fn beyond(slopes: [&Rows; 2], step: f64) -> Rows {
+    let mut beyond = [0.0; ROWS];
+    for (row, beyond) in beyond.iter_mut().enumerate() {
+        *beyond = BEYOND * step * (slopes[0][row].abs() + slopes[1][row].abs());
     }
-    range
+    beyond
 }
 
-/// Sums of a block at the end of the last step for which it was computed. They begin the next one.
-#[derive(Clone, Copy, Default)]
-pub(super) struct KeptSums {
-    /// Step after which values and rates hold, and that of what shapes miss; 0 for none.
-    after: [u64; 2],
-    value: [f64; ROWS],
-    rate: [f64; ROWS],
-    missed: [f64; ROWS],
+/// Steps within which a row may exceed its greatest or least value, and the instants at their ends.
+pub(super) struct Near {
+    pub(super) steps: [bool; INSTANTS],
+    pub(super) ends: [bool; INSTANTS],
 }
 
-/// A step of the forces of one building that displacements determine.
+impl Near {
+    /// `values`: at the instants, but for what `used` bounds.
+    #[inline(always)]
+    pub(super) fn find(limits: &Limits<'_>, values: &[Rows], used: &Rows) -> Self {
+        let mut near = Self {
+            steps: [false; INSTANTS],
+            ends: [false; INSTANTS],
+        };
+        let is_near = |value: &Rows| !covers(&limits.slack([value; 2]), used);
+        let mut before = values.first().is_some_and(is_near);
+        for (step, value) in values.iter().skip(1).enumerate() {
+            let now = is_near(value);
+            if before | now {
+                near.steps[step] = true;
+                near.ends[step] = true;
+                near.ends[step + 1] = true;
+            }
+            before = now;
+        }
+        near
+    }
+
+    /// All of so many steps.
+    pub(super) fn all(steps: usize) -> Self {
+        Self {
+            steps: std::array::from_fn(|step| step < steps),
+            ends: std::array::from_fn(|end| end <= steps),
+        }
+    }
+}
+
+/// Several steps of the forces of one building that displacements determine.
 pub(super) struct FollowOwn<'a> {
     pub(super) rows: &'a MemberRows,
     pub(super) watch: &'a mut [BlockWatch],
-    pub(super) kept: &'a mut [KeptSums],
-    /// Number of this step, from 2.
-    pub(super) number: u64,
+    /// Of all steps together.
     pub(super) reach: &'a Reach,
-    pub(super) greatest: &'a mut [[f64; ROWS]],
-    pub(super) least: &'a mut [[f64; ROWS]],
-    pub(super) with_off: &'a mut [[f64; ROWS]],
-    pub(super) loose: &'a [[f64; ROWS]],
-    /// Modal displacements, velocities and accelerations.
-    pub(super) now: [&'a [f64]; 3],
-    pub(super) then: [&'a [f64]; 3],
-    pub(super) step: f64,
+    pub(super) greatest: &'a mut [Rows],
+    pub(super) least: &'a mut [Rows],
+    pub(super) with_off: &'a mut [Rows],
+    pub(super) loose: &'a [Rows],
+    pub(super) steps: Steps<'a>,
 }
 
-impl NullaryFnOnce for FollowOwn<'_> {
+impl WithSimd for FollowOwn<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn call(self) {
+    fn with_simd<S: Simd>(self, simd: S) {
+        let always = tests_look_always();
         let Self {
-            rows,
-            reach,
-            step,
-            number,
-            ..
+            rows, reach, steps, ..
         } = self;
-        let (count, low) = (self.now[0].len(), reach.low);
-        let of_low = reach.of_low();
-        let ([q, v, a], [q_then, v_then, a_then]) = (self.now, self.then);
-        let blocks = self.watch.iter_mut().zip(self.kept).enumerate();
-        for (block, (watch, kept)) in blocks {
-            let always = tests_look_always();
+        let (low, last) = (reach.low, steps.count());
+        let every = [true; INSTANTS];
+        for (block, watch) in self.watch.iter_mut().enumerate() {
             if !always && !watch.is_due(reach, 0.0) {
                 continue;
             }
-            let own = block * count..(block + 1) * count;
-            let shapes = &rows.shapes[own.clone()];
             let norms = &rows.norms[block];
-            let mut limits = Limits {
+            let shapes = &rows.shapes[block * steps.modes..(block + 1) * steps.modes];
+            let limits = Limits {
                 greatest: &mut self.greatest[block],
                 least: &mut self.least[block],
                 loose: self.loose[block],
             };
-            // By low modes alone, then by all, then with what shapes miss.
-            let [by_low] = sums(&shapes[..low], [q]);
-            let slack = limits.slack([&by_low; 2]);
-            if !always && covers(&slack, &uses(norms, &of_low)) {
-                watch.set(reach, norms, &slack);
-                continue;
-            }
-            let (value_then, rate_then);
-            let (value, rate);
-            if kept.after[0] + 1 == number {
-                (value_then, rate_then) = (kept.value, kept.rate);
-                [value, rate] = sums(shapes, [q, v]);
+            let mut values = [[0.0; ROWS]; INSTANTS];
+            let values = &mut values[..=last];
+            let list = |instant| steps.list(instant, 0);
+            add_sums_at(simd, &shapes[..low], list, &every[..=last], values);
+            let used = uses(norms, &reach.of_low());
+            let near = if always {
+                Near::all(last)
             } else {
-                [value, value_then, rate, rate_then] = sums(shapes, [q, q_then, v, v_then]);
-            }
-            (kept.value, kept.rate, kept.after[0]) = (value, rate, number);
-            let [high, least, beyond] = range_of([&value_then, &value], [&rate_then, &rate], step);
-            if !always && covers(&limits.slack([&high, &least]), &beyond) {
-                watch.set(reach, norms, &slack);
-                continue;
-            }
-            *watch = BlockWatch::DUE;
-            let (mut missed, mut off) = ([[0.0; ROWS]; 2], [0.0; ROWS]);
-            if !rows.missed.is_empty() {
-                let rows_missed = &rows.missed[own.clone()];
-                if kept.after[1] + 1 == number {
-                    missed[0] = kept.missed;
-                    [missed[1]] = sums(rows_missed, [a]);
-                } else {
-                    missed = sums(rows_missed, [a_then, a]);
-                }
-                (kept.missed, kept.after[1]) = (missed[1], number);
-                [off] = sums(&rows.off[own], [a]);
-            }
-            let with_off = &mut self.with_off[block];
-            for row in 0..ROWS {
-                let ends = Ends {
-                    then: [value_then[row] + missed[0][row], rate_then[row]],
-                    now: [value[row] + missed[1][row], rate[row]],
-                };
-                limits.widen(row, ends, step);
-                with_off[row] = with_off[row].max(ends.now[0].abs() + off[row].abs());
-            }
-        }
-    }
-}
-
-/// When a block of axial forces that pass through beams has to be computed again.
-#[derive(Clone, Copy)]
-pub(super) struct PassedWatch {
-    modes: BlockWatch,
-    /// Share of its slack per ‖ω q̇‖, ground acceleration and contact force.
-    rates: [f64; PARTS],
-    ground: f64,
-    pushed: f64,
-}
-
-/// What drives a building within a step beside its modal displacements.
-#[derive(Clone, Copy)]
-pub(super) struct Drive<'a> {
-    /// ‖ω q̇‖, part by part.
-    pub(super) rates: [f64; PARTS],
-    pub(super) ground: f64,
-    pub(super) phases: &'a [ContactPhase],
-    /// Sum of the contact forces.
-    pub(super) pushes: f64,
-}
-
-impl PassedWatch {
-    pub(super) const DUE: Self = Self {
-        modes: BlockWatch::DUE,
-        rates: [0.0; PARTS],
-        ground: 0.0,
-        pushed: 0.0,
-    };
-
-    #[inline(always)]
-    fn is_due(&self, reach: &Reach, drive: &Drive<'_>) -> bool {
-        let mut more = self.ground * drive.ground + self.pushed * drive.pushes;
-        for (own, rate) in self.rates.iter().zip(&drive.rates) {
-            more += own * rate;
-        }
-        self.modes.is_due(reach, more)
-    }
-
-    #[inline(always)]
-    fn set(&mut self, reach: &Reach, bounds: &PassedBounds, slack: &[f64; ROWS]) {
-        self.modes.set(reach, &bounds.norms, slack);
-        let most = |list: &[f64; ROWS]| {
-            let mut most = 0.0_f64;
-            for (own, slack) in list.iter().zip(slack) {
-                if *own > 0.0 {
-                    most = most.max(own / slack.max(f64::EPSILON));
-                }
-            }
-            most
-        };
-        self.rates = bounds.norms_of_rates.each_ref().map(most);
-        self.ground = most(&bounds.ground);
-        self.pushed = bounds.pushed.iter().map(most).fold(0.0, f64::max);
-    }
-}
-
-impl PassedBounds {
-    /// Adds what drives rows beside modal displacements.
-    #[inline(always)]
-    fn add_drive(&self, drive: &Drive<'_>, used: &mut [f64; ROWS]) {
-        let by_rates = uses(&self.norms_of_rates, &drive.rates);
-        for (row, used) in used.iter_mut().enumerate() {
-            *used += by_rates[row] + self.ground[row] * drive.ground;
-        }
-        if drive.pushes == 0.0 {
-            return;
-        }
-        for (pushed, phase) in self.pushed.iter().zip(drive.phases) {
-            let force = phase.force().abs();
-            for (used, pushed) in used.iter_mut().zip(pushed) {
-                *used += pushed * force;
-            }
-        }
-    }
-}
-
-/// A step of axial forces that pass through rigid beams of one building.
-pub(super) struct FollowPassed<'a> {
-    pub(super) passed: &'a Passed,
-    pub(super) watch: &'a mut [PassedWatch],
-    pub(super) kept: &'a mut [KeptSums],
-    /// Number of this step, from 2.
-    pub(super) number: u64,
-    pub(super) reach: &'a Reach,
-    pub(super) greatest: &'a mut [[f64; ROWS]],
-    pub(super) least: &'a mut [[f64; ROWS]],
-    /// Modal displacements, velocities, accelerations and jerks, one after the other.
-    pub(super) now: &'a [f64],
-    pub(super) then: &'a [f64],
-    /// Number of modes.
-    pub(super) count: usize,
-    /// Ground acceleration at both ends.
-    pub(super) ground: [f64; 2],
-    pub(super) drive: Drive<'a>,
-    /// Whether accelerations follow a cubic.
-    pub(super) cubic: bool,
-    /// Whether nothing drives modes but the ground and contacts.
-    pub(super) is_bounded: bool,
-    pub(super) step: f64,
-}
-
-impl NullaryFnOnce for FollowPassed<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        let Self {
-            passed,
-            reach,
-            count,
-            drive,
-            step,
-            number,
-            ..
-        } = self;
-        let [ground_then, ground] = self.ground;
-        let (values, rates) = (3 * count, count..4 * count);
-        let blocks = self.watch.iter_mut().zip(self.kept).enumerate();
-        for (block, (watch, kept)) in blocks {
-            let bounded = self.is_bounded && !tests_look_always();
-            if bounded && !watch.is_due(reach, &drive) {
-                continue;
-            }
-            let bounds = &passed.bounds[block];
-            let rows = block * ROWS..((block + 1) * ROWS).min(passed.forms.len());
-            let mut limits = Limits {
-                greatest: &mut self.greatest[block],
-                least: &mut self.least[block],
-                loose: [0.0; ROWS],
-            };
-            *watch = PassedWatch::DUE;
-            if bounded {
-                let [by_low] = sums(&bounds.low, [&self.now[..reach.low]]);
-                let slack = limits.slack([&by_low; 2]);
-                let mut needed = uses(&bounds.norms, &reach.of_low());
-                bounds.add_drive(&drive, &mut needed);
-                if covers(&slack, &needed) {
-                    watch.set(reach, bounds, &slack);
+                let [high, least] = range_of(values);
+                if covers(&limits.slack([&high, &least]), &used) {
+                    watch.set(reach, norms, &limits.slack([&values[last]; 2]));
                     continue;
                 }
-            }
-            let shares = &passed.shares[block * values..(block + 1) * values];
-            let more = |value: &mut [f64; ROWS], ground: f64| {
-                for (value, at) in value.iter_mut().zip(rows.clone()) {
-                    *value += passed.ground[at][0] * ground;
-                }
+                Near::find(&limits, values, &used)
             };
-            let push = |value: &mut [f64; ROWS]| {
-                if drive.pushes == 0.0 {
-                    return;
-                }
-                for (value, at) in value.iter_mut().zip(rows.clone()) {
-                    let contacts = passed.contacts[at].iter();
-                    *value -= contacts.map(|c| drive.phases[*c].force()).sum::<f64>();
-                }
+            *watch = BlockWatch::DUE;
+            let list = |instant| &steps.list(instant, 0)[low..];
+            add_sums_at(simd, &shapes[low..], list, &near.ends[..=last], values);
+            let mut exact = ExactSteps {
+                rows,
+                block,
+                steps: &steps,
+                limits,
+                with_off: &mut self.with_off[block],
+                values,
+                missed: [[0.0; ROWS]; INSTANTS],
+                is_taken: [false; INSTANTS],
             };
-            if !self.cubic {
-                let mut value = sums_by_thirds(shares, self.now);
-                more(&mut value, ground);
-                push(&mut value);
-                for (row, value) in value.iter().enumerate() {
-                    limits.greatest[row] = limits.greatest[row].max(*value);
-                    limits.least[row] = limits.least[row].min(*value);
+            exact.take_ends(simd, &near, always);
+            exact.take_between(simd, &near, &uses(norms, &reach.beyond), always);
+        }
+    }
+}
+
+/// A block of forces whose values are known at the ends of some steps.
+struct ExactSteps<'a> {
+    rows: &'a MemberRows,
+    block: usize,
+    steps: &'a Steps<'a>,
+    limits: Limits<'a>,
+    with_off: &'a mut Rows,
+    /// By shapes, instant by instant, and what accelerations add where they were taken in.
+    values: &'a [Rows],
+    missed: [Rows; INSTANTS],
+    is_taken: [bool; INSTANTS],
+}
+
+impl ExactSteps<'_> {
+    /// Takes in what may exceed the limits at the ends of steps. The greatest and the least come first: next to them others
+    /// seldom count.
+    #[inline(always)]
+    fn take_ends<S: Simd>(&mut self, simd: S, near: &Near, always: bool) {
+        let (mut top, mut bottom) = ([f64::NEG_INFINITY; ROWS], [f64::INFINITY; ROWS]);
+        for (values, is_end) in self.values.iter().zip(near.ends) {
+            if is_end {
+                for row in 0..ROWS {
+                    top[row] = greater(top[row], values[row]);
+                    bottom[row] = lesser(bottom[row], values[row]);
                 }
-                continue;
-            }
-            let (mut value, mut rate);
-            let (mut value_then, mut rate_then);
-            if kept.after[0] + 1 == number {
-                (value_then, rate_then) = (kept.value, kept.rate);
-                [value, rate] = sums(shares, [self.now, &self.now[rates.clone()]]);
-            } else {
-                [value, value_then, rate, rate_then] = sums(
-                    shares,
-                    [
-                        self.now,
-                        self.then,
-                        &self.now[rates.clone()],
-                        &self.then[rates.clone()],
-                    ],
-                );
-                more(&mut value_then, ground_then);
-            }
-            more(&mut value, ground);
-            (kept.value, kept.rate, kept.after[0]) = (value, rate, number);
-            push(&mut value);
-            let slope = (ground - ground_then) / step;
-            for (row, at) in rows.clone().enumerate() {
-                rate[row] += passed.ground[at][1] * slope;
-                rate_then[row] += passed.ground[at][1] * slope;
-            }
-            for row in 0..ROWS {
-                let ends = Ends {
-                    then: [value_then[row], rate_then[row]],
-                    now: [value[row], rate[row]],
-                };
-                limits.widen(row, ends, step);
             }
         }
+        for row in 0..ROWS {
+            let loose = self.limits.loose[row];
+            if top[row] + loose <= self.limits.greatest[row] {
+                top[row] = f64::INFINITY;
+            }
+            if bottom[row] - loose >= self.limits.least[row] {
+                bottom[row] = f64::NEG_INFINITY;
+            }
+        }
+        for instant in 0..self.values.len() {
+            let values = &self.values[instant];
+            let mut is_extreme = false;
+            for row in 0..ROWS {
+                is_extreme |= (values[row] >= top[row]) | (values[row] <= bottom[row]);
+            }
+            if near.ends[instant] && is_extreme {
+                self.take(simd, instant);
+            }
+        }
+        for instant in 0..self.values.len() {
+            if !near.ends[instant] {
+                continue;
+            }
+            let slack = self.limits.slack([&self.values[instant]; 2]);
+            if always || !covers(&slack, &[0.0; ROWS]) {
+                self.take(simd, instant);
+            }
+        }
+    }
+
+    /// Takes in an instant.
+    #[inline(always)]
+    fn take<S: Simd>(&mut self, simd: S, instant: usize) {
+        if self.is_taken[instant] {
+            return;
+        }
+        self.is_taken[instant] = true;
+        let mut off = [0.0; ROWS];
+        if !self.rows.missed.is_empty() {
+            let own = self.block * self.steps.modes..(self.block + 1) * self.steps.modes;
+            let accelerations = self.steps.list(instant, 2);
+            self.missed[instant] = sums(simd, &self.rows.missed[own.clone()], accelerations);
+            off = sums(simd, &self.rows.off[own], accelerations);
+        }
+        let value = self.value(instant);
+        self.limits.take(&value);
+        // Where the first step begins, accelerations may have jumped: the end of the step before counts.
+        if instant > 0 {
+            for row in 0..ROWS {
+                let with_off = value[row].abs() + off[row].abs();
+                self.with_off[row] = greater(self.with_off[row], with_off);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn value(&self, instant: usize) -> Rows {
+        let mut value = self.values[instant];
+        for (value, missed) in value.iter_mut().zip(&self.missed[instant]) {
+            *value += missed;
+        }
+        value
+    }
+
+    /// Takes in what exceeds the limits within steps; `most`: most that any step goes beyond its ends.
+    #[inline(always)]
+    fn take_between<S: Simd>(&mut self, simd: S, near: &Near, most: &Rows, always: bool) {
+        let shapes =
+            &self.rows.shapes[self.block * self.steps.modes..(self.block + 1) * self.steps.modes];
+        let mut wanted = [false; INSTANTS];
+        let mut steps = [false; INSTANTS];
+        for step in 0..self.steps.count() {
+            if near.steps[step] && (always || !covers(&self.slack_in(step), most)) {
+                steps[step] = true;
+                wanted[step] = true;
+                wanted[step + 1] = true;
+            }
+        }
+        let mut rates = [[0.0; ROWS]; INSTANTS];
+        let all = ..=self.steps.count();
+        let list = |instant| self.steps.list(instant, 1);
+        add_sums_at(simd, shapes, list, &wanted[all], &mut rates[all]);
+        for (step, length) in self.steps.lengths.iter().enumerate() {
+            let slopes = [&rates[step], &rates[step + 1]];
+            let is_near = || always || !covers(&self.slack_in(step), &beyond(slopes, *length));
+            if steps[step] && is_near() {
+                self.take(simd, step);
+                self.take(simd, step + 1);
+                let ends = [step, step + 1].map(|end| self.value(end));
+                self.limits.widen(ends.each_ref(), slopes, *length);
+            }
+        }
+    }
+
+    /// What rows may still go beyond the ends of a step.
+    #[inline(always)]
+    fn slack_in(&self, step: usize) -> Rows {
+        let [high, least] = range_of(&self.values[step..step + 2]);
+        self.limits.slack([&high, &least])
     }
 }
 
@@ -428,7 +440,7 @@ pub(super) fn raise_accelerations(
     rows: &MemberRows,
     accelerations: &[f64],
     known: &mut [f64],
-    loose: &mut [[f64; ROWS]],
+    loose: &mut [Rows],
 ) -> bool {
     let mut any = false;
     for (a, known) in accelerations.iter().zip(&*known) {
@@ -455,4 +467,4 @@ pub(super) fn raise_accelerations(
 }
 
 /// Margin of greatest accelerations, so that they are seldom raised.
-const AHEAD: f64 = 1.25;
+const AHEAD: f64 = 1.6;

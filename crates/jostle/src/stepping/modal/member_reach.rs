@@ -137,18 +137,32 @@ impl Reach {
         (self.rate, self.quickening) = (rate, quickening);
     }
 
-    /// How far low modes move within the step, and how far all others are from rest.
-    #[inline(always)]
-    pub(super) fn of_low(&self) -> [f64; PARTS] {
-        let mut parts = self.of_all();
-        parts[GROUPS] = self.rest;
-        parts
+    /// That of no step yet, after this one.
+    pub(super) fn ahead(&self) -> Self {
+        Self {
+            beyond: [0.0; PARTS],
+            beyond_rates: [0.0; PARTS],
+            rest: 0.0,
+            ..*self
+        }
     }
 
-    /// How far all modes move within the step.
+    /// Adds a step to those that are looked at together: the greatest of what modes do within any of them.
+    pub(super) fn add_later(&mut self, step: &Self) {
+        self.way = step.way;
+        self.rest = self.rest.max(step.rest);
+        for part in 0..PARTS {
+            self.beyond[part] = self.beyond[part].max(step.beyond[part]);
+            self.beyond_rates[part] = self.beyond_rates[part].max(step.beyond_rates[part]);
+        }
+    }
+
+    /// How far low modes go beyond the ends of a step, and how far all others are from rest.
     #[inline(always)]
-    pub(super) fn of_all(&self) -> [f64; PARTS] {
-        std::array::from_fn(|part| self.moved[part] + self.beyond[part])
+    pub(super) fn of_low(&self) -> [f64; PARTS] {
+        let mut parts = self.beyond;
+        parts[GROUPS] = self.rest;
+        parts
     }
 
     /// Greatest ‖ω q̇‖ within the step, part by part.
@@ -265,142 +279,5 @@ impl BlockWatch {
         }
         let base = per.iter().zip(&reach.way).map(|(per, way)| per * way).sum();
         *self = Self { per, base };
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use std::ops::ControlFlow;
-
-    use super::super::members::LOOK_ALWAYS;
-    use crate::{
-        Analysis, Axial, Base, Building, ContactLaw, Damping, FloorPairs, Frame, Gap, Gravity,
-        GroundMotion, Joint, LawKind, Level, Link, MemberRequest, Model, Outcome, Plan,
-        RestitutionIs, Section, Settings, Solver, Structure, System, simulate,
-    };
-
-    fn building(name: &str, storeys: usize, axial: Option<f64>, damping: &Damping) -> Building {
-        let section = |rigidity: f64| Section {
-            flexural_rigidity: rigidity,
-            axial_rigidity: axial,
-            line_mass: 625.0,
-            shear_rigidity: None,
-        };
-        Building {
-            name: name.to_owned(),
-            structure: Structure::Frame(Frame {
-                storey_heights: vec![3.2; storeys],
-                spans: vec![2.4, 6.0],
-                columns: vec![section(1.56e8); storeys],
-                beams: vec![section(1.62e8); storeys],
-                beam_mass: vec![3600.0; storeys],
-                floor_mass: vec![0.0; storeys],
-                column_segments: 2,
-                beam_segments: vec![2, 3],
-                axial: Axial::default(),
-                joint: Joint::default(),
-            }),
-            damping: damping.clone(),
-            base: Base::default(),
-            gravity: Gravity::default(),
-            hinges: None,
-        }
-    }
-
-    fn run(model: &Model, always: bool) -> Outcome {
-        let system = System::assemble(model).expect("sound");
-        let wave = (0..=400).map(|i| {
-            let t = 0.02 * f64::from(i);
-            let strength = (t / 2.0).min(1.0) * (-0.3 * (t - 4.0).max(0.0)).exp();
-            strength * (4.0 * (7.0 * t).sin() + 2.0 * (23.0 * t).cos() + 1.5 * (61.0 * t).sin())
-        });
-        let motion = GroundMotion::sampled("sines", 0.02, wave.collect());
-        let plan = Plan::choose(&system, &motion, &model.analysis).expect("planned");
-        let settings = Settings {
-            record_interval: None,
-            ..Settings::default()
-        };
-        LOOK_ALWAYS.set(always);
-        let outcome = simulate(&system, &motion, &plan, settings, |_| {
-            ControlFlow::Continue(())
-        });
-        LOOK_ALWAYS.set(false);
-        outcome
-    }
-
-    /// Frames against each other, floors against columns, damped in three ways, with and without a link.
-    fn models() -> Vec<Model> {
-        let law = |kind| ContactLaw {
-            kind,
-            stiffness: 2e9,
-            restitution: 0.65,
-            restitution_is: RestitutionIs::Realised,
-        };
-        let pair = |axial: Option<f64>, damping: Damping, gap: Gap, links: Vec<Link>| Model {
-            title: "Five and eight storeys".to_owned(),
-            buildings: vec![
-                building("A", 5, axial, &damping),
-                building("B", 8, axial, &damping),
-            ],
-            gaps: vec![gap],
-            links,
-            walls: Vec::new(),
-            soil: None,
-            analysis: Analysis {
-                solver: Some(Solver::Modal),
-                members: MemberRequest::all(),
-                ..Analysis::default()
-            },
-        };
-        let ratio = Damping::Ratio {
-            ratio: 0.05,
-            modes: Vec::new(),
-        };
-        let hertz = || Gap::after(0, 0.02, law(LawKind::HertzDamp));
-        let at_columns = Gap {
-            floors: FloorPairs::Listed(vec![
-                [Level::Height(4.8), Level::Height(4.8)],
-                [Level::Floor(4), Level::Floor(4)],
-                [Level::Floor(5), Level::Floor(5)],
-            ]),
-            ..hertz()
-        };
-        let link = Link {
-            between: [Some(0), Some(1)],
-            floors: FloorPairs::Listed(vec![[Level::Floor(3), Level::Floor(3)]]),
-            level_tolerance: 1e-3,
-            stiffness: 2e7,
-            damping: 1e5,
-            law: crate::LinkLaw::Linear,
-        };
-        let beta = Damping::Rayleigh {
-            alpha: 0.2,
-            beta: 0.004,
-        };
-        vec![
-            pair(None, ratio.clone(), hertz(), Vec::new()),
-            pair(Some(4e9), ratio.clone(), hertz(), Vec::new()),
-            pair(None, beta, at_columns, Vec::new()),
-            pair(None, Damping::AllModes { ratio: 0.03 }, hertz(), Vec::new()),
-            pair(None, ratio, hertz(), vec![link]),
-        ]
-    }
-
-    /// Forces that are computed only where they can matter have the envelopes of those computed in every step, bit by bit,
-    /// and so has the estimate of their errors.
-    #[test]
-    fn no_extreme_is_missed() {
-        for (index, model) in models().iter().enumerate() {
-            let [always, seldom] = [true, false].map(|always| run(model, always));
-            assert!(always.impacts.len() > 3, "model {index}");
-            assert_eq!(always.work, seldom.work, "model {index}");
-            for (of_always, of_seldom) in always.members.iter().zip(&seldom.members) {
-                for (form, (due, found)) in of_always.iter().zip(of_seldom).enumerate() {
-                    assert_eq!(due, found, "model {index}, force {form}");
-                }
-            }
-            let estimate = |outcome: &Outcome| outcome.accuracy.map(|accuracy| accuracy.residual);
-            assert_eq!(estimate(&always), estimate(&seldom), "model {index}");
-        }
     }
 }

@@ -3,10 +3,12 @@
 use std::ops::Range;
 
 use super::basis::Basis;
-use super::member_kernels::{self, Drive, FollowOwn, FollowPassed, KeptSums, PassedWatch};
+use super::member_kernels::{self, FollowOwn};
 use super::member_ratios::{ModalRatios, StepEnds};
 use super::member_reach::{BlockWatch, PARTS, PartRows, Reach, low_modes, norms_in_blocks};
+use super::member_steps::WaitingSteps;
 use super::mode_kernels::ROWS;
+use super::passed_kernels::{Drive, FollowPassed, PassedWatch};
 use super::reduced::{Reduced, in_blocks};
 use super::unit_force::UnitForce;
 use crate::history::MemberHistory;
@@ -291,8 +293,9 @@ pub(super) struct Instant<'a> {
     pub(super) smooth: bool,
 }
 
-/// Follows the forces of columns and beams. A block of them is computed only once modes can have carried one beyond its
-/// greatest or least value; what is found is the same, bit by bit, as if all were computed in every step.
+/// Follows the forces of columns and beams, several steps together. A block of them is computed only once modes can have
+/// carried one beyond its greatest or least value; what is found is the same, bit by bit, as if all were computed in every
+/// step.
 pub(super) struct MemberPeaks {
     /// Greatest and least value, and greatest size with what may be missed.
     greatest: Vec<[f64; ROWS]>,
@@ -302,24 +305,20 @@ pub(super) struct MemberPeaks {
     loose: Vec<[f64; ROWS]>,
     /// The greatest acceleration of every mode so far, with a margin, building by building.
     accelerations: Vec<f64>,
-    /// What the modes of every building have done.
+    /// What the modes of every building have done, and the most of it in the steps that wait.
     reach: Vec<Reach>,
+    reach_waiting: Vec<Reach>,
+    rates_waiting: Vec<[f64; PARTS]>,
     watch: Vec<Vec<BlockWatch>>,
-    kept: Vec<Vec<KeptSums>>,
-    /// Number of the step; restarts count as one.
-    number: u64,
     /// The same of axial forces that pass through beams.
     passed_greatest: Vec<[f64; ROWS]>,
     passed_least: Vec<[f64; ROWS]>,
     watch_passed: Vec<Vec<PassedWatch>>,
-    kept_passed: Vec<Vec<KeptSums>>,
+    drive: Drive,
     /// Whether modes are driven by other forces than the ground's and those of contacts.
     is_linked: bool,
-    /// Modal displacements, velocities, accelerations and jerks now and before, building by building.
-    modal: [Vec<f64>; 2],
+    waiting: WaitingSteps,
     time: f64,
-    /// Ground acceleration of every building then.
-    ground: Vec<f64>,
     history: Option<MemberHistory>,
     /// Demand over capacity of those that are rated.
     ratios: Option<ModalRatios>,
@@ -344,9 +343,6 @@ pub(super) const fn tests_look_always() -> bool {
     false
 }
 
-/// Lists of modal values that are kept: q, its rate, the rate of that and the jerk.
-const LISTS: usize = 4;
-
 impl MemberPeaks {
     /// `None` where no forces are asked for.
     pub(super) fn new(system: &System, reduced: &Reduced, records: bool) -> Option<Self> {
@@ -370,25 +366,20 @@ impl MemberPeaks {
             loose: vec![[0.0; ROWS]; own / ROWS],
             accelerations: vec![0.0; reduced.modes()],
             reach: buildings().map(|own| Reach::new(own.modes.len())).collect(),
+            reach_waiting: buildings().map(|own| Reach::new(own.modes.len())).collect(),
+            rates_waiting: vec![[0.0; PARTS]; reduced.buildings.len()],
             watch: buildings()
                 .map(|own| vec![BlockWatch::DUE; own.range.len() / ROWS])
                 .collect(),
-            kept: buildings()
-                .map(|own| vec![KeptSums::default(); own.range.len() / ROWS])
-                .collect(),
-            number: 1,
             passed_greatest: vec![[0.0; ROWS]; passed / ROWS],
             passed_least: vec![[0.0; ROWS]; passed / ROWS],
             watch_passed: buildings()
                 .map(|own| vec![PassedWatch::DUE; own.passed.range.len() / ROWS])
                 .collect(),
-            kept_passed: buildings()
-                .map(|own| vec![KeptSums::default(); own.passed.range.len() / ROWS])
-                .collect(),
+            drive: Drive::new(system.contacts.len()),
             is_linked: !reduced.links.is_empty(),
-            modal: [(); 2].map(|()| vec![0.0; LISTS * reduced.modes()]),
+            waiting: WaitingSteps::new(reduced, system.contacts.len()),
             time: 0.0,
-            ground: vec![0.0; reduced.buildings.len()],
             history: MemberHistory::new(system).filter(|_| records),
             ratios: ModalRatios::new(system, reduced),
             row: sizes().map(|n| vec![0.0; n]).collect(),
@@ -405,65 +396,52 @@ impl MemberPeaks {
     /// Takes in what happened since the last instant.
     pub(super) fn follow(&mut self, system: &System, reduced: &Reduced, now: Instant<'_>) {
         let step = now.time - self.time;
-        self.modal.swap(0, 1);
-        self.number += 1;
+        self.time = now.time;
+        let smooth = now.smooth && step > 0.0;
+        if self.waiting.smooth != smooth {
+            self.follow_waiting(reduced);
+            self.waiting.smooth = smooth;
+        }
+        let lists = [now.q, now.v, now.a, now.jerk];
+        self.waiting
+            .push(reduced, lists, now.ground, now.phases, step);
+        let end = self.waiting.len();
         for (index, own) in reduced.buildings.iter().enumerate() {
             let own = &own.members;
-            let count = own.modes.len();
-            let all = LISTS * own.modes.start..LISTS * own.modes.end;
-            let lists = [now.q, now.v, now.a, now.jerk];
-            for (to, list) in self.modal[0][all.clone()]
-                .chunks_mut(count.max(1))
-                .zip(lists)
-            {
-                to.copy_from_slice(&list[own.modes.clone()]);
-            }
             let stiffness = &reduced.stiffness[own.modes.clone()];
+            let steps = self.waiting.of(index, &own.modes);
+            let [then, now_of_building] =
+                [end - 1, end].map(|end| [0, 1, 2].map(|part| steps.list(end, part)));
             let reach = &mut self.reach[index];
-            reach.add(
-                reduced.arch(),
-                stiffness,
-                [now.q, now.v, now.a].map(|list| &list[own.modes.clone()]),
-                &self.modal[1][all.start..all.start + count],
-                step,
-            );
-            self.raise_accelerations(index, own, &now.a[own.modes.clone()]);
-            self.follow_own(reduced, index, own, step);
-            self.follow_passed(reduced, index, own, now, step);
+            reach.add(reduced.arch(), stiffness, now_of_building, then[0], step);
+            self.reach_waiting[index].add_later(reach);
+            let rates = reach.greatest_rates();
+            for (most, rate) in self.rates_waiting[index].iter_mut().zip(rates) {
+                *most = most.max(rate);
+            }
             if let Some(ratios) = &mut self.ratios {
-                let [to, from] = self.modal.each_ref().map(|list| {
-                    let list = |part: usize| {
-                        &list[all.start + part * count..all.start + (part + 1) * count]
-                    };
-                    [list(0), list(1), list(2)]
-                });
                 let ends = StepEnds {
-                    then: from,
-                    now: to,
-                    ground: [self.ground[index], now.ground.of(index)[0]],
+                    then,
+                    now: now_of_building,
+                    ground: [end - 1, end].map(|end| steps.ground(end)),
                     step,
                 };
                 let of = (system, index, &self.reach[index]);
                 ratios.follow(reduced.arch(), of, &ends, now);
             }
+            self.raise_accelerations(index, own, &now.a[own.modes.clone()]);
         }
-        self.time = now.time;
-        for (index, ground) in self.ground.iter_mut().enumerate() {
-            *ground = now.ground.of(index)[0];
+        if self.waiting.is_full() || tests_look_always() {
+            self.follow_waiting(reduced);
         }
     }
 
     /// Replaces velocities, accelerations and jerks of the last instant, after they have jumped.
     pub(super) fn restart(&mut self, reduced: &Reduced, jumped: [&[f64]; 3]) {
-        self.number += 1;
+        self.follow_waiting(reduced);
+        self.waiting.set_from(reduced, 1, &jumped);
         for (index, own) in reduced.buildings.iter().enumerate() {
             let own = &own.members;
-            let count = own.modes.len();
-            let kept = LISTS * own.modes.start + count..LISTS * own.modes.end;
-            let lists = self.modal[0][kept].chunks_mut(count.max(1));
-            for (to, new) in lists.zip(jumped) {
-                to.copy_from_slice(&new[own.modes.clone()]);
-            }
             let [velocities, accelerations, _] = jumped.map(|list| &list[own.modes.clone()]);
             let stiffness = &reduced.stiffness[own.modes.clone()];
             let jumped = [velocities, accelerations];
@@ -484,72 +462,52 @@ impl MemberPeaks {
         }
     }
 
-    fn follow_own(&mut self, reduced: &Reduced, index: usize, own: &MemberRows, step: f64) {
-        let first = LISTS * own.modes.start;
-        let count = own.modes.len();
-        let [now, then] = self.modal.each_ref().map(|list| {
-            [0, 1, 2].map(|part| &list[first + part * count..first + (part + 1) * count])
-        });
+    /// Looks at the steps that wait.
+    pub(super) fn follow_waiting(&mut self, reduced: &Reduced) {
+        if self.waiting.is_empty() {
+            return;
+        }
+        for (index, own) in reduced.buildings.iter().enumerate() {
+            self.follow_own(reduced, index, &own.members);
+            self.follow_passed(reduced, index, &own.members);
+            self.reach_waiting[index] = self.reach[index].ahead();
+            self.rates_waiting[index] = [0.0; PARTS];
+        }
+        self.waiting.clear();
+    }
+
+    fn follow_own(&mut self, reduced: &Reduced, index: usize, own: &MemberRows) {
         let blocks = own.blocks();
         reduced.arch().dispatch(FollowOwn {
             rows: own,
             watch: &mut self.watch[index],
-            kept: &mut self.kept[index],
-            number: self.number,
-            reach: &self.reach[index],
+            reach: &self.reach_waiting[index],
             greatest: &mut self.greatest[blocks.clone()],
             least: &mut self.least[blocks.clone()],
             with_off: &mut self.with_off[blocks.clone()],
             loose: &self.loose[blocks],
-            now,
-            then,
-            step,
+            steps: self.waiting.of(index, &own.modes),
         });
     }
 
-    fn follow_passed(
-        &mut self,
-        reduced: &Reduced,
-        index: usize,
-        own: &MemberRows,
-        instant: Instant<'_>,
-        step: f64,
-    ) {
+    fn follow_passed(&mut self, reduced: &Reduced, index: usize, own: &MemberRows) {
         let passed = &own.passed;
         if passed.range.is_empty() {
             return;
         }
-        let count = own.modes.len();
-        let first = LISTS * own.modes.start;
-        let [now, then] = self
-            .modal
-            .each_ref()
-            .map(|list| &list[first..first + LISTS * count]);
-        let reach = &self.reach[index];
-        let ground = [self.ground[index], instant.ground.of(index)[0]];
-        let drive = Drive {
-            rates: reach.greatest_rates(),
-            ground: ground[0].abs().max(ground[1].abs()),
-            pushes: instant.phases.iter().map(|phase| phase.force().abs()).sum(),
-            phases: instant.phases,
-        };
+        let steps = self.waiting.of(index, &own.modes);
+        self.drive.set(&steps, self.rates_waiting[index]);
         let blocks = passed.range.start / ROWS..passed.range.end / ROWS;
         reduced.arch().dispatch(FollowPassed {
             passed,
             watch: &mut self.watch_passed[index],
-            kept: &mut self.kept_passed[index],
-            number: self.number,
-            reach,
+            reach: &self.reach_waiting[index],
+            drive: &self.drive,
             greatest: &mut self.passed_greatest[blocks.clone()],
             least: &mut self.passed_least[blocks],
-            now,
-            then,
-            count,
-            ground,
-            drive,
-            cubic: instant.smooth && step > 0.0,
+            steps,
+            cubic: self.waiting.smooth,
             is_bounded: !self.is_linked,
-            step,
         });
     }
 

@@ -317,6 +317,13 @@ impl Peaks {
         }
     }
 
+    /// Looks at the steps that wait: after this, peaks are those of all steps so far.
+    pub(super) fn complete(&mut self, reduced: &Reduced) {
+        if let Some(members) = &mut self.members {
+            members.follow_waiting(reduced);
+        }
+    }
+
     fn are_forces_near_peaks(&self, reduced: &Reduced) -> bool {
         let mut buildings = self.floors.iter().zip(&reduced.buildings);
         buildings.any(|(floors, own)| {

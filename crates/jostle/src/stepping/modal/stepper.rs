@@ -133,6 +133,7 @@ pub(super) fn finish(
     observer: &mut Observer<'_>,
 ) -> (Outcome, Verdict) {
     let end = runner.run_to_end(observer);
+    runner.stepper.peaks.complete(runner.stepper.reduced);
     let verdict = runner.stepper.verdict(&runner.run);
     runner.report_unfinished_impacts();
     let Runner { run, stepper } = runner;
