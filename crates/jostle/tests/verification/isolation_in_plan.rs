@@ -117,7 +117,7 @@ fn run(model: &Model, motion: &GroundMotion) -> (System, Outcome) {
     });
     assert_eq!(outcome.end, RunEnd::Completed);
     let worst = outcome.energy.worst_imbalance;
-    // Contact forces are found to a tolerance of their own.
+    // Rounding grows as 1/h in the short steps of contacts, with bearings and without.
     let most = if model.gaps.is_empty() { 1e-9 } else { 1e-8 };
     assert!(worst < most, "{worst:e}");
     (system, outcome)
@@ -457,7 +457,7 @@ fn an_eccentric_block_moves_by_the_rate_equation() {
         let duration = motion.duration;
         let own = ByRates::new(&eccentric_block(isolator, 1e-3));
         let [(rough, _), (exact, stroke)] =
-            [4e-5, 1e-5].map(|step| own.run(&motion, duration, step));
+            [1e-5, 2.5e-6].map(|step| own.run(&motion, duration, step));
         let scale = largest(&exact[..6]);
         let own_error = difference(&rough[..6], &exact[..6]);
         let error = |step: f64| {
@@ -474,7 +474,7 @@ fn an_eccentric_block_moves_by_the_rate_equation() {
         };
         let errors = [2e-3, 1e-3, 5e-4].map(error);
         println!("{kind}: {errors:?}, {own_error:e}, {stroke}");
-        assert!(own_error < 2e-6, "{own_error:e}");
+        assert!(own_error < 5e-5, "{own_error:e}");
         for axis in 0..2 {
             let [coarse, middle, fine] = errors.map(|error| error[axis]);
             assert!(fine < 3e-4, "{kind}: {errors:?}");
@@ -498,7 +498,7 @@ fn before_walls(isolation: Isolation, angle: f64) -> Model {
         modes: vec![1, 2],
     };
     let mut model = model(building(Structure::Tiers(own), damping, isolation), 1e-3);
-    model.analysis.contact_step = Some(5e-5);
+    model.analysis.contact_step = Some(2e-4);
     let wall = |name: &str, from: PlanPoint, to: PlanPoint| Wall {
         name: name.to_owned(),
         stiffness: None,
