@@ -117,28 +117,20 @@ fn models() -> Vec<Model> {
     ]
 }
 
-/// Frames whose weight leans on their sway, with and without it from the start.
+/// Frames whose weight leans on their sway, with columns that keep their length and with those that stretch.
 fn leaning() -> Vec<Model> {
-    let [mut light, mut heavy] = [0, 1].map(|index| {
-        let mut model = models()[index].clone();
-        for building in &mut model.buildings {
-            building.damping = Damping::Ratio {
-                ratio: 0.05,
-                modes: vec![1],
-            };
-        }
-        model
-    });
-    for building in &mut light.buildings {
-        building.gravity.p_delta = true;
-    }
-    for building in &mut heavy.buildings {
+    let mut models: Vec<Model> = models().into_iter().take(2).collect();
+    for building in models.iter_mut().flat_map(|model| &mut model.buildings) {
+        building.damping = Damping::Ratio {
+            ratio: 0.05,
+            modes: vec![1],
+        };
         building.gravity = Gravity {
-            preload: true,
             p_delta: true,
+            ..Gravity::default()
         };
     }
-    vec![light, heavy]
+    models
 }
 
 fn tiers(at: f64, storeys: usize) -> Tiers {
