@@ -157,6 +157,7 @@ fn held_by(frame: SpaceFrame, floors: Vec<Tier>, heights: &[f64]) -> Tiers {
         space_frame: Some(frame),
         yielding: Vec::new(),
         element_names: Vec::new(),
+        bearings: Vec::new(),
     }
 }
 
@@ -605,6 +606,7 @@ fn an_eccentric_storey_yields_as_springs_at_points_of_the_plan() {
         space_frame: None,
         yielding: springs,
         element_names: vec![None; 4],
+        bearings: Vec::new(),
     };
     let of_columns = held_by(frame, vec![tier], &[HEIGHT]);
     let across = shaking("across", 5.0, 0.9);
