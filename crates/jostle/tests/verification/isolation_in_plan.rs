@@ -459,7 +459,8 @@ fn an_eccentric_block_moves_by_the_rate_equation() {
         let [(rough, _), (exact, stroke)] =
             [1e-5, 2.5e-6].map(|step| own.run(&motion, duration, step));
         let scale = largest(&exact[..6]);
-        let own_error = difference(&rough[..6], &exact[..6]);
+        // Of first order, where a force reaches the circle within a step.
+        let own_error = difference(&rough[..6], &exact[..6]) / 3.0;
         let error = |step: f64| {
             let model = eccentric_block(isolator, step);
             let (system, outcome) = run(&model, &motion);
@@ -474,10 +475,10 @@ fn an_eccentric_block_moves_by_the_rate_equation() {
         };
         let errors = [2e-3, 1e-3, 5e-4].map(error);
         println!("{kind}: {errors:?}, {own_error:e}, {stroke}");
-        assert!(own_error < 5e-5, "{own_error:e}");
+        assert!(own_error < 3e-5, "{own_error:e}");
         for axis in 0..2 {
             let [coarse, middle, fine] = errors.map(|error| error[axis]);
-            assert!(fine < 3e-4, "{kind}: {errors:?}");
+            assert!(fine < 6e-5, "{kind}: {errors:?}");
             assert!(coarse > 8.0 * fine || fine < 1e-5, "{kind}: {errors:?}");
             assert!(middle < 0.5 * coarse || middle < 1e-5, "{kind}: {errors:?}");
         }

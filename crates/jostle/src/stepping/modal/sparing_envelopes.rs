@@ -3,12 +3,15 @@
 use std::ops::ControlFlow;
 
 use super::members::LOOK_ALWAYS;
-use crate::{
-    Analysis, Axial, Base, Building, ContactLaw, Damping, FloorPairs, Frame, Gap, Gravity,
-    GroundMotion, Joint, LawKind, Level, Link, MemberRequest, Model, Outcome, Plan, PlanFrame,
-    PlanPoint, RestitutionIs, Section, Settings, Solver, SpaceFrame, SpaceMember, SpacePlace,
-    SpaceSection, Structure, System, Tier, TierStorey, Tiers, simulate,
+use crate::contact::{ContactLaw, LawKind, RestitutionIs};
+use crate::model::{
+    Analysis, Axial, Base, Building, Damping, FloorPairs, Frame, Gap, Gravity, Joint, Level, Link,
+    MemberRequest, Model, PlanFrame, PlanPoint, Section, Solver, SpaceFrame, SpaceMember,
+    SpacePlace, SpaceSection, Structure, Tier, TierStorey, Tiers,
 };
+use crate::motion::GroundMotion;
+use crate::stepping::{Outcome, Plan, Settings, simulate};
+use crate::system::System;
 
 fn building(name: &str, storeys: usize, axial: Option<f64>, damping: &Damping) -> Building {
     let section = |rigidity: f64| Section {
