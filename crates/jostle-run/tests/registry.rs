@@ -164,12 +164,11 @@ post_yield = 0.1
 stop = { at = "30 mm", stiffness = "60 MN/m" }
 [[wall]]
 name = "moat"
-from = ["10 m", "-1 m"]
-to = ["10 m", "9 m"]
+from = ["10.01 m", "-1 m"]
+to = ["10.01 m", "9 m"]
 [[gap]]
 between = ["A", "moat"]
 floors = [[0, "wall"]]
-width = "10 mm"
 "#;
 
 fn summary() -> Summary {

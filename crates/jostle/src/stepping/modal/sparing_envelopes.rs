@@ -6,7 +6,7 @@ use super::members::LOOK_ALWAYS;
 use crate::contact::{ContactLaw, LawKind, RestitutionIs};
 use crate::model::{
     Analysis, Axial, Base, Building, Damping, FloorPairs, Frame, Gap, Gravity, Joint, Level, Link,
-    MemberRequest, Model, PlanFrame, PlanPoint, Section, Solver, SpaceFrame, SpaceMember,
+    LinkLaw, MemberRequest, Model, PlanFrame, PlanPoint, Section, Solver, SpaceFrame, SpaceMember,
     SpacePlace, SpaceSection, Structure, Tier, TierStorey, Tiers,
 };
 use crate::motion::GroundMotion;
@@ -105,7 +105,7 @@ fn models() -> Vec<Model> {
         level_tolerance: 1e-3,
         stiffness: 2e7,
         damping: 1e5,
-        law: crate::LinkLaw::Linear,
+        law: LinkLaw::Linear,
     };
     let beta = Damping::Rayleigh {
         alpha: 0.2,
