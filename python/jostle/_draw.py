@@ -312,6 +312,9 @@ def _building_rows(summary: dict[str, Any]) -> str:
 
 def modes_html(modes: BuildingModes) -> str:
     """Periods, masses and shapes."""
+    in_space = bool((modes.effective_mass_ratios_torsion > 0).any())
+    names = ("x", "across", "torsion") if in_space else ("x", "y")
+    shares = [getattr(modes, f"effective_mass_ratios_{name}") for name in names]
     rows = []
     for index in range(len(modes)):
         shape = " ".join(f"{value:+.2f}" for value in modes.floor_shapes[index])
@@ -319,12 +322,11 @@ def modes_html(modes: BuildingModes) -> str:
             (
                 f"{index + 1}",
                 f"{modes.periods[index]:.4f}",
-                f"{100 * modes.effective_mass_ratios_x[index]:.2f}",
-                f"{100 * modes.effective_mass_ratios_y[index]:.2f}",
+                *(f"{100 * share[index]:.2f}" for share in shares),
                 shape if modes.lateral[index] else "",
             )
         )
-    heads = ("mode", "period [s]", "mass x [%]", "mass y [%]", "floors from the ground up")
+    heads = ("mode", "period [s]", *(f"mass {name} [%]" for name in names), "floors from the ground up")
     return f'<div style="{_FONT}"><b>{_text(modes.name)}</b>{_rows(heads, rows)}</div>'
 
 

@@ -23,6 +23,8 @@ class BuildingModes:
         circular_frequencies: ω [rad/s], shape ``(n,)``.
         effective_mass_ratios_x: share of the mass that moves horizontally [–], shape ``(n,)``.
         effective_mass_ratios_y: share of the mass that moves vertically [–], shape ``(n,)``.
+        effective_mass_ratios_across: in space, share of the mass that moves across [–], shape ``(n,)``; 0 in one plane.
+        effective_mass_ratios_torsion: in space, share of the polar mass that turns [–], shape ``(n,)``; 0 in one plane.
         lateral: whether the mode is lateral (at least 1 % of the mass horizontally), shape ``(n,)``.
         floor_shapes: horizontal shapes at the floors from the ground up, the greatest ±1 [–], shape ``(n, f)``.
         lateral_periods: periods of the lateral modes, at most ``count`` [s].
@@ -33,6 +35,8 @@ class BuildingModes:
     circular_frequencies: npt.NDArray[np.float64]
     effective_mass_ratios_x: npt.NDArray[np.float64]
     effective_mass_ratios_y: npt.NDArray[np.float64]
+    effective_mass_ratios_across: npt.NDArray[np.float64]
+    effective_mass_ratios_torsion: npt.NDArray[np.float64]
     lateral: npt.NDArray[np.bool_]
     floor_shapes: npt.NDArray[np.float64]
     lateral_periods: npt.NDArray[np.float64]
@@ -81,6 +85,8 @@ def _building(building: dict[str, Any]) -> BuildingModes:
         circular_frequencies=column("circular_frequency_rad_s"),
         effective_mass_ratios_x=column("effective_mass_ratio_x"),
         effective_mass_ratios_y=column("effective_mass_ratio_y"),
+        effective_mass_ratios_across=column("effective_mass_ratio_across"),
+        effective_mass_ratios_torsion=column("effective_mass_ratio_torsion"),
         lateral=np.array([mode["lateral"] for mode in listed], dtype=np.bool_),
         floor_shapes=column("floor_shape"),
         lateral_periods=np.array(building["periods_s"], dtype=np.float64),
