@@ -1,20 +1,24 @@
 //! `jostle check`: checks a model and prints masses, periods, contacts and the expected work.
 
+mod base;
+mod hinges;
 mod motion;
 
 use std::fmt::Write;
 use std::path::Path;
 
 use jostle::eigen::Mode;
-use jostle::hysteresis::{Hysteresis, Side};
-use jostle::model::{Damping, Hinges, PlanAxis, PlanSpring, Structure, Tiers, usual_damping_modes};
+use jostle::hysteresis::Side;
+use jostle::model::{Damping, Structure, Tiers, usual_damping_modes};
 use jostle::system::BuildingSystem;
-use jostle::{Building, LinkLaw, Model, SpaceFrame, SpaceMember, SpacePlace, System};
+use jostle::{Building, LinkLaw, Model, SpaceMember, SpacePlace, System};
 
 use crate::args::CheckArgs;
 use crate::failure::Failure;
 use crate::replace::Target;
 use crate::terminal;
+use base::{describe_bearing_places, describe_bearings, describe_foundation};
+use hinges::{describe_hinges, describe_yielding_in_plan};
 use jostle_report::{SitePlace, site_svg};
 use jostle_run::{BOLD, LOUD, styled};
 use jostle_run::{FileKind, Opened};
@@ -469,100 +473,6 @@ fn describe_places(
     writeln!(text)
 }
 
-/// Foundation, springs and dashpots of the soil, and what they do to the first mode.
-fn describe_foundation(
-    text: &mut String,
-    own: &jostle::system::FoundationPlace,
-) -> std::fmt::Result {
-    let (foundation, springs) = (&own.foundation, &own.springs);
-    let depth = match foundation.embedment > 0.0 {
-        true => format!(", {:.2} m deep", foundation.embedment),
-        false => String::new(),
-    };
-    writeln!(
-        text,
-        "  foundation {:.2} x {:.2} m{depth}, {:.1} t",
-        foundation.length,
-        foundation.width,
-        foundation.mass * 1e-3
-    )?;
-    writeln!(
-        text,
-        "  soil: sway {} N/m and {} N.s/m, rocking {} N.m/rad and {} N.m.s/rad",
-        short(springs.sway_stiffness),
-        short(springs.sway_damping),
-        short(springs.rocking_stiffness),
-        short(springs.rocking_damping)
-    )?;
-    writeln!(
-        text,
-        "  first period {:.3} s instead of {:.3} s on rigid ground ({:.3} times), damping {:.2} % instead of {:.2} %",
-        own.period,
-        own.fixed_period,
-        own.period / own.fixed_period,
-        100.0 * own.damping,
-        100.0 * own.fixed_damping
-    )
-}
-
-/// Amplitude at which the equivalent linear bearings are given, where there is no limit \[m\].
-const AMPLITUDE: f64 = 0.1;
-
-/// Where bearings stand in plan.
-fn describe_bearing_places(
-    text: &mut String,
-    places: &[[f64; 2]],
-    weight: f64,
-    given: bool,
-) -> std::fmt::Result {
-    let listed: Vec<String> = places
-        .iter()
-        .take(MOST_PLACES)
-        .map(|[x, y]| format!("({x:.2}, {y:.2})"))
-        .collect();
-    let more = if places.len() > MOST_PLACES {
-        ", …"
-    } else {
-        ""
-    };
-    let each = weight * 1e-3 / places.len() as f64;
-    let what = if given {
-        format!("{} bearings with {each:.0} kN each", places.len())
-    } else {
-        "four bearings stand for an even spread".to_owned()
-    };
-    writeln!(text, "  {what}, at {}{more} m", listed.join(", "))
-}
-
-/// Bearings whose places are listed.
-const MOST_PLACES: usize = 8;
-
-/// Bearings, and the linear ones that take their place at an amplitude (theory, Eq. B7).
-fn describe_bearings(text: &mut String, mat: &jostle::structure::Mat) -> std::fmt::Result {
-    let isolation = &mat.isolation;
-    let amplitude = isolation.limit.unwrap_or(AMPLITUDE);
-    writeln!(
-        text,
-        "  {} bearings under a mat of {:.1} t, with a weight of {:.0} kN",
-        isolation.isolator.name(),
-        isolation.mat_mass * 1e-3,
-        mat.weight * 1e-3
-    )?;
-    if let Some([stiffness, ratio]) = isolation.isolator.equivalent(mat.weight, amplitude) {
-        let mass = mat.weight / jostle_io::STANDARD_GRAVITY;
-        let omega = (stiffness / mass).sqrt();
-        writeln!(
-            text,
-            "  at {:.0} mm as linear bearings of {} N/m with {:.1} % damping: a period of {:.2} s",
-            amplitude * 1e3,
-            short(stiffness),
-            100.0 * (ratio + mat.dashpot / (2.0 * mass * omega)),
-            std::f64::consts::TAU / omega
-        )?;
-    }
-    Ok(())
-}
-
 /// Names of both sides.
 fn names(system: &System, between: [Option<usize>; 2]) -> [&str; 2] {
     between.map(|side| system.side_name(side))
@@ -721,152 +631,6 @@ fn special(building: &Building) -> Vec<String> {
 /// A stiffness with three digits.
 fn short(value: f64) -> String {
     format!("{value:.2e}")
-}
-
-fn describe_hinges(text: &mut String, hinges: &Hinges) -> std::fmt::Result {
-    match hinges {
-        Hinges::Frame(hinges) => {
-            for (name, rows) in [("columns", &hinges.columns), ("beams", &hinges.beams)] {
-                let springs: Vec<&Hysteresis> = rows.iter().flatten().collect();
-                let sides = [(Side::Positive, " +"), (Side::Negative, " −")];
-                let differ = springs
-                    .iter()
-                    .any(|spring| spring.backbone().mirrored() != *spring.backbone());
-                for (side, sign) in sides {
-                    if springs.is_empty() || (side == Side::Negative && !differ) {
-                        continue;
-                    }
-                    let sign = if differ { sign } else { "" };
-                    let rule = springs[0].rule().name();
-                    let [cracking, yielding] = extents(&springs, side);
-                    writeln!(
-                        text,
-                        "  hinges {rule}, {name}{sign}: crack at {} kN.m, yield at {} kN.m",
-                        range(cracking, 1e-3),
-                        range(yielding, 1e-3)
-                    )?;
-                }
-            }
-        }
-        Hinges::Storeys(springs) => {
-            let springs: Vec<&Hysteresis> = springs.iter().collect();
-            if let Some(first) = springs.first() {
-                let [cracking, yielding] = extents(&springs, Side::Positive);
-                writeln!(
-                    text,
-                    "  storeys {}: crack at {} kN, yield at {} kN",
-                    first.rule().name(),
-                    range(cracking, 1e-3),
-                    range(yielding, 1e-3)
-                )?;
-            }
-        }
-    }
-    Ok(())
-}
-
-/// What yields of a building in plan: frames, whole storeys, and every column or wall, by direction.
-fn describe_yielding_in_plan(text: &mut String, tiers: &Tiers) -> std::fmt::Result {
-    for frame in tiers.frames.iter().filter(|frame| frame.may_yield()) {
-        writeln!(text, "  frame {}:", frame.name)?;
-        describe_hinges(text, &Hinges::Frame(frame.hinges.clone()))?;
-    }
-    if let Some(frame) = &tiers.space_frame {
-        describe_space_hinges(text, frame)?;
-    }
-    let mut elements: Vec<Option<usize>> = tiers.yielding.iter().map(|own| own.element).collect();
-    elements.sort_unstable();
-    elements.dedup();
-    for element in elements {
-        for axis in PlanAxis::BOTH {
-            let own: Vec<&PlanSpring> = tiers
-                .yielding
-                .iter()
-                .filter(|own| own.element == element && own.axis == axis)
-                .collect();
-            let Some(first) = own.first() else { continue };
-            let springs: Vec<&Hysteresis> = own.iter().map(|own| &own.hysteresis).collect();
-            let [cracking, yielding] = extents(&springs, Side::Positive);
-            let what = match element {
-                None => "storeys".to_owned(),
-                Some(index) => {
-                    let [x, y] = first.at.map(|value| format!("{value:.2}"));
-                    let name = tiers.element_names.get(index).cloned().flatten();
-                    let name = name.unwrap_or_else(|| format!("element {}", index + 1));
-                    format!("{name} at ({x}, {y}) m")
-                }
-            };
-            let cracks = match cracking == yielding {
-                true => String::new(),
-                false => format!("crack at {} kN, ", range(cracking, 1e-3)),
-            };
-            writeln!(
-                text,
-                "  {what}, {} by {}: {cracks}yield at {} kN",
-                axis.name(),
-                first.hysteresis.rule().name(),
-                range(yielding, 1e-3)
-            )?;
-        }
-    }
-    Ok(())
-}
-
-/// Hinges of a space frame: how many, and at which moments, of columns along x and across, and of beams.
-fn describe_space_hinges(text: &mut String, frame: &SpaceFrame) -> std::fmt::Result {
-    let is_column = |own: &SpaceMember| matches!(own.place, SpacePlace::Column { .. });
-    let sorts = [
-        ("columns, x,", true, 0),
-        ("columns, y,", true, 1),
-        ("beams", false, 0),
-    ];
-    for (what, columns, plane) in sorts {
-        let members = frame.members.iter();
-        let members = members.filter(|own| is_column(own) == columns);
-        let springs: Vec<&Hysteresis> = members
-            .filter_map(|own| own.hinges[plane].as_ref())
-            .collect();
-        let Some(first) = springs.first() else {
-            continue;
-        };
-        let [cracking, yielding] = extents(&springs, Side::Positive);
-        let cracks = match cracking == yielding {
-            true => String::new(),
-            false => format!("crack at {} kN.m, ", range(cracking, 1e-3)),
-        };
-        writeln!(
-            text,
-            "  {} of {what} {}: {cracks}yield at {} kN.m",
-            counted(2 * springs.len(), "hinge"),
-            first.rule().name(),
-            range(yielding, 1e-3)
-        )?;
-    }
-    Ok(())
-}
-
-/// Least and greatest cracking and yield force of some springs.
-fn extents(springs: &[&Hysteresis], side: Side) -> [[f64; 2]; 2] {
-    springs
-        .iter()
-        .fold([[f64::INFINITY, 0.0]; 2], |extents, spring| {
-            let side = spring.backbone().side(side);
-            let [c, y] = [side.cracking.force, side.yielding.force];
-            [
-                [extents[0][0].min(c), extents[0][1].max(c)],
-                [extents[1][0].min(y), extents[1][1].max(y)],
-            ]
-        })
-}
-
-/// A range, or one number where its ends look the same.
-fn range([low, high]: [f64; 2], scale: f64) -> String {
-    let [low, high] = [low, high].map(|value| format!("{:.1}", value * scale));
-    if low == high {
-        low
-    } else {
-        format!("{low} to {high}")
-    }
 }
 
 #[cfg(test)]

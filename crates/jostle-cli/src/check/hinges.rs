@@ -1,0 +1,154 @@
+//! What `jostle check` says of hinges.
+
+use std::fmt::Write as _;
+
+use jostle::hysteresis::{Hysteresis, Side};
+use jostle::model::{Hinges, PlanAxis, PlanSpring, Tiers};
+use jostle::{SpaceFrame, SpaceMember, SpacePlace};
+use jostle_run::counted;
+
+pub(super) fn describe_hinges(text: &mut String, hinges: &Hinges) -> std::fmt::Result {
+    match hinges {
+        Hinges::Frame(hinges) => {
+            for (name, rows) in [("columns", &hinges.columns), ("beams", &hinges.beams)] {
+                let springs: Vec<&Hysteresis> = rows.iter().flatten().collect();
+                let sides = [(Side::Positive, " +"), (Side::Negative, " −")];
+                let differ = springs
+                    .iter()
+                    .any(|spring| spring.backbone().mirrored() != *spring.backbone());
+                for (side, sign) in sides {
+                    if springs.is_empty() || (side == Side::Negative && !differ) {
+                        continue;
+                    }
+                    let sign = if differ { sign } else { "" };
+                    let rule = springs[0].rule().name();
+                    let [cracking, yielding] = extents(&springs, side);
+                    writeln!(
+                        text,
+                        "  hinges {rule}, {name}{sign}: crack at {} kN.m, yield at {} kN.m",
+                        range(cracking, 1e-3),
+                        range(yielding, 1e-3)
+                    )?;
+                }
+            }
+        }
+        Hinges::Storeys(springs) => {
+            let springs: Vec<&Hysteresis> = springs.iter().collect();
+            if let Some(first) = springs.first() {
+                let [cracking, yielding] = extents(&springs, Side::Positive);
+                writeln!(
+                    text,
+                    "  storeys {}: crack at {} kN, yield at {} kN",
+                    first.rule().name(),
+                    range(cracking, 1e-3),
+                    range(yielding, 1e-3)
+                )?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// What yields of a building in plan: frames, whole storeys, and every column or wall, by direction.
+pub(super) fn describe_yielding_in_plan(text: &mut String, tiers: &Tiers) -> std::fmt::Result {
+    for frame in tiers.frames.iter().filter(|frame| frame.may_yield()) {
+        writeln!(text, "  frame {}:", frame.name)?;
+        describe_hinges(text, &Hinges::Frame(frame.hinges.clone()))?;
+    }
+    if let Some(frame) = &tiers.space_frame {
+        describe_space_hinges(text, frame)?;
+    }
+    let mut elements: Vec<Option<usize>> = tiers.yielding.iter().map(|own| own.element).collect();
+    elements.sort_unstable();
+    elements.dedup();
+    for element in elements {
+        for axis in PlanAxis::BOTH {
+            let own: Vec<&PlanSpring> = tiers
+                .yielding
+                .iter()
+                .filter(|own| own.element == element && own.axis == axis)
+                .collect();
+            let Some(first) = own.first() else { continue };
+            let springs: Vec<&Hysteresis> = own.iter().map(|own| &own.hysteresis).collect();
+            let [cracking, yielding] = extents(&springs, Side::Positive);
+            let what = match element {
+                None => "storeys".to_owned(),
+                Some(index) => {
+                    let [x, y] = first.at.map(|value| format!("{value:.2}"));
+                    let name = tiers.element_names.get(index).cloned().flatten();
+                    let name = name.unwrap_or_else(|| format!("element {}", index + 1));
+                    format!("{name} at ({x}, {y}) m")
+                }
+            };
+            let cracks = match cracking == yielding {
+                true => String::new(),
+                false => format!("crack at {} kN, ", range(cracking, 1e-3)),
+            };
+            writeln!(
+                text,
+                "  {what}, {} by {}: {cracks}yield at {} kN",
+                axis.name(),
+                first.hysteresis.rule().name(),
+                range(yielding, 1e-3)
+            )?;
+        }
+    }
+    Ok(())
+}
+
+/// Hinges of a space frame: how many, and at which moments, of columns along x and across, and of beams.
+fn describe_space_hinges(text: &mut String, frame: &SpaceFrame) -> std::fmt::Result {
+    let is_column = |own: &SpaceMember| matches!(own.place, SpacePlace::Column { .. });
+    let sorts = [
+        ("columns, x,", true, 0),
+        ("columns, y,", true, 1),
+        ("beams", false, 0),
+    ];
+    for (what, columns, plane) in sorts {
+        let members = frame.members.iter();
+        let members = members.filter(|own| is_column(own) == columns);
+        let springs: Vec<&Hysteresis> = members
+            .filter_map(|own| own.hinges[plane].as_ref())
+            .collect();
+        let Some(first) = springs.first() else {
+            continue;
+        };
+        let [cracking, yielding] = extents(&springs, Side::Positive);
+        let cracks = match cracking == yielding {
+            true => String::new(),
+            false => format!("crack at {} kN.m, ", range(cracking, 1e-3)),
+        };
+        writeln!(
+            text,
+            "  {} of {what} {}: {cracks}yield at {} kN.m",
+            counted(2 * springs.len(), "hinge"),
+            first.rule().name(),
+            range(yielding, 1e-3)
+        )?;
+    }
+    Ok(())
+}
+
+/// Least and greatest cracking and yield force of some springs.
+fn extents(springs: &[&Hysteresis], side: Side) -> [[f64; 2]; 2] {
+    springs
+        .iter()
+        .fold([[f64::INFINITY, 0.0]; 2], |extents, spring| {
+            let side = spring.backbone().side(side);
+            let [c, y] = [side.cracking.force, side.yielding.force];
+            [
+                [extents[0][0].min(c), extents[0][1].max(c)],
+                [extents[1][0].min(y), extents[1][1].max(y)],
+            ]
+        })
+}
+
+/// A range, or one number where its ends look the same.
+fn range([low, high]: [f64; 2], scale: f64) -> String {
+    let [low, high] = [low, high].map(|value| format!("{:.1}", value * scale));
+    if low == high {
+        low
+    } else {
+        format!("{low} to {high}")
+    }
+}
