@@ -71,6 +71,8 @@ fn the_keyboard_is_enough() {
         "{}",
         page.model()
     );
+    // The curve of the new width, with its line, comes after the frame.
+    page.wait("document.querySelector('.handle')?.style.display === ''");
     page.value("document.querySelector('.skip').focus()");
     let mut wanted = vec![
         "undo",
