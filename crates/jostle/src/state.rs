@@ -244,8 +244,9 @@ impl BuildingSystem {
             + yielding
     }
 
-    /// Forces of its bearings on the ground, dashpots included and the ring not, positive when the mat is to the right and to the
-    /// back, and their torque about the centre of the mat; `None` for a building that is not isolated in plan.
+    /// Forces of its bearings on the ground along x and across \[N\], and their torque about the centre of the mat \[N·m\].
+    /// Dashpots are included, the ring is not. They are positive when the mat is to the right and to the back. `None` without
+    /// isolation in plan.
     pub(crate) fn bearing_forces(&self, state: &State) -> Option<BearingForces> {
         let mat = self.mat_in_plan.as_ref()?;
         Some(self.forces_on_ground(state, mat, mat.damping, mat.centre))

@@ -3,8 +3,8 @@
 //! A slider has an elastic stiffness k and a strength Q, which bounds the length of its force vector: ḟ = k u̇ while |f| < Q or the
 //! force falls, else ḟ = k (u̇ − (f̂·u̇) f̂). Along a straight path from the circle |f| = Q the angle φ from the path to the force
 //! follows tan φ/2 = tan φ₀/2 · e^(−k s/Q), s being the length of the path (R. D. Krieg and D. B. Krieg, 1977, J. Pressure Vessel
-//! Technol. 99, 510–515). So a path gives the same force for any division, and a smooth one an error of second order; returning the
-//! trial force to the circle along its radius instead has an error of first order (theory, Eq. B1p).
+//! Technol. 99, 510–515). A straight path gives the same force for any division, and a curved one an error of second
+//! order. Returning the trial force to the circle along its radius would have an error of first order (theory, Eq. B1p).
 //!
 //! In the list of springs that yield such a force has three rows: its displacement along x, across, and the difference of both, whose
 //! only force is what the tangent [a b; b c] has off its diagonal: springs a + b, c + b and −b.

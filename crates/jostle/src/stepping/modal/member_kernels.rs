@@ -207,7 +207,7 @@ pub(super) struct Near {
 }
 
 impl Near {
-    /// `values`: at the instants, but for what `used` bounds.
+    /// `values`: at the instants, without the part that `used` bounds.
     #[inline(always)]
     pub(super) fn find(limits: &Limits<'_>, values: &[Rows], used: &Rows) -> Self {
         let mut near = Self {
@@ -228,7 +228,7 @@ impl Near {
         near
     }
 
-    /// All of so many steps.
+    /// All instants of a number of steps.
     pub(super) fn all(steps: usize) -> Self {
         Self {
             steps: std::array::from_fn(|step| step < steps),

@@ -24,7 +24,7 @@ pub(super) struct FormRow {
     pub(super) constant: f64,
     /// Contacts whose forces are subtracted.
     pub(super) contacts: Vec<usize>,
-    /// Whether displacements determine it, but for what shapes miss.
+    /// Whether displacements determine it, except for the part that the shapes miss.
     pub(super) is_bounded: bool,
 }
 

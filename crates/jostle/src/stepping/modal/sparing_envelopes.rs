@@ -120,7 +120,7 @@ fn models() -> Vec<Model> {
     ]
 }
 
-/// Frames whose weight leans on their sway, with columns that keep their length and with those that stretch.
+/// Frames with P-Delta, with columns that keep their length and with those that stretch.
 fn leaning() -> Vec<Model> {
     let mut models: Vec<Model> = models().into_iter().take(2).collect();
     for building in models.iter_mut().flat_map(|model| &mut model.buildings) {
