@@ -29,5 +29,7 @@ CASES = [
     Case("high-rise", "twenty beside forty storeys", "high-rise.toml", free_steps=(4e-3, 2e-3), parts=(5, 10)),
     Case("row", "ten frames in a row, 15 s", "row-of-ten.toml", free_steps=(4e-3, 2e-3), parts=(5, 10)),
     Case("linked-row", "ten frames in a row with dampers between them, 15 s", "linked-row-of-ten.toml", free_steps=(4e-3, 2e-3), parts=(5, 10)),
+    Case("space", "two towers of ten storeys in space, 31 s", "two-towers-in-space.toml", solvers=("modal",), free_steps=(4e-3, 2e-3, 1e-3), parts=(5, 10)),
+    Case("space-block", "block of nine buildings in space, 31 s", "block-of-nine.toml", solvers=("modal",), free_steps=(4e-3, 2e-3), parts=(5, 10)),
     Case("piece", "J1 and J2, 70 cm/s², 10 mm, the first 5 s", "piece.toml", quick=True),
 ]

@@ -43,13 +43,27 @@ def cheapest(case, solver, known):
     return found
 
 
+# Of floors; the last two in space only.
+MOTIONS = (
+    ("displacement_max_m", "displacement_min_m"),
+    ("displacement_across_max_m", "displacement_across_min_m"),
+    ("rotation_max_rad", "rotation_min_rad"),
+)
+
+
 def peaks(found):
-    """Peaks that both programs report, those of a kind and building or gap in one list: displacements of floors, contact forces, forces
-    of links."""
+    """Peaks that both programs report, those of a kind and building or gap in one list: displacements and rotations of floors, forces
+    of contacts or of faces, forces of links."""
     kinds = []
     for building in found["buildings"]:
         floors = building["floors"]
-        kinds.append([value for floor in floors for value in (floor["displacement_max_m"], floor["displacement_min_m"])])
+        for names in MOTIONS:
+            if names[0] in floors[0]:
+                kinds.append([floor[name] for floor in floors for name in names])
+    if "faces" in found or "plan_m" in next(iter(found.get("gaps", [{}])[0].get("contacts", [])), {}):
+        faces = found["faces"] if "faces" in found else [face for gap in found["gaps"] for face in gap["contacts"]]
+        kinds.append([face["peak_force_n"] for face in faces])
+        return kinds
     if "gaps" in found:
         gaps = [gap["contacts"] for gap in found["gaps"]]
     else:

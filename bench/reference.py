@@ -29,7 +29,7 @@ def extrapolated(coarse, fine, ratio=4.0):
 def refine(case, say):
     """Converged greatest forces and the settings for OpenSees."""
     say(f"{case.name}: jostle at tolerances 1e-5 and 1e-6")
-    own = {tolerance: programs.jostle(case, tolerance=tolerance, least=0.0) for tolerance in (1e-5, 1e-6)}
+    own = {tolerance: programs.jostle(case, case.solvers[0], tolerance, least=0.0) for tolerance in (1e-5, 1e-6)}
     converged = own[1e-6]["peak_force_n"]
     reference = {
         "command": f"bench/run --reference {case.name}",
