@@ -204,6 +204,6 @@ pub(crate) fn static_answer(building: &BuildingSystem, mut load: Vec<f64>) -> Ve
     sweep
         .factorize(&jostle::linear::StepMatrix::STATIC, &[], &mut factor)
         .expect("the structure is supported");
-    sweep.solve(&factor, &mut load);
+    sweep.solve(&factor, &mut load, &mut Default::default());
     load
 }

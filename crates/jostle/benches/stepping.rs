@@ -11,8 +11,8 @@ use jostle::structure::StepEquations;
 use jostle::system::BuildingSystem;
 use jostle::{
     Analysis, Axial, Building, ContactLaw, Damping, Frame, Gap, GroundMotion, Joint, LawKind,
-    Model, Plan, Pounding, RestitutionIs, RiccatiFactor, RiccatiSweep, Section, Settings,
-    Structure, System, simulate,
+    Model, Plan, Pounding, RestitutionIs, RiccatiFactor, RiccatiScratch, RiccatiSweep, Section,
+    Settings, Structure, System, simulate,
 };
 
 fn main() {
@@ -116,11 +116,12 @@ fn solve(bencher: Bencher, storeys: usize) {
         .map(|i| (i as f64).sin())
         .collect();
     let mut x = load.clone();
+    let mut scratch = RiccatiScratch::default();
     bencher
         .counter(ItemsCount::new(2 * sweep.entries_of_l()))
         .bench_local(|| {
             x.copy_from_slice(&load);
-            sweep.solve(&factor, &mut x);
+            sweep.solve(&factor, &mut x, &mut scratch);
             x[0]
         });
 }

@@ -129,4 +129,4 @@ pub use results::{Run, springs_of};
 pub use state::State;
 pub use stepping::{Outcome, Plan, Pounding, RunEnd, Settings, StepError, simulate};
 pub use system::System;
-pub use transfer::riccati::{RiccatiFactor, RiccatiSweep};
+pub use transfer::riccati::{RiccatiFactor, RiccatiScratch, RiccatiSweep};

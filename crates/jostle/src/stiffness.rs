@@ -23,6 +23,7 @@ pub struct DirectFactor(SparseFactor);
 
 impl StepEquations for DirectStiffness {
     type Factor = DirectFactor;
+    type Scratch = ();
 
     fn new(building: &AssembledBuilding) -> Self {
         let equations = &building.equations;
@@ -68,7 +69,7 @@ impl StepEquations for DirectStiffness {
             .map_err(|NoPivot(dof)| NotPositive { dof })
     }
 
-    fn solve(&self, factor: &DirectFactor, load: &mut [f64]) {
+    fn solve(&self, factor: &DirectFactor, load: &mut [f64], (): &mut ()) {
         self.pattern.solve(&factor.0, load);
     }
 }

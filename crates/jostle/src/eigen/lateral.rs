@@ -5,7 +5,7 @@ use crate::linear::{NotPositive, StepMatrix};
 use crate::simd::{add, dot};
 use crate::structure::AssembledBuilding;
 use crate::structure::StepEquations;
-use crate::transfer::riccati::{RiccatiFactor, RiccatiSweep};
+use crate::transfer::riccati::{RiccatiFactor, RiccatiScratch, RiccatiSweep};
 
 /// Residual, relative to the eigenvalue, below which a mode counts as found; its frequency is then exact to rounding.
 const CONVERGED: f64 = 1e-11;
@@ -101,6 +101,7 @@ pub(super) struct Flexibility<'a> {
     massive: Vec<usize>,
     root: Vec<f64>,
     full: Vec<f64>,
+    scratch: RiccatiScratch,
 }
 
 impl<'a> Flexibility<'a> {
@@ -122,6 +123,7 @@ impl<'a> Flexibility<'a> {
             factor,
             massive,
             full: vec![0.0; mass.len()],
+            scratch: RiccatiScratch::default(),
         })
     }
 
@@ -136,7 +138,8 @@ impl<'a> Flexibility<'a> {
         for ((&dof, root), value) in self.massive.iter().zip(&self.root).zip(x) {
             self.full[dof] = root * value;
         }
-        self.sweep.solve(&self.factor, &mut self.full);
+        self.sweep
+            .solve(&self.factor, &mut self.full, &mut self.scratch);
         &self.full
     }
 

@@ -6,6 +6,7 @@ use crate::linear::NotPositive;
 use crate::simd::add;
 use crate::structure::AssembledBuilding;
 use crate::structure::StepEquations;
+use crate::transfer::riccati::RiccatiScratch;
 
 /// An interval this narrow, relative to ω², counts as one cluster.
 const CLUSTER: f64 = 1e-6;
@@ -202,7 +203,9 @@ impl Search<'_> {
     /// (K − σM)⁻¹ M φ.
     fn solve(&self, shape: &[f64]) -> Vec<f64> {
         let mut load: Vec<f64> = self.mass.iter().zip(shape).map(|(m, s)| m * s).collect();
-        self.spectrum.sweep.solve(&self.spectrum.factor, &mut load);
+        let spectrum = &self.spectrum;
+        let scratch = &mut RiccatiScratch::default();
+        spectrum.sweep.solve(&spectrum.factor, &mut load, scratch);
         load
     }
 

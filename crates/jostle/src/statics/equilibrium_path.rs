@@ -4,7 +4,7 @@ use super::Settled;
 use crate::hysteresis::{Backbone, Corners, Hysteresis, HysteresisMemory, HysteresisRule, Side};
 use crate::linear::{NotPositive, StepMatrix};
 use crate::structure::{AssembledBuilding, Equations, StepEquations, YieldingSpring};
-use crate::transfer::riccati::{RiccatiFactor, RiccatiSweep};
+use crate::transfer::riccati::{RiccatiFactor, RiccatiScratch, RiccatiSweep};
 
 /// Why a path ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -38,6 +38,7 @@ pub struct EquilibriumPath {
     equations: Equations,
     sweep: RiccatiSweep,
     factor: RiccatiFactor,
+    scratch: RiccatiScratch,
     /// Slopes in `factor`; empty before the first factorisation.
     tangents: Vec<f64>,
     /// Prescribed displacement, with the spring that restrains it while the equations are solved.
@@ -121,6 +122,7 @@ impl EquilibriumPath {
             equations: building.equations.clone(),
             sweep,
             factor: RiccatiFactor::default(),
+            scratch: RiccatiScratch::default(),
             tangents: Vec::new(),
             driven,
             rates: vec![0.0; displacement.len()],
@@ -317,14 +319,15 @@ impl EquilibriumPath {
     /// Rates for the factorised slopes.
     fn solve(&mut self) {
         self.rates.copy_from_slice(&self.pattern);
-        self.sweep.solve(&self.factor, &mut self.rates);
+        self.sweep
+            .solve(&self.factor, &mut self.rates, &mut self.scratch);
         self.load_rate = 1.0;
         if let Some((dof, hold)) = self.driven {
             // K + k e eᵀ is regular where K is not; k e is the load of the spring with the prescribed end.
             let sign = self.pattern_sign();
             let mut held = vec![0.0; self.rates.len()];
             held[dof] = sign * hold;
-            self.sweep.solve(&self.factor, &mut held);
+            self.sweep.solve(&self.factor, &mut held, &mut self.scratch);
             self.load_rate = (sign - held[dof]) / self.rates[dof];
             for (rate, held) in self.rates.iter_mut().zip(&held) {
                 *rate = self.load_rate * *rate + held;

@@ -34,7 +34,7 @@ pub fn static_displacement(
         .iter()
         .map(|mass| -mass * gravity)
         .collect();
-    sweep.solve(&factor, &mut displacement);
+    sweep.solve(&factor, &mut displacement, &mut Default::default());
     Ok(displacement)
 }
 

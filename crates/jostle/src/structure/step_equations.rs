@@ -8,6 +8,9 @@ pub trait StepEquations: Sized {
     /// What is kept of a factorisation.
     type Factor: Default + Clone;
 
+    /// Memory that a solution needs and that holds nothing between solutions.
+    type Scratch: Default;
+
     /// Prepares what does not depend on the step size.
     fn new(building: &AssembledBuilding) -> Self;
 
@@ -40,7 +43,7 @@ pub trait StepEquations: Sized {
     }
 
     /// Replaces a load by the displacement it causes.
-    fn solve(&self, factor: &Self::Factor, load: &mut [f64]);
+    fn solve(&self, factor: &Self::Factor, load: &mut [f64], scratch: &mut Self::Scratch);
 }
 
 /// Displacements under one load, factorised for it alone: K̂⁻¹ `load`. Springs that yield have their initial
@@ -58,6 +61,6 @@ pub fn solve_once<E: StepEquations>(
     let tangents = building.equations.initial_tangents();
     equations.factorize(matrix, &tangents, &mut factor)?;
     let mut answer = load.to_vec();
-    equations.solve(&factor, &mut answer);
+    equations.solve(&factor, &mut answer, &mut E::Scratch::default());
     Ok(answer)
 }

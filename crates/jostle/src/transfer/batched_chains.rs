@@ -2,10 +2,10 @@
 //! at their ends.
 
 mod chain;
-mod passes;
+mod chain_substitution;
 
 use self::chain::{Chain, Reach};
-use self::passes::ChainPasses;
+use self::chain_substitution::ChainSubstitution;
 use super::packed_factor::Place;
 
 /// Chains processed at once.
@@ -42,7 +42,7 @@ struct Group {
 }
 
 impl BatchedChains {
-    /// Of a pattern: starts of its columns, rows of its entries, the row that each column is eliminated into.
+    /// Builds the chains of a pattern: starts of its columns, rows of its entries, the row that each column is eliminated into.
     pub(super) fn new(starts: &[usize], rows: &[u32], parent: &[u32]) -> Self {
         // Paths meet at joints.
         let mut met = vec![0; parent.len()];
@@ -63,7 +63,7 @@ impl BatchedChains {
             let alike = |(step, chain): &(usize, &Chain)| chain.is_beside(first, step + 1);
             let others = others.iter().enumerate().take(LANES - 1);
             let (group, after) = rest.split_at(1 + others.take_while(alike).count());
-            all.take_in(group);
+            all.add_group(group);
             rest = after;
         }
         let last = all.firsts.iter().max();
@@ -71,7 +71,7 @@ impl BatchedChains {
         all
     }
 
-    fn take_in(&mut self, chains: &[Chain]) {
+    fn add_group(&mut self, chains: &[Chain]) {
         let first = &chains[0];
         self.groups.push(Group {
             reach: first.reach,
@@ -130,34 +130,39 @@ impl BatchedChains {
         &self.places
     }
 
-    /// Forward substitution. The results of the columns, divided by their pivots, remain in `held`.
+    /// Forward substitution. The results of the columns, divided by their pivots, remain in `scratch`.
     #[inline(always)]
-    pub(super) fn pass_on(&self, laid: &[f64], load: &mut [f64], scratch: &mut [Lanes]) {
-        self.walk::<true>(laid, load, scratch);
+    pub(super) fn forward(&self, entries: &[f64], load: &mut [f64], scratch: &mut [Lanes]) {
+        self.substitute::<true>(entries, load, scratch);
     }
 
     /// Back substitution.
     #[inline(always)]
-    pub(super) fn gather(&self, laid: &[f64], load: &mut [f64], scratch: &mut [Lanes]) {
-        self.walk::<false>(laid, load, scratch);
+    pub(super) fn back(&self, entries: &[f64], load: &mut [f64], scratch: &mut [Lanes]) {
+        self.substitute::<false>(entries, load, scratch);
     }
 
     #[inline(always)]
-    fn walk<const FORWARD: bool>(&self, laid: &[f64], load: &mut [f64], scratch: &mut [Lanes]) {
+    fn substitute<const FORWARD: bool>(
+        &self,
+        entries: &[f64],
+        load: &mut [f64],
+        scratch: &mut [Lanes],
+    ) {
         let mut rest = Parts {
             firsts: &self.firsts,
             ends: &self.ends,
-            laid: laid.as_chunks().0,
+            entries: entries.as_chunks().0,
             scratch,
         };
         for group in &self.groups {
             let own = rest.take(group);
             // One for each coupling distance.
             match (group.reach.band, group.reach.near) {
-                (1, 2) => own.walk::<1, 2, FORWARD>(load),
-                (1, 4) => own.walk::<1, 4, FORWARD>(load),
-                (3, 1) => own.walk::<3, 1, FORWARD>(load),
-                _ => own.walk::<3, 2, FORWARD>(load),
+                (1, 2) => own.substitute::<1, 2, FORWARD>(load),
+                (1, 4) => own.substitute::<1, 4, FORWARD>(load),
+                (3, 1) => own.substitute::<3, 1, FORWARD>(load),
+                _ => own.substitute::<3, 2, FORWARD>(load),
             }
         }
     }
@@ -174,26 +179,26 @@ impl Group {
 struct Parts<'a> {
     firsts: &'a [u32],
     ends: &'a [[u32; LANES]],
-    laid: &'a [Lanes],
+    entries: &'a [Lanes],
     scratch: &'a mut [Lanes],
 }
 
 impl<'a> Parts<'a> {
     #[inline(always)]
-    fn take(&mut self, group: &Group) -> ChainPasses<'a> {
+    fn take(&mut self, group: &Group) -> ChainSubstitution<'a> {
         let links = group.links();
-        let (far, near, firsts, laid, scratch);
+        let (far, near, firsts, entries, scratch);
         (firsts, self.firsts) = self.firsts.split_at(group.columns);
         (far, self.ends) = self.ends.split_at(group.far);
         (near, self.ends) = self.ends.split_at(group.reach.near);
-        (laid, self.laid) = self.laid.split_at(links * group.reach.block());
+        (entries, self.entries) = self.entries.split_at(links * group.reach.block());
         (scratch, self.scratch) = std::mem::take(&mut self.scratch).split_at_mut(links);
-        ChainPasses {
+        ChainSubstitution {
             chains: group.chains,
             firsts,
             far,
             near,
-            laid,
+            entries,
             scratch,
         }
     }

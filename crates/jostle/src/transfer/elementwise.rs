@@ -84,6 +84,7 @@ struct KeptFloor {
 
 impl StepEquations for ElementwiseRiccati {
     type Factor = ElementwiseFactor;
+    type Scratch = ();
 
     fn new(building: &AssembledBuilding) -> Self {
         let layout = Layout::new(building);
@@ -150,7 +151,7 @@ impl StepEquations for ElementwiseRiccati {
     }
 
     /// Allocates memory; not optimised.
-    fn solve(&self, factor: &ElementwiseFactor, load: &mut [f64]) {
+    fn solve(&self, factor: &ElementwiseFactor, load: &mut [f64], (): &mut ()) {
         let load = &mut load[..self.order];
         let Ok(layout) = &self.layout else {
             load.fill(f64::NAN);

@@ -41,37 +41,37 @@ impl Band {
 
     /// Forward substitution and division by the pivots.
     #[inline(always)]
-    pub(super) fn pass_on(&self, laid: &[f64], inverse_pivots: &[f64], load: &mut [f64]) {
+    pub(super) fn forward(&self, entries: &[f64], inverse_pivots: &[f64], load: &mut [f64]) {
         let (inverse_pivots, load) = (&inverse_pivots[self.first..], &mut load[self.first..]);
         match self.width {
-            4 => pass_on::<4>(laid, inverse_pivots, load),
-            6 => pass_on::<6>(laid, inverse_pivots, load),
-            8 => pass_on::<8>(laid, inverse_pivots, load),
-            _ => pass_on::<12>(laid, inverse_pivots, load),
+            4 => forward::<4>(entries, inverse_pivots, load),
+            6 => forward::<6>(entries, inverse_pivots, load),
+            8 => forward::<8>(entries, inverse_pivots, load),
+            _ => forward::<12>(entries, inverse_pivots, load),
         }
     }
 
     /// Back substitution.
     #[inline(always)]
-    pub(super) fn gather(&self, laid: &[f64], load: &mut [f64]) {
+    pub(super) fn back(&self, entries: &[f64], load: &mut [f64]) {
         let load = &mut load[self.first..];
         match self.width {
-            4 => gather::<4>(laid, load),
-            6 => gather::<6>(laid, load),
-            8 => gather::<8>(laid, load),
-            _ => gather::<12>(laid, load),
+            4 => back::<4>(entries, load),
+            6 => back::<6>(entries, load),
+            8 => back::<8>(entries, load),
+            _ => back::<12>(entries, load),
         }
     }
 }
 
 #[inline(always)]
-fn pass_on<const WIDTH: usize>(laid: &[f64], inverse_pivots: &[f64], load: &mut [f64]) {
+fn forward<const WIDTH: usize>(entries: &[f64], inverse_pivots: &[f64], load: &mut [f64]) {
     // The current column and the following ones.
     let mut ahead = [0.0; WIDTH];
     for (own, value) in ahead.iter_mut().zip(&*load) {
         *own = *value;
     }
-    let columns = laid.as_chunks::<WIDTH>().0.iter().zip(inverse_pivots);
+    let columns = entries.as_chunks::<WIDTH>().0.iter().zip(inverse_pivots);
     for (column, (lower, inverse_pivot)) in columns.enumerate() {
         let passed = ahead[0];
         load[column] = passed * inverse_pivot;
@@ -84,9 +84,9 @@ fn pass_on<const WIDTH: usize>(laid: &[f64], inverse_pivots: &[f64], load: &mut 
 }
 
 #[inline(always)]
-fn gather<const WIDTH: usize>(laid: &[f64], load: &mut [f64]) {
+fn back<const WIDTH: usize>(entries: &[f64], load: &mut [f64]) {
     let mut ahead = [0.0; WIDTH];
-    for (lower, value) in laid.as_chunks::<WIDTH>().0.iter().zip(load).rev() {
+    for (lower, value) in entries.as_chunks::<WIDTH>().0.iter().zip(load).rev() {
         let mut sum = *value;
         // The nearest row last, because its value has just been computed.
         for entry in (0..WIDTH).rev() {

@@ -18,19 +18,19 @@ pub(super) struct PackedFactor {
     lower: Vec<u32>,
     inverse_pivots: Vec<u32>,
     /// All positions before elimination.
-    blank: Vec<f64>,
+    empty: Vec<f64>,
 }
 
 impl PackedFactor {
-    /// Of places, for a factor of this many entries of L and columns. Unmapped entries go to one spare slot.
+    /// Builds the map from places, for a factor of this many entries of L and columns. Unmapped entries go to one spare slot.
     pub(super) fn new(places: impl Iterator<Item = Place>, lower: usize, columns: usize) -> Self {
         let mut packed = Self {
             lower: vec![u32::MAX; lower],
             inverse_pivots: vec![u32::MAX; columns],
-            blank: Vec::new(),
+            empty: Vec::new(),
         };
         for (index, place) in places.enumerate() {
-            packed.blank.push(f64::from(u8::from(place == Place::One)));
+            packed.empty.push(f64::from(u8::from(place == Place::One)));
             match place {
                 Place::Lower(number) => packed.lower[number as usize] = index as u32,
                 Place::InversePivot(column) => {
@@ -39,25 +39,25 @@ impl PackedFactor {
                 Place::Zero | Place::One => {}
             }
         }
-        let behind = packed.blank.len() as u32;
-        packed.blank.push(0.0);
+        let spare = packed.empty.len() as u32;
+        packed.empty.push(0.0);
         for place in packed.lower.iter_mut().chain(&mut packed.inverse_pivots) {
-            *place = behind.min(*place);
+            *place = spare.min(*place);
         }
         packed
     }
 
-    pub(super) fn blank(&self) -> &[f64] {
-        &self.blank
+    pub(super) fn empty(&self) -> &[f64] {
+        &self.empty
     }
 
     #[inline]
-    pub(super) fn put_coupling(&self, laid: &mut [f64], number: usize, value: f64) {
-        laid[self.lower[number] as usize] = value;
+    pub(super) fn set_lower(&self, entries: &mut [f64], number: usize, value: f64) {
+        entries[self.lower[number] as usize] = value;
     }
 
     #[inline]
-    pub(super) fn put_inverse_pivot(&self, laid: &mut [f64], column: usize, value: f64) {
-        laid[self.inverse_pivots[column] as usize] = value;
+    pub(super) fn set_inverse_pivot(&self, entries: &mut [f64], column: usize, value: f64) {
+        entries[self.inverse_pivots[column] as usize] = value;
     }
 }

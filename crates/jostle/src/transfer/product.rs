@@ -134,6 +134,7 @@ pub fn measured_loss(
 
 impl StepEquations for ProductEquations {
     type Factor = ProductFactor;
+    type Scratch = ();
 
     fn new(building: &AssembledBuilding) -> Self {
         let layout = Layout::new(building).and_then(|layout| {
@@ -200,7 +201,7 @@ impl StepEquations for ProductEquations {
     }
 
     /// Allocates memory; not optimised. All displacements are NaN if the products have overflowed.
-    fn solve(&self, factor: &ProductFactor, load: &mut [f64]) {
+    fn solve(&self, factor: &ProductFactor, load: &mut [f64], (): &mut ()) {
         let load = &mut load[..self.order];
         let (Ok(layout), Some(total)) = (&self.layout, &factor.total) else {
             load.fill(f64::NAN);

@@ -6,20 +6,18 @@
 //! lost at small steps or in tall frames.
 
 pub(crate) mod rates;
+mod substitution;
 
-use std::cell::RefCell;
 use std::convert::Infallible;
 
-use pulp::NullaryFnOnce;
-
-use super::batched_chains::{BatchedChains, Lanes};
+use super::batched_chains::BatchedChains;
 use super::joint_band::Band;
 use super::packed_factor::PackedFactor;
+pub use substitution::RiccatiScratch;
 
 use crate::linear::SparseSymmetric;
 use crate::linear::counting_sort::in_order;
 use crate::linear::{NotPositive, StepMatrix};
-use crate::simd;
 use crate::structure::AssembledBuilding;
 use crate::structure::Equations;
 use crate::structure::StepEquations;
@@ -33,7 +31,8 @@ use crate::structure::StepEquations;
 /// use jostle::linear::StepMatrix;
 /// use jostle::structure::StepEquations;
 /// use jostle::{
-///     Analysis, Base, Building, Damping, Gravity, Model, RiccatiFactor, RiccatiSweep, Shear, Structure, System,
+///     Analysis, Base, Building, Damping, Gravity, Model, RiccatiFactor, RiccatiScratch, RiccatiSweep, Shear,
+///     Structure, System,
 /// };
 ///
 /// let building = Building {
@@ -64,7 +63,7 @@ use crate::structure::StepEquations;
 /// let matrix = StepMatrix::new(1.0, 4.0 / 0.02_f64.powi(2)); // K + 4/h² M
 /// sweep.factorize(&matrix, &[], &mut factor).map_err(|error| error.to_string())?;
 /// let mut floors = [40e3; 3]; // loads [N]
-/// sweep.solve(&factor, &mut floors); // displacements [m]
+/// sweep.solve(&factor, &mut floors, &mut RiccatiScratch::default()); // displacements [m]
 ///
 /// for (displacement, expected) in floors.into_iter().zip([5720.0, 6200.0, 6240.0]) {
 ///     assert!((displacement / (expected / 1561.0 / 40e3) - 1.0).abs() < 1e-12);
@@ -150,12 +149,8 @@ impl Parts {
 #[derive(Clone, Debug, Default)]
 pub struct RiccatiFactor {
     lower: Vec<f64>,
-    /// Those of batched chains with their inverse pivots, then those of the band, as the passes take them.
-    laid: Vec<f64>,
-    /// What links of chains hold between the passes.
-    scratch: RefCell<Vec<Lanes>>,
-    /// Room for a vector too short for registers.
-    padded: RefCell<Vec<f64>>,
+    /// Those of batched chains with their inverse pivots, then those of the band, in the order of the substitutions.
+    packed: Vec<f64>,
     inverse_pivots: Vec<f64>,
     pivots: Vec<f64>,
     /// The step matrix: diagonal, and entries before it by rows.
@@ -412,17 +407,6 @@ impl RiccatiSweep {
         }
     }
 
-    /// Allocates memory for the substitutions.
-    fn make_room(&self, factor: &mut RiccatiFactor) {
-        factor.laid.extend_from_slice(self.packed.blank());
-        let scratch = factor.scratch.get_mut();
-        scratch.resize(self.batched.links(), Lanes::default());
-        if self.mass.len() < self.batched.least_length() {
-            let padded = factor.padded.get_mut();
-            padded.resize(self.batched.least_length(), 0.0);
-        }
-    }
-
     /// L D Lᵀ of the touched rows of the matrix in `factor`; every pivot is the result of `accept` for (row,
     /// diagonal entry of the matrix, pivot).
     fn eliminate<E>(
@@ -430,8 +414,8 @@ impl RiccatiSweep {
         factor: &mut RiccatiFactor,
         mut accept: impl FnMut(usize, f64, f64) -> Result<f64, E>,
     ) -> Result<(), E> {
-        if factor.laid.is_empty() {
-            self.make_room(factor);
+        if factor.packed.is_empty() {
+            factor.packed.extend_from_slice(self.packed.empty());
         }
         let RiccatiFactor {
             lower,
@@ -441,7 +425,7 @@ impl RiccatiSweep {
             before,
             touched,
             work,
-            laid,
+            packed,
             ..
         } = factor;
         work.fill(0.0);
@@ -464,41 +448,15 @@ impl RiccatiSweep {
                 let coupling = value * inverse_pivots[column];
                 pivot -= coupling * value;
                 lower[position] = coupling;
-                self.packed.put_coupling(laid, position, coupling);
+                self.packed.set_lower(packed, position, coupling);
             }
             let pivot = accept(row, own, pivot)?;
             pivots[row] = pivot;
             inverse_pivots[row] = 1.0 / pivot;
             self.packed
-                .put_inverse_pivot(laid, row, inverse_pivots[row]);
+                .set_inverse_pivot(packed, row, inverse_pivots[row]);
         }
         Ok(())
-    }
-}
-
-impl RiccatiSweep {
-    /// Both substitutions over the columns after the chains, for any pattern.
-    fn pass_one_by_one(&self, factor: &RiccatiFactor, load: &mut [f64]) {
-        let columns = self.batched.columns()..self.mass.len();
-        for column in columns.clone() {
-            let entries = self.starts[column]..self.starts[column + 1];
-            let passed = load[column];
-            let ahead = self.rows[entries.clone()].iter();
-            for (row, coupling) in ahead.zip(&factor.lower[entries]) {
-                load[*row as usize] -= coupling * passed;
-            }
-            load[column] = passed * factor.inverse_pivots[column];
-        }
-        for column in columns.rev() {
-            let entries = self.starts[column]..self.starts[column + 1];
-            let ahead = self.rows[entries.clone()].iter();
-            let mut sum = load[column];
-            // The nearest, which has only just been found, last.
-            for (row, coupling) in ahead.zip(&factor.lower[entries]).rev() {
-                sum -= coupling * load[*row as usize];
-            }
-            load[column] = sum;
-        }
     }
 }
 
@@ -513,6 +471,7 @@ fn sound(row: usize, own: f64, pivot: f64) -> Result<f64, NotPositive> {
 
 impl StepEquations for RiccatiSweep {
     type Factor = RiccatiFactor;
+    type Scratch = RiccatiScratch;
 
     fn new(building: &AssembledBuilding) -> Self {
         Self::through(&building.equations)
@@ -554,55 +513,8 @@ impl StepEquations for RiccatiSweep {
     }
 
     #[inline]
-    fn solve(&self, factor: &RiccatiFactor, load: &mut [f64]) {
-        let order = load.len();
-        let pass = |load: &mut [f64]| {
-            let passes = Passes {
-                sweep: self,
-                factor,
-                load,
-            };
-            simd::in_wide_registers(order, passes);
-        };
-        if order < self.batched.least_length() {
-            let mut padded = factor.padded.borrow_mut();
-            padded[..order].copy_from_slice(load);
-            pass(&mut padded);
-            load.copy_from_slice(&padded[..order]);
-        } else {
-            pass(load);
-        }
-    }
-}
-
-/// Both substitutions of a load, compiled for the available registers.
-struct Passes<'a> {
-    sweep: &'a RiccatiSweep,
-    factor: &'a RiccatiFactor,
-    load: &'a mut [f64],
-}
-
-impl NullaryFnOnce for Passes<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        let Self {
-            sweep,
-            factor,
-            load,
-        } = self;
-        let mut scratch = factor.scratch.borrow_mut();
-        let (laid, banded) = factor.laid.split_at(sweep.batched.places().len());
-        sweep.batched.pass_on(laid, load, &mut scratch);
-        match &sweep.band {
-            Some(band) => {
-                band.pass_on(banded, &factor.inverse_pivots, load);
-                band.gather(banded, load);
-            }
-            None => sweep.pass_one_by_one(factor, load),
-        }
-        sweep.batched.gather(laid, load, &mut scratch);
+    fn solve(&self, factor: &RiccatiFactor, load: &mut [f64], scratch: &mut RiccatiScratch) {
+        self.substitute(factor, load, scratch);
     }
 }
 
@@ -687,7 +599,7 @@ mod tests {
     /// Chains in registers and joints in a band give the same result as single columns, for members of every kind,
     /// more and fewer of them than lanes, and buildings smaller than a register.
     #[test]
-    fn passes_in_registers_are_passes_one_by_one() {
+    fn substitutions_in_registers_equal_those_one_by_one() {
         let (mut ways, mut bands, mut short) = (BTreeSet::new(), 0, 0);
         for axial in [[false, false], [true, false], [true, true]] {
             for (storeys, bays, segments) in [
@@ -732,15 +644,11 @@ mod tests {
                     let found = sweep.factorize(&matrix, &tangents, &mut factor);
                     found.expect("a standing frame");
                     let mut wide: Vec<f64> = load.clone().collect();
-                    sweep.solve(&factor, &mut wide);
+                    let mut scratch = RiccatiScratch::default();
+                    sweep.solve(&factor, &mut wide, &mut scratch);
                     if order >= sweep.batched.least_length() {
                         let mut narrow: Vec<f64> = load.clone().collect();
-                        let passes = Passes {
-                            sweep,
-                            factor: &factor,
-                            load: &mut narrow,
-                        };
-                        passes.call();
+                        sweep.substitute_in_narrow_registers(&factor, &mut narrow, &mut scratch);
                         assert_eq!(wide, narrow, "registers of any width, the same bits");
                     }
                     wide
@@ -781,7 +689,7 @@ mod tests {
         let solution = |factor: &RiccatiFactor| {
             let loads = 0..building.equations.len();
             let mut load: Vec<f64> = loads.map(|dof| (0.7 * dof as f64).sin()).collect();
-            sweep.solve(factor, &mut load);
+            sweep.solve(factor, &mut load, &mut RiccatiScratch::default());
             load
         };
         let sound = sweep.factorize(&matrix, &tangents, &mut factor);

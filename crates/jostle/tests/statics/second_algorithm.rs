@@ -82,10 +82,12 @@ impl<'a> Newton<'a> {
             self.equations
                 .factorize(&StepMatrix::STATIC, &tangents, &mut self.factor)
                 .expect("it stands");
-            self.equations.solve(&self.factor, &mut change);
+            self.equations
+                .solve(&self.factor, &mut change, &mut Default::default());
             if rise.is_some() {
                 let mut more = self.forces.clone();
-                self.equations.solve(&self.factor, &mut more);
+                self.equations
+                    .solve(&self.factor, &mut more, &mut Default::default());
                 let load = (to_go - change[roof]) / more[roof];
                 self.load += load;
                 for (change, more) in change.iter_mut().zip(&more) {

@@ -66,7 +66,7 @@ fn a_factor_serves_many_loads_and_steps() {
             let mut load = vec![0.0; building.equations.len()];
             load[dof] = 1e5;
             let expected = solution::<DirectStiffness>(&building, factors, &load);
-            solver.solve(&factor, &mut load);
+            solver.solve(&factor, &mut load, &mut Default::default());
             let apart = difference(&load, &expected);
             assert!(apart < 1e-9, "load on {dof} at h = {step}: {apart:e}");
         }

@@ -166,7 +166,7 @@ pub(crate) fn solution<E: StepEquations>(
         .factorize(&jostle::linear::StepMatrix::new(kappa, g), &[], &mut factor)
         .expect("the frame stands");
     let mut answer = load.to_vec();
-    solver.solve(&factor, &mut answer);
+    solver.solve(&factor, &mut answer, &mut E::Scratch::default());
     answer
 }
 

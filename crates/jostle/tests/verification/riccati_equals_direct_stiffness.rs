@@ -24,7 +24,7 @@ fn solution<E: StepEquations>(building: &BuildingSystem, step: f64, load: &[f64]
         )
         .expect("the frame stands");
     let mut answer = load.to_vec();
-    solver.solve(&factor, &mut answer);
+    solver.solve(&factor, &mut answer, &mut E::Scratch::default());
     answer
 }
 

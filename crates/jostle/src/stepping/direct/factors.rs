@@ -127,10 +127,12 @@ impl<E: StepEquations> StepFactors<E> {
         system: &System,
         equations: &[E],
         load: &mut [f64],
+        scratch: &mut E::Scratch,
         work: &mut Work,
     ) {
         for (index, building) in system.buildings.iter().enumerate() {
-            equations[index].solve(&self.factors[index], &mut load[building.range()]);
+            let load = &mut load[building.range()];
+            equations[index].solve(&self.factors[index], load, scratch);
         }
         work.solves += system.buildings.len() as u64;
     }
@@ -142,6 +144,7 @@ impl<E: StepEquations> StepFactors<E> {
         system: &System,
         joints: &Joints,
         equations: &[E],
+        scratch: &mut E::Scratch,
         work: &mut Work,
     ) {
         for point in joints.sides[index].into_iter().flatten() {
@@ -154,7 +157,7 @@ impl<E: StepEquations> StepFactors<E> {
             column.clear();
             column.resize(own.equations.len(), 0.0);
             row.moved_down(own.offset).push(1.0, column);
-            equations[building].solve(&self.factors[building], column);
+            equations[building].solve(&self.factors[building], column, scratch);
             work.solves += 1;
             self.ready[point] = true;
         }

@@ -65,6 +65,7 @@ pub(super) fn run_directly<E: StepEquations>(
 /// All degrees of freedom of all buildings, and how their steps are solved.
 pub(super) struct Direct<E: StepEquations> {
     equations: Vec<E>,
+    scratch: E::Scratch,
     /// The first serves steps off the grid, the others one division of the free-vibration step each.
     factors: Vec<StepFactors<E>>,
     divisions: Vec<u32>,
@@ -120,6 +121,7 @@ impl<E: StepEquations> Direct<E> {
         let buildings = system.buildings.iter();
         Self {
             equations: buildings.map(|building| E::new(building)).collect(),
+            scratch: E::Scratch::default(),
             factors: vec![StepFactors::blank(system, &joints)],
             divisions: vec![0],
             unbalanced: unbalanced_load(run, &state, &links, plan.integrator),

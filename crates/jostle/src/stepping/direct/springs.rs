@@ -140,6 +140,7 @@ impl<E: StepEquations> Direct<E> {
                 run.system,
                 &self.equations,
                 &mut self.increment,
+                &mut self.scratch,
                 &mut run.work,
             );
             self.solve_contacts(run, slot)?;

@@ -27,6 +27,7 @@ impl<E: StepEquations> Direct<E> {
                 run.system,
                 &self.equations,
                 &mut self.increment,
+                &mut self.scratch,
                 &mut run.work,
             );
             self.solve_contacts(run, slot)
@@ -266,6 +267,7 @@ impl<E: StepEquations> Direct<E> {
                 run.system,
                 &self.joints,
                 &self.equations,
+                &mut self.scratch,
                 &mut run.work,
             );
         }

@@ -49,11 +49,18 @@ impl<E: StepEquations> JumpFactor<E> {
     }
 
     /// Changes massless degrees of freedom with the massive ones.
-    fn follow(&self, equations: &E, mass: &[f64], change: &mut [f64], load: &mut [f64]) {
+    fn follow(
+        &self,
+        equations: &E,
+        mass: &[f64],
+        change: &mut [f64],
+        load: &mut [f64],
+        scratch: &mut E::Scratch,
+    ) {
         for ((load, mass), change) in load.iter_mut().zip(mass).zip(change.iter()) {
             *load = self.mass_factor * mass * change;
         }
-        equations.solve(&self.factor, load);
+        equations.solve(&self.factor, load, scratch);
         for ((change, followed), mass) in change.iter_mut().zip(&*load).zip(mass) {
             if *mass == 0.0 {
                 *change = *followed;
@@ -156,7 +163,8 @@ impl<E: StepEquations> Direct<E> {
         }
         let mut follow = |motion: &mut [f64]| {
             if let Some(jump) = self.jump_factors[building].as_ref().filter(|_| massless) {
-                jump.follow(&self.equations[building], &own.mass, motion, load);
+                let (equations, scratch) = (&self.equations[building], &mut self.scratch);
+                jump.follow(equations, &own.mass, motion, load, scratch);
             }
         };
         follow(velocity);

@@ -56,12 +56,12 @@ impl RiccatiSweep {
 
     /// Replaces loads by the displacements they cause, at every rate.
     pub(crate) fn solve_at(&self, factors: &RateFactors, loads: &mut [PerRate]) {
-        let passes = Passes {
+        let substitutions = RateSubstitutions {
             sweep: self,
             factors,
             loads,
         };
-        in_wide_registers(RATES * self.mass.len(), passes);
+        in_wide_registers(RATES * self.mass.len(), substitutions);
     }
 }
 
@@ -127,13 +127,13 @@ impl NullaryFnOnce for Eliminate<'_> {
 }
 
 /// Both substitutions of loads.
-struct Passes<'a> {
+struct RateSubstitutions<'a> {
     sweep: &'a RiccatiSweep,
     factors: &'a RateFactors,
     loads: &'a mut [PerRate],
 }
 
-impl NullaryFnOnce for Passes<'_> {
+impl NullaryFnOnce for RateSubstitutions<'_> {
     type Output = ();
 
     #[inline(always)]
@@ -206,7 +206,7 @@ mod tests {
                     .factorize(&matrix, &tangents, &mut factor)
                     .expect("a standing frame");
                 let mut alone: Vec<f64> = loads.iter().map(|values| values[lane]).collect();
-                sweep.solve(&factor, &mut alone);
+                sweep.solve(&factor, &mut alone, &mut Default::default());
                 let most = alone.iter().fold(0.0, |most: f64, u| most.max(u.abs()));
                 for (answer, alone) in answers.iter().zip(&alone) {
                     assert!((answer[lane] - alone).abs() <= 1e-11 * most, "s = {rate}");

@@ -2,8 +2,8 @@
 
 use super::{LANES, Lanes};
 
-/// One group in a pass.
-pub(super) struct ChainPasses<'a> {
+/// One group in a substitution.
+pub(super) struct ChainSubstitution<'a> {
     pub(super) chains: usize,
     /// First of its columns at every link.
     pub(super) firsts: &'a [u32],
@@ -11,64 +11,63 @@ pub(super) struct ChainPasses<'a> {
     pub(super) far: &'a [[u32; LANES]],
     pub(super) near: &'a [[u32; LANES]],
     /// A block for every link: inverse pivots, entries of L to the links behind, farthest first, and to the near ends.
-    pub(super) laid: &'a [Lanes],
-    /// What links hold between the passes.
+    pub(super) entries: &'a [Lanes],
+    /// Values of links between forward and back substitution.
     pub(super) scratch: &'a mut [Lanes],
 }
 
-impl ChainPasses<'_> {
-    /// Passes loads on, or gathers on the way back.
+impl ChainSubstitution<'_> {
     #[inline(always)]
-    pub(super) fn walk<const BAND: usize, const NEAR: usize, const FORWARD: bool>(
+    pub(super) fn substitute<const BAND: usize, const NEAR: usize, const FORWARD: bool>(
         self,
         load: &mut [f64],
     ) {
         if FORWARD {
-            self.pass_on::<BAND, NEAR>(load);
+            self.forward::<BAND, NEAR>(load);
         } else {
-            self.gather::<BAND, NEAR>(load);
+            self.back::<BAND, NEAR>(load);
         }
     }
 
     #[inline(always)]
-    fn pass_on<const BAND: usize, const NEAR: usize>(self, load: &mut [f64]) {
-        let mut at_hand = AtHand::<BAND, NEAR>::nothing();
-        let mut blocks = self.laid.chunks_exact(1 + BAND + NEAR);
+    fn forward<const BAND: usize, const NEAR: usize>(self, load: &mut [f64]) {
+        let mut registers = Registers::<BAND, NEAR>::zero();
+        let mut blocks = self.entries.chunks_exact(1 + BAND + NEAR);
         let (columns, ends) = self.scratch.split_at_mut(self.firsts.len());
         for ((scratch, first), block) in columns.iter_mut().zip(self.firsts).zip(&mut blocks) {
-            *scratch = at_hand.pass_on(block, at(load, *first));
+            *scratch = registers.forward(block, at(load, *first));
         }
         for ((scratch, rows), block) in ends.iter_mut().zip(self.far).zip(blocks) {
-            *scratch = at_hand.pass_on(block, [0.0; LANES]);
+            *scratch = registers.forward(block, [0.0; LANES]);
             add(load, rows, scratch, self.chains);
         }
-        for (sum, rows) in at_hand.near.iter().zip(self.near) {
+        for (sum, rows) in registers.near.iter().zip(self.near) {
             add(load, rows, sum, self.chains);
         }
     }
 
     #[inline(always)]
-    fn gather<const BAND: usize, const NEAR: usize>(self, load: &mut [f64]) {
-        let mut at_hand = AtHand::<BAND, NEAR>::nothing();
-        for (values, rows) in at_hand.near.iter_mut().zip(self.near) {
+    fn back<const BAND: usize, const NEAR: usize>(self, load: &mut [f64]) {
+        let mut registers = Registers::<BAND, NEAR>::zero();
+        for (values, rows) in registers.near.iter_mut().zip(self.near) {
             *values = rows.map(|row| load[row as usize]);
         }
         let columns = self.firsts.len() * (1 + BAND + NEAR);
-        let (columns, ends) = self.laid.split_at(columns);
+        let (columns, ends) = self.entries.split_at(columns);
         let ends = ends.chunks_exact(1 + BAND + NEAR);
         for (rows, block) in self.far.iter().zip(ends).rev() {
-            at_hand.gather(block, rows.map(|row| load[row as usize]));
+            registers.back(block, rows.map(|row| load[row as usize]));
         }
         let blocks = columns.chunks_exact(1 + BAND + NEAR);
         for ((scratch, first), block) in self.scratch.iter().zip(self.firsts).zip(blocks).rev() {
-            let found = at_hand.gather(block, *scratch);
+            let found = registers.back(block, *scratch);
             put(load, *first, &found, self.chains);
         }
     }
 }
 
 /// Registers of a substitution.
-struct AtHand<const BAND: usize, const NEAR: usize> {
+struct Registers<const BAND: usize, const NEAR: usize> {
     /// Values of the links behind, nearest last: results in forward substitution, partial sums in back
     /// substitution.
     behind: [Lanes; BAND],
@@ -76,8 +75,8 @@ struct AtHand<const BAND: usize, const NEAR: usize> {
     near: [Lanes; NEAR],
 }
 
-impl<const BAND: usize, const NEAR: usize> AtHand<BAND, NEAR> {
-    fn nothing() -> Self {
+impl<const BAND: usize, const NEAR: usize> Registers<BAND, NEAR> {
+    fn zero() -> Self {
         Self {
             behind: [[0.0; LANES]; BAND],
             near: [[0.0; LANES]; NEAR],
@@ -86,7 +85,7 @@ impl<const BAND: usize, const NEAR: usize> AtHand<BAND, NEAR> {
 
     /// Processes the load of the next link and returns its value divided by the pivot.
     #[inline(always)]
-    fn pass_on(&mut self, block: &[Lanes], load: Lanes) -> Lanes {
+    fn forward(&mut self, block: &[Lanes], load: Lanes) -> Lanes {
         let mut sum = load;
         for k in 0..BAND {
             subtract(&mut sum, &block[1 + k], &self.behind[k]);
@@ -106,7 +105,7 @@ impl<const BAND: usize, const NEAR: usize> AtHand<BAND, NEAR> {
 
     /// Processes the value of the next link and returns its solution.
     #[inline(always)]
-    fn gather(&mut self, block: &[Lanes], scratch: Lanes) -> Lanes {
+    fn back(&mut self, block: &[Lanes], scratch: Lanes) -> Lanes {
         let mut sum = scratch;
         for end in 0..NEAR {
             subtract(&mut sum, &block[1 + BAND + end], &self.near[end]);
