@@ -197,7 +197,7 @@ impl ModelTree {
         };
         let parts = parts(path).map_err(wrong)?;
         let mut root = self.root.clone();
-        walk(&mut root, &parts, "", change).map_err(wrong)?;
+        apply_at(&mut root, &parts, "", change).map_err(wrong)?;
         self.root = root;
         Ok(())
     }
@@ -244,7 +244,7 @@ pub(crate) fn parts(path: &str) -> Result<Vec<Part>, String> {
     Ok(parts)
 }
 
-fn walk(node: &mut Node, parts: &[Part], at: &str, change: &Change<'_>) -> Result<(), String> {
+fn apply_at(node: &mut Node, parts: &[Part], at: &str, change: &Change<'_>) -> Result<(), String> {
     let Some((part, rest)) = parts.split_first() else {
         return match change {
             Change::Replace(value) => {
@@ -285,12 +285,12 @@ fn walk(node: &mut Node, parts: &[Part], at: &str, change: &Change<'_>) -> Resul
                     table.entries.len() - 1
                 }
             };
-            walk(&mut table.entries[index].node, rest, &join(at, key), change)
+            apply_at(&mut table.entries[index].node, rest, &join(at, key), change)
         }
         (Part::Key(key), Value::List(list)) => {
             let names: Vec<String> = list.iter().map(name_of).collect();
             match names.iter().position(|name| name == key) {
-                Some(index) => walk(&mut list[index], rest, &join(at, key), change),
+                Some(index) => apply_at(&mut list[index], rest, &join(at, key), change),
                 None => Err(format!(
                     "{here} is a list without an entry named \"{key}\"; say which one, such as {here}[0], or {here}[*] for all"
                 )),
@@ -299,7 +299,7 @@ fn walk(node: &mut Node, parts: &[Part], at: &str, change: &Change<'_>) -> Resul
         (Part::Index(index), Value::List(list)) => {
             let count = list.len();
             match list.get_mut(*index) {
-                Some(entry) => walk(entry, rest, &format!("{at}[{index}]"), change),
+                Some(entry) => apply_at(entry, rest, &format!("{at}[{index}]"), change),
                 None => Err(format!(
                     "{here} has {count} entr{}, counted from 0; there is no [{index}]",
                     if count == 1 { "y" } else { "ies" }
@@ -311,7 +311,7 @@ fn walk(node: &mut Node, parts: &[Part], at: &str, change: &Change<'_>) -> Resul
                 return Err(format!("{here} is empty"));
             }
             for (index, entry) in list.iter_mut().enumerate() {
-                walk(entry, rest, &format!("{at}[{index}]"), change)?;
+                apply_at(entry, rest, &format!("{at}[{index}]"), change)?;
             }
             Ok(())
         }

@@ -16,11 +16,11 @@ const MOST_PARTS: f64 = 10_000.0;
 
 /// Advances all oscillators through the record with at least a given number of steps per period, and passes each,
 /// by its index and lane. Oscillators as good as rigid are not shown.
-pub(crate) fn in_lanes(
+pub(crate) fn advance_all(
     motion: &Accelerogram,
     oscillators: &[Oscillator],
     steps_per_period: f64,
-    mut show: impl FnMut(usize, usize, &Lanes, &Walk),
+    mut show: impl FnMut(usize, usize, &Lanes, &BlockPeaks),
 ) {
     let parts = |i: usize| {
         let parts = motion.step() * steps_per_period / oscillators[i].period;
@@ -31,17 +31,17 @@ pub(crate) fn in_lanes(
     order.retain(|&i| parts(i) <= MOST_PARTS);
     order.sort_by(|&i, &j| oscillators[j].period.total_cmp(&oscillators[i].period));
     let arch = pulp::Arch::new();
-    let mut walk = Walk::default();
+    let mut blocks = BlockPeaks::default();
     for group in order.chunks(LANES) {
         let most = parts(group[group.len() - 1]) as usize;
         let lanes = Lanes::new(oscillators, group, most, motion.step());
         arch.dispatch(Sweep {
-            walk: &mut walk,
+            blocks: &mut blocks,
             lanes: &lanes,
             ground: motion.acceleration(),
         });
         for (lane, &i) in group.iter().enumerate() {
-            show(i, lane, &lanes, &walk);
+            show(i, lane, &lanes, &blocks);
         }
     }
 }
@@ -102,7 +102,7 @@ pub(crate) struct Block {
 
 /// A pass through the record, compiled for every register width.
 struct Sweep<'a> {
-    walk: &'a mut Walk,
+    blocks: &'a mut BlockPeaks,
     lanes: &'a Lanes,
     ground: &'a [f64],
 }
@@ -112,16 +112,16 @@ impl pulp::WithSimd for Sweep<'_> {
 
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, _: S) {
-        self.walk.sweep(self.lanes, self.ground);
+        self.blocks.sweep(self.lanes, self.ground);
     }
 }
 
 #[derive(Default)]
-pub(crate) struct Walk {
+pub(crate) struct BlockPeaks {
     pub(crate) blocks: Vec<Block>,
 }
 
-impl Walk {
+impl BlockPeaks {
     /// Advances all lanes through the record.
     #[inline(always)]
     fn sweep(&mut self, lanes: &Lanes, ground: &[f64]) {

@@ -7,7 +7,7 @@
 //! located in the exact solution by Newton's method.
 
 use crate::Accelerogram;
-use crate::lanes::{BLOCK, Lanes, Walk, in_lanes};
+use crate::lanes::{BLOCK, BlockPeaks, Lanes, advance_all};
 use crate::oscillator::{Advance, Oscillator, State};
 
 /// An extreme value with its sign, and when it is reached.
@@ -40,12 +40,12 @@ const READ_STEPS_PER_PERIOD: f64 = 20.0;
 pub fn peak_responses(motion: &Accelerogram, oscillators: &[Oscillator]) -> Vec<Response> {
     let ground = Ground::from_motion(motion);
     let mut responses = vec![ground.rigid(); oscillators.len()];
-    in_lanes(
+    advance_all(
         motion,
         oscillators,
         STEPS_PER_PERIOD,
-        |i, lane, lanes, walk| {
-            responses[i] = walk.refine(lanes, lane, motion, &ground);
+        |i, lane, lanes, blocks| {
+            responses[i] = blocks.refine(lanes, lane, motion, &ground);
         },
     );
     responses
@@ -54,12 +54,12 @@ pub fn peak_responses(motion: &Accelerogram, oscillators: &[Oscillator]) -> Vec<
 /// Largest magnitudes of pseudo- and total acceleration at the ends of steps, at least twenty per period.
 pub(crate) fn peaks_at_steps(motion: &Accelerogram, oscillators: &[Oscillator]) -> Vec<[f64; 2]> {
     let mut peaks = vec![[motion.peak(); 2]; oscillators.len()];
-    in_lanes(
+    advance_all(
         motion,
         oscillators,
         READ_STEPS_PER_PERIOD,
-        |i, lane, _, walk| {
-            peaks[i] = walk.largest(lane);
+        |i, lane, _, blocks| {
+            peaks[i] = blocks.largest(lane);
         },
     );
     peaks
@@ -102,7 +102,7 @@ impl Extreme {
     }
 }
 
-impl Walk {
+impl BlockPeaks {
     /// The extremes of one lane, between the ends of cut steps too.
     fn refine(
         &self,

@@ -138,12 +138,12 @@ impl UnevenMotion {
         let (first, last) = (self.time[0], self.time[self.time.len() - 1]);
         let points = ((last - first) / step).floor() + 1.0;
         crate::accelerogram::check_points(points)?;
-        let mut walk = Integral::new(self);
+        let mut integral = Integral::new(self);
         let mut before = (first, 0.0);
         let mut means = Vec::with_capacity(points as usize);
         for index in 0..points as usize {
             let end = (first + (index as f64 + 0.5) * step).min(last);
-            let velocity = walk.until(end);
+            let velocity = integral.until(end);
             let width = end - before.0;
             let mean = if width > 0.0 {
                 (velocity - before.1) / width

@@ -71,7 +71,7 @@ const NEVER: (f64, Next) = (1.0, Next::Release);
 const NOISE: [f64; 2] = [1e-15, 1e-12];
 
 impl Law {
-    /// The law, and the coefficient of sudden blows of the momentum law.
+    /// The law, and the coefficient of sudden impacts of the momentum law.
     pub(super) fn new(law: &ForceLaw) -> Result<(Self, Option<f64>), String> {
         Ok(match *law {
             ForceLaw::Kelvin {

@@ -56,7 +56,7 @@ fn a_chain_of_floors_moves_as_the_matrix_exponential_says() {
     }
 }
 
-/// Found by an event-driven eighth-order Runge–Kutta method on full matrices: one blow.
+/// Found by an event-driven eighth-order Runge–Kutta method on full matrices: one impact.
 #[test]
 fn a_blow_has_the_impulse_that_another_program_finds() {
     let partner = r#", {"name": "B", "kind": "shear", "mass": [29485.3], "stiffness": [5.78277e7], "storey_height": 3.7}"#;
@@ -117,7 +117,7 @@ fn a_tight_run_of_jostle_meets_the_reference() {
 }
 
 /// A frame and a tower of one floor that strike each other by the momentum law, with contacts that last in the end.
-const BLOWS: &str = r#"{"motion": {"record": "el-centro-1940-ns", "pga": 2.595, "duration": 8},
+const IMPACTS: &str = r#"{"motion": {"record": "el-centro-1940-ns", "pga": 2.595, "duration": 8},
 "building": [
   {"name": "A", "kind": "frame", "storeys": 3, "storey_height": 3.217, "spans": [4], "column": {"width": 0.39, "depth": 0.39},
    "beam": {"width": 0.3, "depth": 0.42}, "elastic_modulus": 3e10, "beam_mass": 3804, "column_segments": 1, "beam_segments": 1,
@@ -126,7 +126,7 @@ const BLOWS: &str = r#"{"motion": {"record": "el-centro-1940-ns", "pga": 2.595, 
 "gap": [{"between": ["A", "B"], "width": 0.001218, "law": "restitution", "restitution": 0.3845, "stiffness": 3.912e8}]}"#;
 
 fn assert_blows_meet_the_reference(base: &str, tolerance: f64, solvers: usize) {
-    let certified = held(&BLOWS.replace("BASE", base), &[tolerance]);
+    let certified = held(&IMPACTS.replace("BASE", base), &[tolerance]);
     assert!(
         certified.touches > 20 && certified.lasting > 3,
         "{} touches, {} lasting",
@@ -154,7 +154,7 @@ fn blows_and_the_lasting_contacts_after_them_meet_the_reference() {
     assert_blows_meet_the_reference("", 1e-3, 2);
 }
 
-/// Damping, not stiffness, says how feet without mass follow a blow. Modal stepping has no springs below feet.
+/// Damping, not stiffness, says how feet without mass follow an impact. Modal stepping has no springs below feet.
 #[test]
 fn feet_on_springs_follow_blows_as_the_reference_says() {
     for dashpot in ["", r#", "rotational_damping": 1e7"#] {
@@ -221,7 +221,7 @@ fn assert_within(seed: u64, number: u64, solver: Solver, tolerance: f64) {
     }
 }
 
-/// Storeys of two frames after blows between several floors: their forces were up to 0.7 % too large, and accelerations between
+/// Storeys of two frames after impacts between several floors: their forces were up to 0.7 % too large, and accelerations between
 /// two short steps too small.
 #[test]
 fn storeys_and_accelerations_after_blows_meet_the_reference() {
@@ -263,7 +263,7 @@ fn accelerations_at_corners_of_forces_meet_the_reference() {
     assert_within(41, 60, Solver::Riccati, 1e-4);
 }
 
-/// After a blow, accelerations must not oscillate from step to step.
+/// After an impact, accelerations must not oscillate from step to step.
 #[test]
 fn direct_accelerations_after_blows_meet_the_reference() {
     let certified = certify(57, 20, &[(Solver::Riccati, 1e-2)]);

@@ -144,7 +144,7 @@ fn worst_difference(a: &Outcome, b: &Outcome) -> f64 {
 }
 
 /// The stiffer the contact, the closer to a change of velocities at once. With frames this also shows that massless
-/// joints follow the blow.
+/// joints follow the jump.
 #[test]
 fn stiff_laws_approach_the_momentum_law() {
     let stocky = Frame {
@@ -178,21 +178,21 @@ fn stiff_laws_approach_the_momentum_law() {
             let plan = Plan::choose(system, &motion, &analysis).expect("usable steps");
             run(system, &motion, &plan)
         };
-        let blows = answer(&system(LawKind::Restitution, 1e9));
-        let blow = |outcome: &Outcome| {
+        let jumps = answer(&system(LawKind::Restitution, 1e9));
+        let jump = |outcome: &Outcome| {
             outcome
                 .impacts
                 .iter()
                 .filter(|i| i.impact_speed > 0.05)
                 .count()
         };
-        assert!(blow(&blows) > 3, "{} blows", blow(&blows));
+        assert!(jump(&jumps) > 3, "{} jumps", jump(&jumps));
         for (kind, stiffnesses) in [
             (LawKind::KelvinNoTension, [1e10, 1e12]),
             (LawKind::HertzDamp, [1e12, 1e15]),
         ] {
             let [soft, stiff] =
-                stiffnesses.map(|k| worst_difference(&answer(&system(kind, k)), &blows));
+                stiffnesses.map(|k| worst_difference(&answer(&system(kind, k)), &jumps));
             assert!(
                 stiff < 5e-3 && stiff < 0.5 * soft,
                 "{kind:?}: {soft:e}, then {stiff:e}"

@@ -28,10 +28,10 @@ fn assert_sound(outcome: &Outcome, what: &str) {
         largest(&outcome.state.displacement)
     );
     for impact in &outcome.impacts {
-        // The momentum law knows no force; its blows take no time.
-        let blow = impact.peak_force == 0.0 && impact.start == impact.end;
+        // The momentum law knows no force; its impacts take no time.
+        let jump = impact.peak_force == 0.0 && impact.start == impact.end;
         assert!(
-            (blow && impact.impulse > 0.0)
+            (jump && impact.impulse > 0.0)
                 || (impact.start < impact.end && impact.peak_force > 0.0),
             "{what}: {impact:?}"
         );
@@ -351,7 +351,7 @@ fn a_row_of_touching_bodies_passes_the_blow_on() {
     }
 }
 
-/// Dull bodies in touch move on together, whatever the law makes of a blow without speed.
+/// Dull bodies in touch move on together, whatever the law makes of a jump without speed.
 #[test]
 fn dull_bodies_in_touch_stay_slow() {
     for kind in [

@@ -333,7 +333,7 @@ fn links_and_impacts_together_balance() {
     }
 }
 
-/// A blow changes velocities at once, and with them the force of a dashpot: the motion after it is that of a step
+/// An impact changes velocities at once, and with them the force of a dashpot: the motion after it is that of a step
 /// that begins in equilibrium, so that steps stay of second order.
 #[test]
 fn a_blow_jerks_the_dashpots_beside_it() {

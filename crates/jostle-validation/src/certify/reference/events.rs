@@ -188,7 +188,7 @@ impl Run<'_> {
     }
 
     /// Closes the contact that touches, and all that touch with it.
-    pub(super) fn closings_happen(&mut self, first: usize, level: &mut usize) {
+    pub(super) fn apply_closings(&mut self, first: usize, level: &mut usize) {
         let mut jumps = 0;
         loop {
             let touching: Vec<usize> = (0..self.contact_states.len())
@@ -252,7 +252,7 @@ impl Run<'_> {
     }
 
     /// A corner or the release of a contact.
-    pub(super) fn happen(&mut self, contact: usize, next: Next) {
+    pub(super) fn apply_event(&mut self, contact: usize, next: Next) {
         let (x, v) = self.closing(contact, &self.q);
         let Some(closed) = &mut self.closed[contact] else {
             return;

@@ -209,7 +209,7 @@ impl<'a> Run<'a> {
                     reach = s;
                 }
                 self.accept(reach, after, &pushes);
-                self.closings_happen(contact, &mut level);
+                self.apply_closings(contact, &mut level);
                 inside += reach * step;
                 still = if reach * step < 1e-13 { still + 1 } else { 0 };
             } else {
@@ -217,7 +217,7 @@ impl<'a> Run<'a> {
                 inside += reach * step;
                 still = if reach * step < 1e-13 { still + 1 } else { 0 };
                 for (contact, next) in events {
-                    self.happen(contact, next);
+                    self.apply_event(contact, next);
                 }
             }
             if reach >= most && most < 1.0 || (whole - inside).abs() < 1e-14 {

@@ -37,9 +37,9 @@ struct Run {
 
 pub(crate) fn read(bytes: &[u8]) -> Result<Contents, RecordError> {
     let mut runs: Vec<Run> = Vec::new();
-    // The first walk counts, so that the second takes no more memory than it fills.
-    walk(bytes, |block| announce(&mut runs, &block))?;
-    walk(bytes, |block| append(&mut runs, &block))?;
+    // The first pass counts, so that the second takes no more memory than it fills.
+    for_each_block(bytes, |block| announce(&mut runs, &block))?;
+    for_each_block(bytes, |block| append(&mut runs, &block))?;
     let mut contents = Contents::new(FORMAT, Scale::Counts);
     if let Some(first) = runs.first() {
         let station = first
@@ -71,7 +71,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Contents, RecordError> {
 }
 
 /// Visits every record that has values.
-fn walk<'b>(
+fn for_each_block<'b>(
     bytes: &'b [u8],
     mut visit: impl FnMut(Block<'b>) -> Result<(), String>,
 ) -> Result<(), RecordError> {
