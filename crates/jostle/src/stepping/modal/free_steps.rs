@@ -5,7 +5,8 @@ use pulp::{Arch, Simd, WithSimd};
 use super::members::Instant;
 use super::mode_kernels::{Ahead, LANES, Lanes, Show, Sums};
 use super::peaks::{Taken, Watched};
-use super::reduced::{Reduced, Table};
+use super::reduced::Reduced;
+use super::step_table::StepTable;
 use super::stepper::ModalStepper;
 use super::turning::{Loads, StepMotion};
 use crate::motion::Ground;
@@ -80,7 +81,7 @@ impl ByGround {
 fn fill_lanes<const N: usize>(
     lanes: &mut Vec<Lanes<N>>,
     by_ground: &mut ByGround,
-    table: &Table,
+    table: &StepTable,
     reduced: &Reduced,
 ) {
     lanes.clear();
@@ -146,7 +147,7 @@ impl FreeSteps {
     }
 
     /// Uses the factors of a table.
-    fn set(&mut self, reduced: &Reduced, table: &Table) {
+    fn set(&mut self, reduced: &Reduced, table: &StepTable) {
         self.step = table.step;
         let by_ground = &mut self.by_ground;
         if reduced.across.is_empty() {

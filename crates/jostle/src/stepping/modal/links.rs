@@ -8,7 +8,8 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use super::reduced::{Reduced, Shown, Table};
+use super::reduced::{Reduced, Shown};
+use super::step_table::StepTable;
 use super::stepper::ModalStepper;
 use super::unit_force::UnitForce;
 use crate::history::{Extreme, LinkTotals};
@@ -516,7 +517,7 @@ impl ModalStepper<'_> {
     }
 }
 
-impl Table {
+impl StepTable {
     /// What unit end forces and bends of links do.
     pub(super) fn set_links(&mut self, reduced: &Reduced) {
         if !reduced.links.is_empty() {

@@ -23,6 +23,7 @@ mod member_reach;
 mod member_steps;
 mod members;
 mod mode_kernels;
+mod monitored_points;
 mod passed_kernels;
 mod peaks;
 mod plan_equations;
@@ -35,6 +36,7 @@ mod span;
 #[cfg(test)]
 mod sparing_envelopes;
 mod start;
+mod step_table;
 mod stepper;
 mod struck;
 mod turning;

@@ -4,7 +4,8 @@
 use pulp::NullaryFnOnce;
 
 use super::plan_rows::{PlanRows, SideLoads};
-use super::reduced::{Reduced, Table};
+use super::reduced::Reduced;
+use super::step_table::StepTable;
 use crate::contact::ContactResponse;
 use crate::interface::Contact;
 use crate::linear::envelope::{Envelope, PivotedEnvelope};
@@ -196,7 +197,7 @@ impl PlanEquations {
     }
 
     /// Finds how far and how fast forces at the ends open them at the end of a step of a table.
-    pub(super) fn couple(&mut self, reduced: &Reduced, plan: &PlanRows, table: &Table) {
+    pub(super) fn couple(&mut self, reduced: &Reduced, plan: &PlanRows, table: &StepTable) {
         if self.known_for.0 == table.step && self.known_for.1 == self.ends {
             return;
         }
@@ -432,7 +433,7 @@ impl PlanEquations {
         reduced: &Reduced,
         plan: &PlanRows,
         closed: &[Closed],
-        table: &Table,
+        table: &StepTable,
         to: [&mut [f64]; 4],
     ) {
         self.forces.fill(0.0);

@@ -6,14 +6,13 @@ use std::sync::Arc;
 use pulp::{Arch, Simd, WithSimd};
 
 use super::basis::{self, Basis, Demand};
-use super::damped::{Damped, Rules};
 use super::defects::Defects;
-use super::links::{LinkTable, ModalLink, own_dashpots};
+use super::links::{ModalLink, own_dashpots};
 use super::members::{FormRows, MemberRows};
-use super::mode_kernels::{AddUp, Combine, LANES, Quadratic, ROWS, Show, Unkept};
-use super::plan_rows::{self, PlanRows};
-use super::response::{INPUTS, PRODUCTS, Responses};
-use super::unit_force::{UnitForce, UnitResponse};
+use super::mode_kernels::{AddUp, ROWS, Show};
+use super::monitored_points::MonitoredPoints;
+use super::plan_rows::PlanRows;
+use super::unit_force::UnitForce;
 use crate::contact::ForceLaw;
 use crate::history::Work;
 use crate::interface::{DofRow, InterfaceGraph};
@@ -131,7 +130,8 @@ impl Reduced {
     ) -> Result<Self, (usize, NotPositive)> {
         let mut bases = Vec::with_capacity(system.buildings.len());
         for (index, building) in system.buildings.iter().enumerate() {
-            let Watched { places, ports, .. } = Watched::new(system, index, vertical);
+            let MonitoredPoints { places, ports, .. } =
+                MonitoredPoints::new(system, index, vertical);
             let Rates { pushed, swaying } = rates[index];
             let [low, high] = COMPARED.map(|factor| factor * pushed);
             let mut struck = system.contacts.iter().filter(|contact| {
@@ -261,7 +261,8 @@ impl Reduced {
 
     fn add_links(&mut self, system: &System) {
         let shown = |building: usize, row: DofRow| {
-            let Watched { places, .. } = Watched::new(system, building, self.vertical);
+            let MonitoredPoints { places, .. } =
+                MonitoredPoints::new(system, building, self.vertical);
             let place = places.iter().position(|own| *own == row)?;
             Some(Shown {
                 building,
@@ -314,7 +315,8 @@ impl Reduced {
     ) -> Result<(), NotPositive> {
         let building = &system.buildings[index];
         let equations = &building.equations;
-        let Watched { places, rising, .. } = Watched::new(system, index, self.vertical);
+        let MonitoredPoints { places, rising, .. } =
+            MonitoredPoints::new(system, index, self.vertical);
         let watching = self.watched();
         let rising = rising
             .into_iter()
@@ -661,61 +663,6 @@ impl Reduced {
     }
 }
 
-/// Monitored displacements of a building: its floors from the ground up, then other points of contacts, links and
-/// dashpots; and those of contacts, links and dashpots.
-struct Watched {
-    places: Vec<DofRow>,
-    ports: Vec<DofRow>,
-    /// Floors, from 0, and their vertical displacements among the places.
-    rising: Vec<[usize; 2]>,
-}
-
-impl Watched {
-    fn new(system: &System, index: usize, vertical: bool) -> Self {
-        let building = &system.buildings[index];
-        let floors = building.tracks.iter().map(|track| track.dof);
-        let mut places: Vec<DofRow> = floors
-            .chain(building.foot)
-            .map(|dof| DofRow::single(dof - building.offset))
-            .collect();
-        let mut rising = Vec::new();
-        if vertical {
-            for (floor, dof) in building.vertical_points() {
-                rising.push([floor, places.len()]);
-                places.push(DofRow::single(dof - building.offset));
-            }
-        }
-        let mut ports = Vec::new();
-        if plan_rows::are_rows_of_floors(system) {
-            return Self {
-                places,
-                ports,
-                rising,
-            };
-        }
-        let contacts = system.contact_ports().map(|ports| ports.0);
-        let links = system.links.iter().map(|link| link.ports.0);
-        let ends = system.edge_ends.iter().map(|end| end.ports.0);
-        let all = contacts.chain(links).chain(ends).flatten().flatten();
-        let joined = all.filter(|port| port.building == index);
-        let damped = own_dashpots(building).into_iter();
-        let damped = damped.flat_map(|(dofs, _)| dofs).flatten();
-        let joined = joined.map(|port| port.row.moved_down(building.offset));
-        for row in joined.chain(damped.map(DofRow::single)) {
-            for list in [&mut places, &mut ports] {
-                if !list.contains(&row) {
-                    list.push(row);
-                }
-            }
-        }
-        Self {
-            places,
-            ports,
-            rising,
-        }
-    }
-}
-
 /// Rows of values of all modes, in blocks; padding rows are zero. Shears of all storeys, then their overturning
 /// moments, then forces of columns and beams that are followed, of every shape.
 fn storey_forms(building: &BuildingSystem, basis: &Basis) -> Vec<Vec<f64>> {
@@ -798,136 +745,6 @@ pub(super) struct Rates {
     pub(super) pushed: f64,
     /// Frequency of its third lateral mode.
     pub(super) swaying: f64,
-}
-
-/// Exact factors of all modes for one step size, quantity by quantity.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Table {
-    pub(super) step: f64,
-    /// Of (q₀, q̇₀, p₀, p₁, b) in q₁, q̇₁, ∫q and ∫τq.
-    pub(super) displacement: [Vec<f64>; INPUTS],
-    pub(super) velocity: [Vec<f64>; INPUTS],
-    pub(super) area: [Vec<f64>; INPUTS],
-    moment: [Vec<f64>; INPUTS],
-    /// Of the products of these in the energy lost by damping: upper triangle row by row; empty without rules.
-    pub(super) damped: [Vec<f64>; PRODUCTS],
-    /// What unit end forces at the contacts do, and those of links.
-    answers: Vec<UnitResponse>,
-    pub(super) links: LinkTable,
-}
-
-impl Table {
-    pub(super) fn set(&mut self, reduced: &Reduced, step: f64, rules: Option<&Rules>) {
-        self.step = step;
-        self.answers
-            .resize_with(reduced.unit_forces.len(), UnitResponse::default);
-        self.answers.iter_mut().for_each(UnitResponse::forget);
-        let lists = self.displacement.iter_mut().chain(&mut self.velocity);
-        let lists = lists.chain(&mut self.area).chain(&mut self.moment);
-        lists.for_each(|list| list.resize(reduced.modes(), 0.0));
-        let asked = rules.map_or(0, |_| reduced.modes());
-        self.damped
-            .iter_mut()
-            .for_each(|list| list.resize(asked, 0.0));
-        let modes = reduced
-            .damping
-            .chunks(LANES)
-            .zip(reduced.stiffness.chunks(LANES));
-        for (group, (damping, stiffness)) in modes.enumerate() {
-            let (first, count) = (group * LANES, damping.len());
-            let (damping, stiffness) = (filled(damping), filled(stiffness));
-            let responses = Responses::of_several(reduced.arch, damping, stiffness, step);
-            for (lists, rows) in [
-                (&mut self.displacement, &responses.displacement),
-                (&mut self.velocity, &responses.velocity),
-                (&mut self.area, &responses.area),
-                (&mut self.moment, &responses.moment),
-            ] {
-                for (list, row) in lists.iter_mut().zip(rows) {
-                    list[first..first + count].copy_from_slice(&row[..count]);
-                }
-            }
-            if let Some(rules) = rules {
-                let form = reduced.arch.dispatch(Damped {
-                    damping,
-                    stiffness,
-                    step,
-                    responses: &responses,
-                    rules,
-                });
-                for (list, row) in self.damped.iter_mut().zip(&form) {
-                    list[first..first + count].copy_from_slice(&row[..count]);
-                }
-            }
-        }
-        self.set_links(reduced);
-    }
-
-    /// q₁ and q̇₁ of all modes.
-    pub(super) fn advance(&self, arch: Arch, of: [&[f64]; INPUTS], end: [&mut [f64]; 2]) {
-        let [q1, v1] = end;
-        for (factors, out) in [(&self.displacement, q1), (&self.velocity, v1)] {
-            arch.dispatch(Combine { factors, of, out });
-        }
-    }
-
-    /// ∫q dt of all modes.
-    pub(super) fn area(&self, arch: Arch, of: [&[f64]; INPUTS], out: &mut [f64]) {
-        let factors = &self.area;
-        arch.dispatch(Combine { factors, of, out });
-    }
-
-    /// ∫τq dt of all modes.
-    pub(super) fn moment(&self, arch: Arch, of: [&[f64]; INPUTS], out: &mut [f64]) {
-        let factors = &self.moment;
-        arch.dispatch(Combine { factors, of, out });
-    }
-
-    /// Energy dissipated by damping over the step to `end`, with ∫q and, for loads with curvature, ∫τq over it
-    /// \[J\]. With rules it is computed from the motion, so the balance is a check; without, as work of the loads
-    /// minus change of energy.
-    pub(super) fn damped(
-        &self,
-        reduced: &Reduced,
-        of: [&[f64]; INPUTS],
-        end: [&[f64]; 2],
-        [area, moment]: [&[f64]; 2],
-    ) -> f64 {
-        let form = &self.damped;
-        if !form[0].is_empty() {
-            return reduced.arch.dispatch(Quadratic { form, of });
-        }
-        reduced.arch.dispatch(Unkept {
-            damping: &reduced.damping,
-            stiffness: &reduced.stiffness,
-            step: self.step,
-            of,
-            end,
-            area,
-            moment,
-        })
-    }
-
-    /// Finds what a unit end force of a contact does, where it is not known yet.
-    pub(super) fn find_unit_response(&mut self, contact: usize, reduced: &Reduced) {
-        let ends = [&self.displacement, &self.velocity].map(|factors| {
-            let [.., line, bend] = factors;
-            [&line[..], bend]
-        });
-        self.answers[contact].find(contact, ends, &self.links, reduced);
-    }
-
-    /// What a unit end force of a contact does, once found.
-    pub(super) fn answer(&self, contact: usize) -> &UnitResponse {
-        &self.answers[contact]
-    }
-}
-
-/// Values of up to [`LANES`] modes, the last one repeated.
-pub(super) fn filled(values: &[f64]) -> [f64; LANES] {
-    let mut lanes = [values[values.len() - 1]; LANES];
-    lanes[..values.len()].copy_from_slice(values);
-    lanes
 }
 
 /// Rates at which responses are compared, in units of that of the shortest impact \[–\].

@@ -9,7 +9,8 @@ use super::links::{LinkMotion, longest_step};
 use super::members::Instant;
 use super::peaks::{Peaks, Taken, Watched};
 use super::plan_equations::PlanEquations;
-use super::reduced::{Reduced, Table};
+use super::reduced::Reduced;
+use super::step_table::StepTable;
 use super::struck::{StruckStep, WithinStep};
 use super::turning::{Loads, StepMotion};
 use crate::history::{Energy, FoundationPeaks, SupportPeaks, Work};
@@ -35,7 +36,7 @@ use crate::system::{RunGrounds, System};
 pub(super) struct ModalStepper<'a> {
     pub(super) reduced: &'a Reduced,
     /// The first serves steps off the grid, the others one division of the free-vibration step each.
-    pub(super) tables: Vec<Table>,
+    pub(super) tables: Vec<StepTable>,
     divisions: Vec<u32>,
     /// Division of free vibration, so that histories have their rows.
     pub(super) least_division: u32,
@@ -174,7 +175,7 @@ impl<'a> ModalStepper<'a> {
         }
         Self {
             free_steps: FreeSteps::new(reduced),
-            tables: vec![Table::default()],
+            tables: vec![StepTable::default()],
             divisions: vec![0],
             least_division: division.max(settings.rows_per_step(plan)),
             rows_per_step: (settings.rows_per_step(plan) / division).max(1) as usize,
@@ -309,7 +310,7 @@ impl<'a> ModalStepper<'a> {
         if let Some(slot) = self.divisions.iter().position(|d| *d == division) {
             return slot;
         }
-        let mut table = Table::default();
+        let mut table = StepTable::default();
         table.set(self.reduced, next.length, Some(&self.rules));
         run.work.factorizations += 1;
         self.tables.push(table);

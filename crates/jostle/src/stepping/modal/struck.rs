@@ -1,7 +1,8 @@
 //! Greatest accelerations within a step after a jump of velocities, where they do not follow a cubic: dashpots and quick
 //! modes answer at once.
 
-use super::reduced::{Reduced, Table};
+use super::reduced::Reduced;
+use super::step_table::StepTable;
 use crate::system::GroundsAt;
 
 /// Levels of instants at which the exact motion is evaluated, each closer to the start than the one before.
@@ -24,7 +25,7 @@ pub(super) struct StruckStep<'a> {
 /// Evaluates the exact motion within steps.
 #[derive(Default)]
 pub(super) struct WithinStep {
-    tables: [Table; LEVELS],
+    tables: [StepTable; LEVELS],
     /// Modal displacement, velocity and load at both ends of a part.
     q: [Vec<f64>; 2],
     v: [Vec<f64>; 2],

@@ -3,8 +3,9 @@
 
 use super::mode_kernels::LANES;
 use super::peaks::Ends;
-use super::reduced::{Reduced, filled};
+use super::reduced::Reduced;
 use super::response::Responses;
+use super::step_table::filled;
 use crate::stepping::events::Cubic;
 use crate::system::{Direction, GroundsAt};
 
