@@ -513,7 +513,8 @@ mod tests {
     use super::*;
     use crate::history::Work;
     use crate::stepping::modal::Refinement;
-    use crate::stepping::modal::stepper::{finish, runner};
+    use crate::stepping::modal::finish::finish;
+    use crate::stepping::modal::stepper::runner;
     use crate::stepping::modal::{Rates, rates};
     use crate::{
         Analysis, Building, ContactLaw, Damping, Gap, GroundMotion, LawKind, Model, Outcome, Plan,

@@ -12,6 +12,7 @@ mod damped;
 mod defects;
 mod energy;
 mod estimate;
+mod finish;
 mod forces;
 mod free_steps;
 mod friction;
@@ -54,9 +55,10 @@ use crate::model::Integrator;
 use crate::motion::GroundMotion;
 use crate::state::{ContactPhase, State};
 use crate::system::System;
+use finish::finish;
 pub(super) use links::longest_step as longest_step_of_links;
 use reduced::{Rates, Reduced};
-use stepper::{Refinement, finish, runner};
+use stepper::{Refinement, runner};
 
 /// Reasons why modal stepping does not support the buildings; empty if it does.
 #[must_use]
