@@ -414,6 +414,7 @@ pub(crate) const KEYS: &[Key] = &[
 
     optional(S::Motion, "vertical", Kind::TextOrMotion, "For frames: vertical shaking, positive upwards: a record, or a table like [motion], such as `{ scale = 0.67 }` for that share of this motion. Without a scaling of its own it has the factor of this motion."),
     optional(S::Motion, "apparent_velocity", Quantity(D::Speed), "Speed of the waves along the row: the motion arrives at a building after position / this."),
+    default(S::Motion, "wave_angle", Quantity(D::Dimensionless), "0", "For buildings with a plan: angle from x to the direction in which the waves travel, counter-clockwise, such as \"30 deg\". Positions follow from the plans."),
     optional(S::Motion, "baseline", Choice(&Baseline::NAMES), "Correction of the velocity of records: by a straight line or a parabola from rest, taken from the acceleration; or none. Required if records of buildings differ and their final velocities do."),
     optional(S::Motion, "coherency", Kind::Table(S::Coherency), "Loss of coherency with the distance of a building from position 0, where the record was taken."),
     required(S::Coherency, "alpha", Quantity(D::Dimensionless), "α of |γ| = exp(−(α ω d/V_s)²) (Luco and Wong 1986)."),
@@ -446,7 +447,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Building, "storey_height", PerStorey(D::Length), "Storey height; required for frames, 3 m by default for shear buildings."),
     default(S::Building, "damping", Kind::Table(S::Damping), "5 % in lateral modes 1 and 3", "Viscous damping, such as `{ ratio = 0.05, modes = [1, 3] }` or `{ alpha = 0.5, beta = \"1 ms\" }`."),
     optional(S::Building, "damper", Tables(&[S::Damper, S::LinkLaw]), "Dampers and other links between two of its floors; a short form of link. They follow the links in results."),
-    optional(S::Building, "position", Quantity(D::Length), "Place along the row, for apparent_velocity and coherency of [motion]."),
+    optional(S::Building, "position", Quantity(D::Length), "Place along the row, for apparent_velocity and coherency of [motion]; buildings with a plan have that of the centre of their plan."),
     optional(S::Building, "motion", Kind::TableOf(&[S::OwnMotion, S::Motion]), "The ground under this building, if it differs: arrival, a record of its own, or a scale of the common one."),
     default(S::Building, "gravity", Flag, "false", "Start the run from the displacements under self weight."),
     optional(S::Building, "codes", Kind::Table(S::BuildingCodes), "Factors of this building in the separation rules of codes, such as `{ behaviour_factor = 3.9 }`."),

@@ -553,11 +553,6 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Parts>
     } = buildings?;
     let paths = DamperPaths::new(links.len(), &dampers);
     links.extend(dampers.into_iter().map(|damper| damper.link));
-    let names = [
-        buildings.iter().map(|own| own.name.clone()).collect(),
-        walls.iter().map(|own| own.name.clone()).collect(),
-    ];
-    grounds::read_own(reader, &view, &mut motion, names, (&gaps, &links), base);
     plan::place(&mut buildings, &at, &gaps);
     let mut model = Model {
         title: title.unwrap_or_default(),
@@ -574,6 +569,7 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Parts>
         gap::for_all_neighbours(reader, &fields, &at, &mut model);
         plan::check_widths(reader, &mut model, &fields);
     }
+    grounds::read_own(reader, &view, &mut motion, &model, base);
     shear_failure::add_heads(&mut model, reader, &view);
     capacity::fill(&mut model, &capacity, &reinforced);
     Some(Parts {

@@ -120,6 +120,7 @@ fn write_histories(page: &mut String) -> std::fmt::Result {
     let of_grounds = [
         Column::Energy(EnergyTerm::Ground),
         Column::GroundDisplacement { building: 0 },
+        Column::GroundDisplacementAcross { building: 0 },
     ];
     writeln!(
         page,

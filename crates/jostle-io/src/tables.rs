@@ -673,10 +673,12 @@ fn column_name(model: &Model, contacts: &[String], links: &[String], column: Col
                 }
             }
         }
-        Column::GroundDisplacement { .. } => match ground_under(model, index) {
-            Some(name) => format!("{}.", plain(name)),
-            None => format!("B{}.", index + 1),
-        },
+        Column::GroundDisplacement { .. } | Column::GroundDisplacementAcross { .. } => {
+            match ground_under(model, index) {
+                Some(name) => format!("{}.", plain(name)),
+                None => format!("B{}.", index + 1),
+            }
+        }
         Column::Energy(_) => "energy_".to_owned(),
     };
     place + recorded.name + recorded.unit.suffix

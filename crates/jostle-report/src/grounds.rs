@@ -26,7 +26,7 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
             let path = page.motion.under(building);
             times
                 .iter()
-                .map(|t| 1e3 * path.at(*t).displacement)
+                .map(|t| 1e3 * path.at(*t).displacement[0])
                 .collect()
         })
         .collect();

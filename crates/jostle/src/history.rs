@@ -155,6 +155,11 @@ pub enum Column {
         /// Building index; walls are counted on from the buildings.
         building: usize,
     },
+    /// The same across, under buildings in space \[m\].
+    GroundDisplacementAcross {
+        /// Building index; walls are counted on from the buildings.
+        building: usize,
+    },
     /// A term of the energy balance \[J\].
     Energy(EnergyTerm),
 }
@@ -194,6 +199,7 @@ impl Column {
             Self::ContactForce { .. } => of("contact", "force", Unit::N, "contact force, positive in compression"),
             Self::Closing { .. } => of("contact", "closing", Unit::M, "closing; only of contacts on a column between floors, or where grounds move apart"),
             Self::GroundDisplacement { .. } => of("ground", "ground_displacement", Unit::M, "displacement of the ground from rest, where grounds move apart"),
+            Self::GroundDisplacementAcross { .. } => of("ground", "ground_displacement_across", Unit::M, "the same across, of buildings in space"),
             Self::LinkForce { .. } => of("link", "force", Unit::N, "force of the link, positive in compression"),
             Self::LinkStroke { .. } => of("link", "stroke", Unit::M, "shortening of the link since rest; with `links = true` under `[output]`"),
             Self::LinkSpeed { .. } => of("link", "speed", Unit::M_S, "its rate; with `links = true` under `[output]`"),
@@ -232,7 +238,8 @@ impl Column {
             }
             Self::SupportForce { building }
             | Self::SupportForceAcross { building }
-            | Self::GroundDisplacement { building } => [building, 0],
+            | Self::GroundDisplacement { building }
+            | Self::GroundDisplacementAcross { building } => [building, 0],
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use jostle::{Gap, Link};
+use jostle::{Model, PlanArea, Structure};
 use jostle_motion::Coherency;
 
 use super::motion;
@@ -22,13 +22,22 @@ pub(super) fn read_common(
     view: &View<'_>,
     base: &Path,
 ) -> Option<Box<GroundsSpec>> {
-    let keys = ["vertical", "apparent_velocity", "baseline", "coherency"];
+    let keys = [
+        "vertical",
+        "apparent_velocity",
+        "wave_angle",
+        "baseline",
+        "coherency",
+    ];
     if !keys.into_iter().any(|key| view.has(key)) {
         return None;
     }
     let apparent_velocity = reader
         .get(view, "apparent_velocity")
         .and_then(|field| reader.positive(&field, Dimension::Speed));
+    let wave_angle = reader
+        .get(view, "wave_angle")
+        .and_then(|field| reader.quantity(&field, Dimension::Dimensionless));
     let baseline = reader
         .get(view, "baseline")
         .and_then(|field| reader.choice(&field, &Baseline::NAMES, &[]))
@@ -39,6 +48,7 @@ pub(super) fn read_common(
     let vertical = reader.get(view, "vertical");
     Some(Box::new(GroundsSpec {
         apparent_velocity,
+        wave_angle,
         baseline,
         coherency,
         vertical: vertical.and_then(|field| read_vertical(reader, &field, base)),
@@ -113,6 +123,7 @@ fn read_vertical(
 fn refuse_common_keys(reader: &mut Reader<'_>, view: &View<'_>, further: &[&'static str]) {
     let common = [
         "apparent_velocity",
+        "wave_angle",
         "baseline",
         "coherency",
         "duration",
@@ -127,16 +138,16 @@ fn refuse_common_keys(reader: &mut Reader<'_>, view: &View<'_>, further: &[&'sta
     }
 }
 
-/// Grounds of buildings and walls, into the motion.
+/// Grounds of buildings and walls of a model, into the motion.
 pub(super) fn read_own(
     reader: &mut Reader<'_>,
     root: &View<'_>,
     motion: &mut Option<MotionSpec>,
-    names: [Vec<String>; 2],
-    (gaps, links): (&[Gap], &[Link]),
+    model: &Model,
     base: &Path,
 ) {
-    let [buildings, walls] = names;
+    let buildings: Vec<String> = model.buildings.iter().map(|own| own.name.clone()).collect();
+    let walls: Vec<String> = model.walls.iter().map(|own| own.name.clone()).collect();
     let entries = |reader: &mut Reader<'_>, key| {
         let field = reader.get(root, key);
         field.and_then(|field| field.entries()).unwrap_or_default()
@@ -171,6 +182,19 @@ pub(super) fn read_own(
             ..OwnGroundSpec::default()
         });
     }
+    let spec = motion.as_ref().and_then(|motion| motion.grounds.as_ref());
+    let wave_angle = spec.and_then(|spec| spec.wave_angle);
+    if model.is_in_space() {
+        if spec.is_some_and(|spec| spec.apparent_velocity.is_some() || spec.coherency.is_some()) {
+            place_in_plan(&mut own, model, wave_angle.unwrap_or(0.0));
+        }
+    } else if wave_angle.is_some()
+        && let Some(field) = reader.get(root, "motion")
+        && let Some(view) = reader.reopen(&field, &[Section::Motion])
+        && let Some(field) = reader.get(&view, "wave_angle")
+    {
+        *reader.bad(&field, "needs buildings with a plan") = Some("remove wave_angle".into());
+    }
     let Some(motion) = motion else {
         if !has_motion {
             let spec = GroundsSpec {
@@ -193,12 +217,36 @@ pub(super) fn read_own(
     let mut spec = motion.grounds.take().unwrap_or_default();
     spec.own = own;
     check_positions(reader, &spec, [&of_buildings, &of_walls]);
-    let between = gaps.iter().map(|gap| gap.between);
+    let between = model.gaps.iter().map(|gap| gap.between);
     let between: Vec<_> = between
-        .chain(links.iter().map(|link| link.between))
+        .chain(model.links.iter().map(|link| link.between))
         .collect();
     place_walls(reader, &mut spec, &of_walls, buildings.len(), &between);
     motion.grounds = Some(spec);
+}
+
+/// Positions of buildings with a plan that have none: how far waves have travelled to the centre of the lowest floor, from the one
+/// that they reach first \[m\].
+fn place_in_plan(own: &mut [OwnGroundSpec], model: &Model, wave_angle: f64) {
+    let (sin, cos) = wave_angle.sin_cos();
+    let passed = model.buildings.iter().map(|building| {
+        let Structure::Tiers(tiers) = &building.structure else {
+            return None;
+        };
+        let [x, y] = PlanArea::new(&tiers.floors.first()?.plan).centroid;
+        Some(x * cos + y * sin)
+    });
+    let passed: Vec<Option<f64>> = passed.collect();
+    let first = passed
+        .iter()
+        .flatten()
+        .copied()
+        .fold(f64::INFINITY, f64::min);
+    for (own, passed) in own.iter_mut().zip(passed) {
+        if own.position.is_none() && own.arrival.is_none() {
+            own.position = passed.map(|passed| passed - first);
+        }
+    }
 }
 
 fn position(reader: &mut Reader<'_>, view: &View<'_>) -> Option<f64> {

@@ -1,6 +1,6 @@
 //! Ground that differs under the buildings of a model file: arrivals, own records, loss of coherency, and vertical shaking.
 
-use jostle::{GroundMotion, Grounds, OwnGround, Wave};
+use jostle::{Bearing, GroundMotion, Grounds, OwnGround, Wave};
 use jostle_motion::{Accelerogram, Coherency, coherent_with};
 
 use super::{MotionError, MotionSource, MotionSpec, Scaling};
@@ -11,6 +11,8 @@ use crate::baseline::Baseline;
 pub struct GroundsSpec {
     /// Speed at which waves pass along the row, > 0; arrivals are positions over it \[m/s\].
     pub apparent_velocity: Option<f64>,
+    /// Angle from x to the direction in which waves travel among buildings with a plan \[rad\].
+    pub wave_angle: Option<f64>,
     /// What becomes of velocities that drift; `None` refuses records that differ and drift apart.
     pub baseline: Option<Baseline>,
     /// Loss of coherency with distance.
@@ -48,6 +50,9 @@ pub struct OwnMotionSpec {
     /// Whether its sign is changed.
     pub reverse: bool,
 }
+
+/// Changes the seed of the random part of the component across.
+const ACROSS: u64 = 1 << 54;
 
 /// End velocities may differ by this share of the greatest ground velocity (theory, Eq. B16).
 const MOST_DRIFT: f64 = 0.01;
@@ -160,22 +165,26 @@ impl GroundsSpec {
         let Some(coherency) = &self.coherency else {
             return Ok(vec![None; self.own.len()]);
         };
-        let error = |error| MotionError::Coherency { error };
-        let Wave::Sampled { step, acceleration } = &common.wave else {
-            return Err(MotionError::NoRecord);
-        };
-        let record = Accelerogram::new(*step, acceleration.clone()).map_err(error)?;
         let place = |index: usize| self.under(index).position.unwrap_or(0.0);
         let places: Vec<f64> = (0..self.own.len()).map(place).collect();
-        let made = coherent_with(&record, &places, coherency).map_err(error)?;
-        let made = made.into_iter().zip(&places).map(|(made, place)| {
-            (*place != 0.0).then(|| GroundMotion {
-                name: format!("{} at {place} m", common.name),
-                scale: common.scale,
-                ..GroundMotion::sampled("", *step, made.acceleration().to_vec())
-            })
-        });
-        Ok(made.collect())
+        let mut made = less_coherent(common, &places, coherency)?;
+        if let (Some(bearing), Some(across)) = (&common.bearing, common.across()) {
+            // Its random part is another one.
+            let coherency = Coherency {
+                seed: coherency.seed ^ ACROSS,
+                ..*coherency
+            };
+            let across = less_coherent(across, &places, &coherency)?;
+            for (own, across) in made.iter_mut().zip(across) {
+                if let Some(own) = own {
+                    own.bearing = Some(Box::new(Bearing {
+                        angle: bearing.angle,
+                        across,
+                    }));
+                }
+            }
+        }
+        Ok(made)
     }
 
     /// Refuses different records whose end velocities differ (theory, Eq. B16).
@@ -208,6 +217,28 @@ impl GroundsSpec {
     }
 }
 
+/// A record as it is at some places; `None` where it was taken.
+fn less_coherent(
+    motion: &GroundMotion,
+    places: &[f64],
+    coherency: &Coherency,
+) -> Result<Vec<Option<GroundMotion>>, MotionError> {
+    let error = |error| MotionError::Coherency { error };
+    let Wave::Sampled { step, acceleration } = &motion.wave else {
+        return Err(MotionError::NoRecord);
+    };
+    let record = Accelerogram::new(*step, acceleration.clone()).map_err(error)?;
+    let made = coherent_with(&record, places, coherency).map_err(error)?;
+    let made = made.into_iter().zip(places).map(|(made, place)| {
+        (*place != 0.0).then(|| GroundMotion {
+            name: format!("{} at {place} m", motion.name),
+            scale: motion.scale,
+            ..GroundMotion::sampled("", *step, made.acceleration().to_vec())
+        })
+    });
+    Ok(made.collect())
+}
+
 /// Velocity at the end of a motion, and the greatest of all \[m/s\].
 fn end_and_peak(motion: &GroundMotion) -> [f64; 2] {
     let alone = GroundMotion {
@@ -219,7 +250,7 @@ fn end_and_peak(motion: &GroundMotion) -> [f64; 2] {
         Wave::Sampled { step, .. } => (alone.duration / step).round(),
         Wave::Sine { .. } | Wave::Ricker { .. } => 2000.0,
     };
-    let at = |i: u32| path.at(alone.duration * f64::from(i) / steps).velocity;
+    let at = |i: u32| path.at(alone.duration * f64::from(i) / steps).velocity[0];
     let all = (0..=steps as u32).map(at);
     [at(steps as u32), all.fold(0.0, |most, v| most.max(v.abs()))]
 }

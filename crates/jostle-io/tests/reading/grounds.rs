@@ -132,7 +132,7 @@ fn drifting_records_need_a_baseline() {
         let motion = format!("{}\nbaseline = \"{baseline}\"", file("one.txt"));
         let input = read(&motion, "", &own, "").expect("sound");
         let motion = input.ground_motion().expect("a motion");
-        let ends = [0, 1].map(|b| motion.under(b).at(4.99).velocity);
+        let ends = [0, 1].map(|b| motion.under(b).at(4.99).velocity[0]);
         let apart = (ends[0] - ends[1]).abs();
         assert_eq!(apart < 1e-3, baseline != "as-recorded", "{ends:?}");
     }

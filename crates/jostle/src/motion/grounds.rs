@@ -1,6 +1,6 @@
-//! Ground that differs under the buildings of a row, and vertical shaking.
+//! Ground that differs under the buildings, and vertical shaking.
 
-use super::{Bearing, GroundMotion, Wave};
+use super::{Bearing, Ground, GroundMotion, Wave};
 
 /// The ground under every building of a model, then under every wall, and what shakes it (theory, Eqs. B13 and B14).
 ///
@@ -24,7 +24,8 @@ pub struct Grounds {
 pub struct OwnGround {
     /// When the motion arrives, ≥ 0; before, the ground rests \[s\].
     pub arrival: f64,
-    /// Its motion; `None` is the common one.
+    /// Its motion; `None` is the common one. Without a bearing of its own it has that of the common motion, the component across
+    /// included.
     pub motion: Option<GroundMotion>,
     /// Vertical acceleration, positive upwards; `None` is none.
     pub vertical: Option<GroundMotion>,
@@ -35,10 +36,10 @@ pub struct OwnGround {
 pub struct GroundPoint {
     /// Along the row, and across it or upwards \[m/s²\].
     pub acceleration: [f64; 2],
-    /// Along the row \[m/s\].
-    pub velocity: f64,
-    /// Along the row \[m\].
-    pub displacement: f64,
+    /// Along the row and across it \[m/s\].
+    pub velocity: [f64; 2],
+    /// Along the row and across it \[m\].
+    pub displacement: [f64; 2],
 }
 
 /// On which side of a jump of the acceleration.
@@ -60,9 +61,13 @@ impl GroundMotion {
     pub fn under(&self, index: usize) -> GroundPath<'_> {
         let own = self.grounds.as_ref().and_then(|all| all.own.get(index));
         let motion = own.and_then(|own| own.motion.as_ref()).unwrap_or(self);
+        let bearing = motion.bearing.as_deref().or(self.bearing.as_deref());
+        let across = bearing.and_then(|bearing| bearing.across.as_ref());
         GroundPath {
             arrival: own.map_or(0.0, |own| own.arrival),
+            turned: bearing.map_or((0.0, 1.0), |Bearing { angle, .. }| angle.sin_cos()),
             along: Integrals::new(motion),
+            across: across.map(Integrals::new),
             vertical: own.and_then(|own| own.vertical.as_ref()),
         }
     }
@@ -113,7 +118,8 @@ impl GroundMotion {
             Wave::Sine { .. } | Wave::Ricker { .. } => None,
         };
         self.parts().flat_map(move |(motion, arrival)| {
-            let across = motion.across().and_then(own_step);
+            let across = motion.across().or_else(|| self.across());
+            let across = across.and_then(own_step);
             let steps = [own_step(motion), across].into_iter().flatten();
             steps.map(move |step| (step, arrival))
         })
@@ -157,7 +163,10 @@ impl GroundMotion {
 #[derive(Clone, Debug)]
 pub struct GroundPath<'a> {
     arrival: f64,
+    /// Sine and cosine of the angle of the motion in plan.
+    turned: (f64, f64),
     along: Integrals<'a>,
+    across: Option<Integrals<'a>>,
     vertical: Option<&'a GroundMotion>,
 }
 
@@ -176,25 +185,30 @@ impl GroundPath<'_> {
 
     pub(crate) fn on_side(&self, t: f64, side: Side) -> GroundPoint {
         let own = t - self.arrival;
-        let [along, velocity, displacement] = self.along.at(own, side);
-        let (sin, cos) = self.along.turned();
-        let across = self.along.motion.across();
-        let across = across.map_or(0.0, |motion| side.acceleration(motion, own));
-        let second = match self.vertical {
-            Some(vertical) => side.acceleration(vertical, own),
-            None => along * sin + across * cos,
+        let along = self.along.at(own, side);
+        let across = self.across.as_ref();
+        let across = across.map_or([0.0; 3], |motion| motion.at(own, side));
+        let (sin, cos) = self.turned;
+        let turned = |order: usize| -> Ground {
+            let (first, second) = (along[order], across[order]);
+            [first * cos - second * sin, first * sin + second * cos]
         };
+        let mut acceleration = turned(0);
+        if let Some(vertical) = self.vertical {
+            acceleration[1] = side.acceleration(vertical, own);
+        }
         GroundPoint {
-            acceleration: [along * cos - across * sin, second],
-            velocity,
-            displacement,
+            acceleration,
+            velocity: turned(1),
+            displacement: turned(2),
         }
     }
 
     /// The first instant after `t` at which the acceleration may jump, or its slope if `corners` are asked for \[s\].
     pub(crate) fn next_corner(&self, t: f64, corners: bool) -> Option<f64> {
         let own = t - self.arrival;
-        let motions = [Some(self.along.motion), self.vertical];
+        let across = self.across.as_ref().map(|across| across.motion);
+        let motions = [Some(self.along.motion), across, self.vertical];
         let next = motions.into_iter().flatten().filter_map(|motion| {
             let end = end_of(motion);
             let close = SAME_INSTANT * motion.step().unwrap_or(1.0);
@@ -267,12 +281,6 @@ impl<'a> Integrals<'a> {
             Wave::Sine { .. } | Wave::Ricker { .. } => Vec::new(),
         };
         Self { motion, points }
-    }
-
-    /// Sine and cosine of the angle of the motion in plan.
-    fn turned(&self) -> (f64, f64) {
-        let bearing = self.motion.bearing.as_deref();
-        bearing.map_or((0.0, 1.0), |Bearing { angle, .. }| angle.sin_cos())
     }
 
     /// Acceleration, velocity and displacement `t` after the start \[m/s², m/s, m\].
@@ -380,14 +388,15 @@ mod tests {
                 v += h / 6.0 * (a + 4.0 * b + c);
                 if i % 5_000 == 4_999 {
                     let point = path.on_side(t + h, Side::Before);
-                    assert!((point.velocity - v).abs() < 1e-9, "{point:?}, {v}");
-                    assert!((point.displacement - d).abs() < 1e-9, "{point:?}, {d}");
+                    assert!((point.velocity[0] - v).abs() < 1e-9, "{point:?}, {v}");
+                    assert!((point.displacement[0] - d).abs() < 1e-9, "{point:?}, {d}");
                 }
             }
             // Afterwards the ground goes on as it went.
             let (end, later) = (path.at(3.0), path.at(3.5));
             assert_eq!(later.acceleration, [0.0; 2]);
-            assert!((later.displacement - end.displacement - 0.5 * end.velocity).abs() < 1e-12);
+            let drifted = end.displacement[0] + 0.5 * end.velocity[0];
+            assert!((later.displacement[0] - drifted).abs() < 1e-12);
         }
     }
 

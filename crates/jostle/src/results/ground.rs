@@ -11,10 +11,16 @@ use crate::system::RunGrounds;
 pub struct GroundSummary {
     /// When the motion arrives \[s\].
     pub arrival_s: f64,
-    /// Greatest ground displacement along the row from rest, either sign \[m\].
+    /// Greatest ground displacement along the row from rest, either sign \[m\]; in space along x.
     pub displacement_peak_m: f64,
     /// Ground displacement at the end of the run, positive to the right \[m\].
     pub displacement_end_m: f64,
+    /// Greatest ground displacement across from rest, either sign, of buildings in space \[m\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub displacement_across_peak_m: Option<f64>,
+    /// Ground displacement across at the end of the run, of buildings in space \[m\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub displacement_across_end_m: Option<f64>,
 }
 
 #[rustfmt::skip]
@@ -24,6 +30,8 @@ impl GroundSummary {
         Quantity::<Self>::real("arrival_s", Unit::S, "when the ground motion arrives", |g| g.arrival_s),
         Quantity::<Self>::real("displacement_peak_m", Unit::M, "greatest displacement of the ground from rest, either sign", |g| g.displacement_peak_m),
         Quantity::<Self>::real("displacement_end_m", Unit::M, "displacement of the ground at the end, positive to the right", |g| g.displacement_end_m),
+        Quantity::<Self>::optional("displacement_across_peak_m", Unit::M, "greatest displacement of the ground across, of buildings in space", |g| g.displacement_across_peak_m),
+        Quantity::<Self>::optional("displacement_across_end_m", Unit::M, "displacement of the ground across at the end, of buildings in space", |g| g.displacement_across_end_m),
     ];
 }
 
@@ -37,11 +45,21 @@ pub(super) fn ground_summary(index: usize, run: &Run<'_>) -> Option<GroundSummar
     let end = run.outcome.state.time;
     let step = run.motion.corner_step().unwrap_or(end / INSTANTS);
     let count = (end / step).ceil().min(1e7) as u64;
-    let displacements = (0..=count).map(|i| path.at((i as f64 * step).min(end)).displacement);
+    let mut peaks = [0.0_f64; 2];
+    for i in 0..=count {
+        let moved = path.at((i as f64 * step).min(end)).displacement;
+        for (peak, moved) in peaks.iter_mut().zip(moved) {
+            *peak = peak.max(moved.abs());
+        }
+    }
+    let last = path.at(end).displacement;
+    let in_space = run.system.is_in_space();
     Some(GroundSummary {
         arrival_s: path.arrival(),
-        displacement_peak_m: displacements.fold(0.0, |most, d| most.max(d.abs())),
-        displacement_end_m: path.at(end).displacement,
+        displacement_peak_m: peaks[0],
+        displacement_end_m: last[0],
+        displacement_across_peak_m: in_space.then_some(peaks[1]),
+        displacement_across_end_m: in_space.then_some(last[1]),
     })
 }
 

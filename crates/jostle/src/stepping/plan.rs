@@ -440,14 +440,8 @@ fn solver_for(system: &System, motion: &GroundMotion, analysis: &Analysis) -> So
     analysis.solver.unwrap_or_else(usual)
 }
 
-/// What cannot stand on ground that differs, or be shaken vertically.
+/// What cannot stand on ground that differs.
 fn refused_grounds(solver: Solver, system: &System) -> Option<ModelFault> {
-    if system.is_in_space() {
-        return Some(ModelFault {
-            path: "motion".into(),
-            problem: "ground that differs, and vertical shaking, are not possible for buildings with a plan yet; leave out arrival, position, [building.motion] and vertical".into(),
-        });
-    }
     if system.model_links().len() < system.links.len() {
         return Some(ModelFault {
             path: "soil.coupling".into(),
@@ -462,6 +456,14 @@ fn refused_grounds(solver: Solver, system: &System) -> Option<ModelFault> {
 
 /// What cannot be shaken vertically.
 fn refused_vertical(system: &System) -> Option<ModelFault> {
+    if system.is_in_space() {
+        return Some(ModelFault {
+            path: "motion.vertical".into(),
+            problem:
+                "vertical shaking is not possible for buildings with a plan yet; leave vertical out"
+                    .into(),
+        });
+    }
     let mut buildings = system.buildings.iter();
     if !buildings.any(BuildingSystem::moves_vertically) {
         return Some(ModelFault {

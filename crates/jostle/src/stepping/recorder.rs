@@ -84,7 +84,7 @@ pub(crate) fn columns(system: &System, grounds: &RunGrounds<'_>) -> Vec<Column> 
     columns.extend((0..contacts).map(|contact| Column::ContactForce { contact }));
     columns.extend(
         (0..system.contacts.len())
-            .filter(|contact| grounds.part || system.contacts[*contact].is_between_floors())
+            .filter(|contact| has_closing(system, grounds, *contact))
             .map(|contact| Column::Closing { contact }),
     );
     let links = system.model_links().len();
@@ -116,9 +116,8 @@ pub(crate) fn columns(system: &System, grounds: &RunGrounds<'_>) -> Vec<Column> 
     }
     columns.extend(EnergyTerm::ALL.map(Column::Energy));
     if grounds.part {
-        let places = 0..grounds.displacements().count();
         columns.push(Column::Energy(EnergyTerm::Ground));
-        columns.extend(places.map(|building| Column::GroundDisplacement { building }));
+        columns.extend(grounds.columns());
     }
     columns
 }
@@ -441,7 +440,7 @@ impl Recorder {
         }
         let contacts = system.contacts.iter().enumerate();
         contacts
-            .filter(|(_, contact)| grounds.part || contact.is_between_floors())
+            .filter(|(index, _)| has_closing(system, grounds, *index))
             .for_each(|(index, contact)| {
                 let [moved, ..] = grounds.closing(index, 0);
                 put(contact.ports.closing(&state.displacement) + moved);
@@ -494,6 +493,13 @@ impl Recorder {
         }
         debug_assert!(row.next().is_none(), "every column has a value");
     }
+}
+
+/// Whether histories have the closing of a contact: on a column between floors, or where grounds move apart; in space faces stand
+/// for their points.
+pub(crate) fn has_closing(system: &System, grounds: &RunGrounds<'_>, contact: usize) -> bool {
+    let contact = &system.contacts[contact];
+    contact.is_between_floors() || (grounds.part && contact.plan.is_none())
 }
 
 /// Calls `put` with the force of every face of buildings in space, the sum of those of its points \[N\].

@@ -1,6 +1,9 @@
 //! The grounds of a run: one under all buildings, or one under each.
+//!
+//! Joints are counted as contacts, then links, then friction along contacts, then ends of edges.
 
-use super::System;
+use super::{Direction, System};
+use crate::history::Column;
 use crate::interface::PortPair;
 use crate::motion::{Ground, GroundMotion, GroundPath, GroundPoint, Side};
 
@@ -13,10 +16,57 @@ pub(crate) struct RunGrounds<'a> {
     /// Numbers of buildings and of walls of the model.
     structures: usize,
     walls: usize,
-    /// Grounds of the two sides of every contact, then of every link, where they move apart.
-    sides: Vec<Option<[usize; 2]>>,
+    /// Of every joint between grounds that move apart.
+    sides: Vec<Option<JointGrounds>>,
+    in_space: bool,
     /// Whether any of them do.
     pub(crate) part: bool,
+}
+
+/// The grounds of the two sides of a joint.
+#[derive(Clone, Copy, Debug)]
+struct JointGrounds {
+    /// Among the paths.
+    grounds: [usize; 2],
+    /// In which direction their distance counts: along the row and across it \[–\].
+    direction: [f64; 2],
+}
+
+impl JointGrounds {
+    /// A difference of both grounds, of the first less the second, in the direction of the joint.
+    #[inline]
+    fn apart(&self, of: impl Fn(usize) -> [f64; 2]) -> f64 {
+        let [first, second] = self.grounds.map(of);
+        let [along, across] = self.direction;
+        along * (first[0] - second[0]) + across * (first[1] - second[1])
+    }
+}
+
+/// In which direction in plan a joint closes: the sums of its row over displacements along and across \[–\].
+fn direction_of(system: &System, ports: &PortPair) -> [f64; 2] {
+    let mut direction = [1.0, 0.0];
+    if !system.is_in_space() {
+        return direction;
+    }
+    if let Some(port) = ports.0.iter().flatten().next() {
+        direction = [0.0; 2];
+        let building = &system.buildings[port.building];
+        let mat = building.mat_in_plan.as_ref().map(|mat| mat.dofs);
+        for &(dof, weight) in port.row.entries() {
+            let mut tracks = building.tracks.iter();
+            let track = tracks.find(|track| track.dof == dof);
+            let moves = |axis: usize, own: Direction| {
+                mat.is_some_and(|mat| mat[axis] == dof)
+                    || track.is_some_and(|track| track.direction == own)
+            };
+            if moves(0, Direction::Along) {
+                direction[0] += weight;
+            } else if moves(1, Direction::Across) {
+                direction[1] += weight;
+            }
+        }
+    }
+    direction
 }
 
 /// Ground accelerations at one instant.
@@ -72,19 +122,27 @@ impl<'a> RunGrounds<'a> {
             let wall = walls[side].map(|wall| system.buildings.len() + wall);
             ports.0[side].map(|port| port.building).or(wall)
         };
-        let contacts = system.contacts.iter().map(|contact| &contact.ports);
-        let links = system.links.iter().map(|link| &link.ports);
-        let walls = system.rigid_walls.iter().copied();
-        let none = std::iter::repeat([None; 2]);
-        let sides: Vec<_> = contacts
-            .chain(links)
-            .zip(walls.chain(none))
-            .map(|(ports, walls)| {
-                let pair = [side(ports, walls, 0)?, side(ports, walls, 1)?];
-                let [left, right] = pair.map(|own| listed[own]);
-                (!motion.moves_alike(left, right)).then_some(pair)
+        let joint = |ports: &PortPair, walls: [Option<usize>; 2]| {
+            let grounds = [side(ports, walls, 0)?, side(ports, walls, 1)?];
+            let [left, right] = grounds.map(|own| listed[own]);
+            (!motion.moves_alike(left, right)).then(|| JointGrounds {
+                grounds,
+                direction: direction_of(system, ports),
             })
-            .collect();
+        };
+        let rigid = |index: usize| system.rigid_walls.get(index).copied().unwrap_or_default();
+        let first_link = system.contacts.len();
+        let contacts = system.contacts.iter().enumerate();
+        let rubbing = contacts.clone().filter_map(|(index, contact)| {
+            let friction = contact.friction.as_ref()?;
+            Some(joint(&friction.ports, rigid(index)))
+        });
+        let contacts = contacts.map(|(index, contact)| joint(&contact.ports, rigid(index)));
+        let links = system.links.iter().enumerate();
+        let links = links.map(|(index, link)| joint(&link.ports, rigid(first_link + index)));
+        let ends = system.edge_ends.iter();
+        let ends = ends.map(|end| joint(&end.ports, rigid(end.contact)));
+        let sides: Vec<_> = contacts.chain(links).chain(rubbing).chain(ends).collect();
         let start: Vec<GroundPoint> = paths.iter().map(|path| path.at(0.0)).collect();
         Self {
             part: sides.iter().any(Option::is_some),
@@ -93,6 +151,7 @@ impl<'a> RunGrounds<'a> {
             walls: system.walls.len(),
             paths,
             sides,
+            in_space: system.is_in_space(),
         }
     }
 
@@ -142,44 +201,55 @@ impl<'a> RunGrounds<'a> {
         }
     }
 
-    /// How much closer the grounds of a contact, or of a link counted after the contacts, have moved, and the rate and the
-    /// acceleration of that; now (0), or at the end of the tried step (1) \[m, m/s, m/s²\].
+    /// How much closer the grounds of a joint have moved, and the rate and the acceleration of that; now (0), or at the end of
+    /// the tried step (1) \[m, m/s, m/s²\].
     #[inline]
     pub(crate) fn closing(&self, joint: usize, time: usize) -> [f64; 3] {
-        let Some(Some([left, right])) = self.sides.get(joint) else {
+        let Some(Some(joint)) = self.sides.get(joint) else {
             return [0.0; 3];
         };
-        let [left, right] = [left, right].map(|own| self.points[time][*own]);
+        let points = &self.points[time];
         [
-            left.displacement - right.displacement,
-            left.velocity - right.velocity,
-            left.acceleration[0] - right.acceleration[0],
+            joint.apart(|own| points[own].displacement),
+            joint.apart(|own| points[own].velocity),
+            joint.apart(|own| points[own].acceleration),
         ]
     }
 
-    /// How much closer the grounds of a contact or link have moved at an instant \[m\].
+    /// How much closer the grounds of a joint have moved at an instant \[m\].
     pub(crate) fn closing_at(&self, joint: usize, t: f64) -> f64 {
-        let Some(Some(sides)) = self.sides.get(joint) else {
+        let Some(Some(joint)) = self.sides.get(joint) else {
             return 0.0;
         };
-        let [left, right] = sides.map(|own| self.paths[own].at(t).displacement);
-        left - right
+        joint.apart(|own| self.paths[own].at(t).displacement)
     }
 
-    /// Displacement of the ground of every building and wall of the model now, in its order \[m\].
+    /// Displacement of the ground of every building and wall of the model now, in its order: along the row, then those across
+    /// of buildings in space \[m\].
     pub(crate) fn displacements(&self) -> impl Iterator<Item = f64> {
         let (buildings, others) = self.points[0].split_at(self.structures);
         let walls = &others[others.len() - self.walls.min(others.len())..];
-        let all = buildings.iter().chain(walls);
-        all.map(|point| point.displacement)
+        let axes = 0..1 + usize::from(self.in_space);
+        axes.flat_map(move |axis| {
+            let all = buildings.iter().chain(walls);
+            all.map(move |point| point.displacement[axis])
+        })
     }
 
-    /// Numbers of contacts and links whose grounds may move apart: none, or all.
+    /// Columns of a history for these displacements.
+    pub(crate) fn columns(&self) -> impl Iterator<Item = Column> {
+        let count = self.structures + self.walls;
+        let along = (0..count).map(|building| Column::GroundDisplacement { building });
+        let across = (0..count).map(|building| Column::GroundDisplacementAcross { building });
+        along.chain(across.filter(|_| self.in_space))
+    }
+
+    /// Number of joints whose grounds may move apart: none, or all.
     pub(crate) fn joints(&self) -> usize {
         if self.part { self.sides.len() } else { 0 }
     }
 
-    /// How the grounds of a contact or link move over the tried step, whose length is `step` \[s\].
+    /// How the grounds of a joint move over the tried step, whose length is `step` \[s\].
     pub(crate) fn over_step(&self, joint: usize, step: f64) -> OverStep {
         let [d, v, a] = self.closing(joint, 0);
         let [end, _, last] = self.closing(joint, 1);

@@ -68,7 +68,7 @@ fn tower(
 }
 
 /// Three eccentric towers around a corner, shaken along a bearing and across it.
-fn around_a_corner(law: ContactLaw) -> (Model, GroundMotion) {
+pub(crate) fn around_a_corner(law: ContactLaw) -> (Model, GroundMotion) {
     let plans = [
         rectangle(0.0, 0.0, 12.0, 10.0),
         rectangle(12.02, 2.0, 9.0, 7.0),
@@ -97,7 +97,7 @@ fn around_a_corner(law: ContactLaw) -> (Model, GroundMotion) {
     (model, motion)
 }
 
-fn run(model: &Model, motion: &GroundMotion, analysis: Analysis) -> (System, Outcome) {
+pub(crate) fn run(model: &Model, motion: &GroundMotion, analysis: Analysis) -> (System, Outcome) {
     let system = System::assemble(model).unwrap_or_else(|faults| panic!("{faults:?}"));
     let plan = Plan::choose(&system, motion, &analysis).unwrap_or_else(|f| panic!("{f:?}"));
     let settings = Settings {
@@ -135,7 +135,7 @@ fn peaks(outcome: &Outcome) -> Vec<Vec<f64>> {
     kinds
 }
 
-fn apart(a: &Outcome, b: &Outcome) -> f64 {
+pub(crate) fn apart(a: &Outcome, b: &Outcome) -> f64 {
     let mut worst = 0.0_f64;
     for (own, other) in peaks(a).iter().zip(&peaks(b)) {
         assert_eq!(own.len(), other.len());

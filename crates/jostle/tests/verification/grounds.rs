@@ -61,7 +61,7 @@ fn model(buildings: Vec<Building>, gaps: Vec<Gap>) -> Model {
     }
 }
 
-fn arriving(mut motion: GroundMotion, arrivals: &[f64]) -> GroundMotion {
+pub(crate) fn arriving(mut motion: GroundMotion, arrivals: &[f64]) -> GroundMotion {
     let own = arrivals.iter().map(|arrival| OwnGround {
         arrival: *arrival,
         ..OwnGround::default()
@@ -319,7 +319,7 @@ fn walls_stand_on_their_own_ground() {
         };
         let u = history.column(floor).expect("displacements");
         let closings = time.iter().zip(&u).map(|(t, u)| {
-            let [left, right] = grounds.each_ref().map(|path| path.at(*t).displacement);
+            let [left, right] = grounds.each_ref().map(|path| path.at(*t).displacement[0]);
             u + left - right
         });
         let greatest = closings.fold(0.0, f64::max);
@@ -462,7 +462,7 @@ fn waves_given_by_a_formula_arrive_late() {
     let path = motion.under(1);
     let (omega, t) = (std::f64::consts::TAU / 0.6, 1.3_f64);
     let expected = 2.0 / omega * (t - (omega * t).sin() / omega);
-    close(path.at(0.1 + t).displacement, expected, 1.0, 1e-14);
+    close(path.at(0.1 + t).displacement[0], expected, 1.0, 1e-14);
     let [modal, direct] = BOTH.map(|solver| run(&system, &motion, solver));
     close(
         direct.closing[0].value,

@@ -15,6 +15,7 @@ mod foundations;
 mod friction_limit;
 mod given_structures;
 mod grounds;
+mod grounds_in_plan;
 mod harmonic_pounding;
 mod isolation;
 mod isolation_in_plan;

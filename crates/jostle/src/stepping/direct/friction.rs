@@ -1,8 +1,8 @@
 //! Friction along closed contacts in direct steps.
 
-use super::Direct;
+use super::{Direct, moved_by_grounds};
 use crate::contact::ForceLaw;
-use crate::interface::{Friction, PortPair};
+use crate::interface::Friction;
 use crate::state::{ContactPhase, Episode};
 use crate::stepping::coupling::Closed;
 use crate::stepping::events::Cubic;
@@ -24,11 +24,15 @@ impl<E: StepEquations> Direct<E> {
 
     /// Slip along a contact and its rate now \[m, m/s\].
     pub(super) fn slip_now(&self, run: &RunState<'_>, contact: usize) -> [f64; 2] {
-        let moved = |ports: &PortPair| {
-            [&self.state.displacement, &self.state.velocity].map(|list| ports.closing(list))
-        };
         let along = self.friction_along(run, contact);
-        along.map_or([0.0; 2], |(_, friction)| moved(&friction.ports))
+        along.map_or([0.0; 2], |(place, friction)| {
+            let [shift, shift_rate, _] = run.grounds.closing(place, 0);
+            let ports = &friction.ports;
+            [
+                ports.closing(&self.state.displacement) + shift,
+                ports.closing(&self.state.velocity) + shift_rate,
+            ]
+        })
     }
 
     /// Motion along and across a closed contact at the start of the step \[s\].
@@ -123,14 +127,12 @@ impl<E: StepEquations> Direct<E> {
             following.follow_from(&start, slip, pressing, press);
         let own = &mut episode.friction;
         let mean = 0.5 * (own.force + trial.force);
-        let slipped = trial.indentation - friction.ports.closing(&self.state.displacement);
+        let [from, rate] = start.slip;
+        let slipped = trial.indentation - from;
         own.impulse += step * mean;
         own.work += mean * slipped;
         self.audit.friction += mean * slipped;
-        let (from, rate) = (
-            trial.indentation - slipped,
-            friction.ports.closing(&self.state.velocity),
-        );
+        self.audit.ground += mean * moved_by_grounds(run, place);
         let slip = Cubic::new(from, rate, trial.indentation, trial.rate, step);
         for at in slip.turning_points().chain([1.0]) {
             own.slip_peak = own.slip_peak.max((slip.value(at) - own.touched_at).abs());

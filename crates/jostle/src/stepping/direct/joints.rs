@@ -41,6 +41,11 @@ impl Joints {
         joints
     }
 
+    /// Index of an end of an edge behind all contacts, links and friction.
+    pub(super) fn of_end(&self, end: usize) -> usize {
+        self.contacts + self.links + self.rubbing.len() + end
+    }
+
     /// Index of the point that moves as a port does.
     fn point(&mut self, port: Port) -> usize {
         let alike = |known: &Port| known.building == port.building && known.row == port.row;

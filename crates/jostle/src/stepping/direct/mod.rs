@@ -358,7 +358,11 @@ impl<E: StepEquations> Stepper for Direct<E> {
         }
         let own = &run.system.edge_ends[end];
         let (u, v) = (&self.state.displacement, &self.state.velocity);
-        [own.inside + own.ports.closing(u), own.ports.closing(v)]
+        let [moved, rate, _] = run.grounds.closing(self.joints.of_end(end), 0);
+        [
+            own.inside + own.ports.closing(u) + moved,
+            own.ports.closing(v) + rate,
+        ]
     }
 
     fn division(&self, run: &RunState<'_>) -> u32 {
@@ -592,7 +596,7 @@ impl<E: StepEquations> Stepper for Direct<E> {
     }
 }
 
-/// How much closer the grounds of a contact or a link have moved over the tried step \[m\].
+/// How much closer the grounds of a joint have moved over the tried step \[m\].
 fn moved_by_grounds(run: &RunState<'_>, joint: usize) -> f64 {
     run.grounds.closing(joint, 1)[0] - run.grounds.closing(joint, 0)[0]
 }

@@ -172,9 +172,15 @@ impl<E: StepEquations> Direct<E> {
                 trial.rate += rate;
             }
         }
-        for (end, tried) in run.system.edge_ends.iter().zip(&mut self.edge_ends) {
+        let ends = run.system.edge_ends.iter().zip(&mut self.edge_ends);
+        for (index, (end, tried)) in ends.enumerate() {
             let [closed_by, rate] = moved(&end.ports);
             *tried = [end.inside + end.ports.closing(u) + closed_by, rate];
+            if run.grounds.part {
+                let [moved, rate, _] = run.grounds.closing(self.joints.of_end(index), 1);
+                tried[0] += moved;
+                tried[1] += rate;
+            }
         }
     }
 

@@ -55,6 +55,7 @@ impl ModalStepper<'_> {
         before.copy_from_slice(rate);
         let watched = [&mut self.u[0][..], &mut rate[..]];
         self.reduced.show_all([&self.q[0], &self.v[0]], watched);
+        self.add_grounds(run, 0);
         self.jump_links();
         Jump {
             impulse,
@@ -176,7 +177,8 @@ impl ModalStepper<'_> {
     fn drift_on_own_grounds(&self, run: &RunState<'_>, index: usize, step: f64) -> Drift {
         let closing = |watched: &[Vec<f64>; 2]| self.reduced.closing(index, &watched[0]);
         let [then, now] = [0, 1].map(|time| run.grounds_at(time));
-        let [moved_then, moved_now] = [0, 1].map(|time| run.grounds.closing(index, time)[2]);
+        let joint = self.reduced.joint_of_port(index);
+        let [moved_then, moved_now] = [0, 1].map(|time| run.grounds.closing(joint, time)[2]);
         let mut jerk = closing(&self.unloaded_jerk) + (moved_now - moved_then) / step;
         let rate_under = |building: usize| {
             let [then, now] = [then, now].map(|all| all.of(building));

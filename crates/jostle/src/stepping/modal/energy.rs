@@ -140,7 +140,7 @@ impl ModalStepper<'_> {
                 Some(_) => (0.0, episode.friction.force),
                 None => (run.system.contacts[index].width, episode.force),
             };
-            let grounds = run.grounds.over_step(index, step);
+            let grounds = run.grounds.over_step(reduced.joint_of_port(index), step);
             let closing = area + grounds.area;
             let leaning = 2.0 * (moment + grounds.moment) - closing;
             let before = self.reduced.closing(index, &self.u[0]) - width;

@@ -13,7 +13,7 @@ use crate::history::{Energy, Extreme, FloorPeaks, History};
 use crate::motion::Ground;
 use crate::stepping::events::Cubic;
 use crate::stepping::outcome::PlanPeaks;
-use crate::stepping::recorder::{columns, forces_of_faces, greatest_in_step};
+use crate::stepping::recorder::{columns, forces_of_faces, greatest_in_step, has_closing};
 use crate::system::{Direction, GroundsAt, RunGrounds, System};
 
 /// Recorder of histories and peaks.
@@ -599,7 +599,7 @@ impl Peaks {
         }
         let contacts = system.contacts.iter().enumerate();
         contacts
-            .filter(|(_, contact)| grounds.part || contact.is_between_floors())
+            .filter(|(contact, _)| has_closing(system, grounds, *contact))
             .for_each(|(contact, _)| put(reduced.closing(contact, watched.u)));
         links.iter().for_each(|force| put(*force));
         for followed in &system.links_followed {

@@ -267,6 +267,12 @@ impl PlanRows {
         self.closing(self.shares.len() + end, values)
     }
 
+    /// Adds to the closing of a port, or of an end of an edge behind all ports, in such a list.
+    #[inline]
+    pub(super) fn add(&self, row: usize, value: f64, values: &mut [f64]) {
+        values[self.first + self.places[row]] += value;
+    }
+
     /// Computes all closings from the displacements of floors at the start of a list.
     pub(super) fn fill(&self, arch: Arch, values: &mut [f64]) {
         let (moved, closings) = values.split_at_mut(self.first);

@@ -51,6 +51,8 @@ pub(super) struct Reduced {
     pub(super) unit_forces: Vec<UnitForce>,
     /// Links of the system, then damping of buildings that couples their modes.
     pub(super) links: Vec<ModalLink>,
+    /// Number of links between buildings or floors.
+    joined: usize,
     /// The order in which forces of contacts are solved for.
     pub(super) graph: InterfaceGraph,
     /// Contacts of buildings in space; their ports are then those of walls.
@@ -234,6 +236,7 @@ impl Reduced {
             contact_of,
             unit_forces: Vec::new(),
             links: Vec::new(),
+            joined: system.links.len(),
             graph: InterfaceGraph::default(),
             plan: None,
         };
@@ -602,13 +605,37 @@ impl Reduced {
     /// hold what the grounds add, contact by contact and link by link.
     #[inline]
     pub(super) fn closing(&self, contact: usize, values: &[f64]) -> f64 {
-        let apart = match &self.plan {
-            Some(plan) => plan.closing(contact, values),
-            None => Self::apart(self.ports[contact], values),
-        };
-        match values.get(self.listed() + contact) {
+        if let Some(plan) = &self.plan {
+            return plan.closing(contact, values);
+        }
+        let apart = Self::apart(self.ports[contact], values);
+        self.with_grounds(self.joint_of_port(contact), apart, values)
+    }
+
+    /// A contact or friction along it among the joints of [`RunGrounds`](crate::system::RunGrounds).
+    #[inline]
+    pub(super) fn joint_of_port(&self, port: usize) -> usize {
+        if port < self.friction.len() {
+            port
+        } else {
+            port + self.joined
+        }
+    }
+
+    /// A closing with what the grounds of its joint add to it, in a list of monitored quantities.
+    #[inline]
+    fn with_grounds(&self, joint: usize, apart: f64, values: &[f64]) -> f64 {
+        match values.get(self.listed() + joint) {
             Some(grounds) => apart + grounds,
             None => apart,
+        }
+    }
+
+    /// Adds what the grounds of a joint do to a list of monitored quantities that has just been filled.
+    pub(super) fn add_grounds(&self, joint: usize, value: f64, values: &mut [f64]) {
+        match &self.plan {
+            Some(plan) => plan.add(joint, value, values),
+            None => values[self.listed() + joint] = value,
         }
     }
 
@@ -617,7 +644,10 @@ impl Reduced {
     pub(super) fn moved_from_end(&self, end: usize, values: &[f64]) -> f64 {
         match &self.plan {
             Some(plan) => plan.end_of_edge(end, values),
-            None => Self::apart(self.edge_ends[end], values),
+            None => {
+                let grounds = self.ports.len() + self.joined + end;
+                self.with_grounds(grounds, Self::apart(self.edge_ends[end], values), values)
+            }
         }
     }
 

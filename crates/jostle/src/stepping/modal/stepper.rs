@@ -142,8 +142,12 @@ impl<'a> ModalStepper<'a> {
                 acceleration[0][place] = peaks.driven_by(place, ground);
             }
         }
-        for joint in 0..run.grounds.joints() {
-            acceleration[0][reduced.listed() + joint] = run.grounds.closing(joint, 0)[2];
+        // In space the grounds and what stays behind cancel.
+        if reduced.plan.is_none() {
+            for joint in 0..run.grounds.joints() {
+                let moved = run.grounds.closing(joint, 0)[2];
+                reduced.add_grounds(joint, moved, &mut acceleration[0]);
+            }
         }
         Self {
             free_steps: FreeSteps::new(reduced),
@@ -226,12 +230,18 @@ impl<'a> ModalStepper<'a> {
     fn follow(&mut self, run: &mut RunState<'_>, step: f64) {
         let watched = [&mut self.u[1][..], &mut self.rate[1][..]];
         self.reduced.show_all([&self.q[1], &self.v[1]], watched);
-        for joint in 0..run.grounds.joints() {
-            let place = self.reduced.listed() + joint;
-            [self.u[1][place], self.rate[1][place], _] = run.grounds.closing(joint, 1);
-        }
+        self.add_grounds(run, 1);
         self.find_near(run, step);
         self.read_trials(run);
+    }
+
+    /// Adds the motion of the grounds to closings that have just been filled: now (0), or at the end of the tried step (1).
+    pub(super) fn add_grounds(&mut self, run: &RunState<'_>, time: usize) {
+        for joint in 0..run.grounds.joints() {
+            let [moved, rate, _] = run.grounds.closing(joint, time);
+            self.reduced.add_grounds(joint, moved, &mut self.u[time]);
+            self.reduced.add_grounds(joint, rate, &mut self.rate[time]);
+        }
     }
 
     /// Lists the contacts that are closed, or that the tried step can bring near touching, if not all are listed.
@@ -372,14 +382,15 @@ impl<'a> ModalStepper<'a> {
     }
 
     pub(super) fn show_accelerations(&mut self, grounds: &RunGrounds<'_>) {
-        for joint in 0..grounds.joints() {
-            let place = self.reduced.listed() + joint;
-            self.acceleration[0][place] = grounds.closing(joint, 0)[2];
-        }
         self.reduced.show_all(
             [&self.scratch, &self.jerk],
             [&mut self.acceleration[0], &mut self.unloaded_jerk[0]],
         );
+        for joint in 0..grounds.joints() {
+            let moved = grounds.closing(joint, 0)[2];
+            self.reduced
+                .add_grounds(joint, moved, &mut self.acceleration[0]);
+        }
     }
 
     /// Accelerations and their rates after a sudden change of loads or of their rates.
