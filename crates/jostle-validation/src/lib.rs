@@ -36,6 +36,7 @@ mod data;
 mod files;
 mod structures;
 
+use rayon::prelude::*;
 use row::Row;
 
 /// How much is computed.
@@ -222,7 +223,7 @@ pub fn families(extent: Extent) -> Vec<Family> {
         about,
         rows: make(extent),
     };
-    FAMILIES.into_iter().map(compute).collect()
+    FAMILIES.into_par_iter().map(compute).collect()
 }
 
 /// The family of a title; `None` if there is none.
