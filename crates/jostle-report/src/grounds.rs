@@ -21,15 +21,16 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
         .map(|i| (f64::from(i) * step).min(duration))
         .collect();
     let shown = names.len().min(SHOWN);
-    let moved: Vec<Vec<f64>> = (0..shown)
-        .map(|building| {
+    let moved = |axis: usize| -> Vec<Vec<f64>> {
+        let moved = (0..shown).map(|building| {
             let path = page.motion.under(building);
-            times
-                .iter()
-                .map(|t| 1e3 * path.at(*t).displacement[0])
-                .collect()
-        })
-        .collect();
+            let values = times.iter().map(|t| 1e3 * path.at(*t).displacement[axis]);
+            values.collect()
+        });
+        moved.collect()
+    };
+    let in_space = page.model.is_in_space();
+    let (moved, across) = (moved(0), if in_space { moved(1) } else { Vec::new() });
     let points = |values: &mut dyn Iterator<Item = f64>| -> Vec<[f64; 2]> {
         times
             .iter()
@@ -37,13 +38,16 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
             .map(|(t, value)| [*t, value])
             .collect()
     };
-    let grounds = names.iter().zip(&moved).enumerate();
-    let grounds = grounds.map(|(colour, (name, moved))| Line {
-        name: (*name).to_owned(),
-        points: points(&mut moved.iter().copied()),
-        colour,
-        dashed: false,
-    });
+    let lines = |moved: &[Vec<f64>]| -> Vec<Line> {
+        let grounds = names.iter().zip(moved).enumerate();
+        let lines = grounds.map(|(colour, (name, moved))| Line {
+            name: (*name).to_owned(),
+            points: points(&mut moved.iter().copied()),
+            colour,
+            dashed: false,
+        });
+        lines.collect()
+    };
     let pairs = (1..shown).map(|right| Line {
         name: format!("{} − {}", names[right - 1], names[right]),
         points: points(
@@ -66,13 +70,22 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
     let first = plot(
         message::displacement_of_the_grounds(),
         message::displacement_mm(),
-        grounds.collect(),
+        lines(&moved),
     );
-    let second = plot(
-        message::part_of_the_closing(),
-        message::d_left_d_right_mm(),
-        pairs.collect(),
-    );
+    // In space neighbours close in any direction.
+    let second = if in_space {
+        plot(
+            message::displacement_of_the_grounds_across(),
+            message::displacement_mm(),
+            lines(&across),
+        )
+    } else {
+        plot(
+            message::part_of_the_closing(),
+            message::d_left_d_right_mm(),
+            pairs.collect(),
+        )
+    };
     let of_buildings = page.summary.buildings.iter();
     let of_buildings = of_buildings.filter_map(|building| Some((building, building.ground?)));
     Some(html! {
@@ -83,7 +96,7 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
             }
             div.static-plots {
                 (first.figure())
-                @if shown > 1 { (second.figure()) }
+                @if shown > 1 || in_space { (second.figure()) }
             }
             table {
                 thead { tr { th { (message::building()) } th { (message::arrival_s()) } th { (message::greatest_displacement_mm()) } th { (message::at_the_end_mm()) } } }

@@ -245,3 +245,101 @@ fn mistakes_name_their_place_and_the_remedy() {
         assert!(text.contains("model.toml:"), "{text}");
     }
 }
+
+/// Two towers with plans, the second 10 m to the right and 4 m behind.
+const IN_PLAN: &str = r#"
+[[building]]
+name = "A"
+kind = "shear"
+storeys = 2
+mass = "40 t"
+stiffness = "30 MN/m"
+plan = ["8 m", "6 m"]
+at = ["0 m", "0 m"]
+A_KEYS
+[[building]]
+name = "B"
+kind = "shear"
+storeys = 2
+mass = "40 t"
+stiffness = "30 MN/m"
+plan = ["8 m", "6 m"]
+at = ["10 m", "4 m"]
+B_KEYS
+"#;
+
+fn read_in_plan(motion: &str, b: &str) -> Result<Input, InputError> {
+    let towers = IN_PLAN.replace("A_KEYS", "").replace("B_KEYS", b);
+    let text = format!("[motion]\n{EL_CENTRO}\n{motion}\n{towers}");
+    read_model_text("model.toml", &text, Format::Toml, Path::new(""))
+}
+
+#[test]
+fn waves_travel_at_an_angle_through_plans() {
+    let arrivals = |motion: &str, b: &str| {
+        let input = read_in_plan(motion, b).expect("sound");
+        let motion = input.ground_motion().expect("a motion");
+        [0, 1].map(|building| motion.under(building).arrival())
+    };
+    let passing =
+        |angle: f64| format!("apparent_velocity = \"500 m/s\"\nwave_angle = \"{angle} deg\"");
+    for angle in [0.0_f64, 30.0, 90.0] {
+        let (sin, cos) = angle.to_radians().sin_cos();
+        let expected = (10.0 * cos + 4.0 * sin) / 500.0;
+        let [first, second] = arrivals(&passing(angle), "");
+        assert!(first == 0.0 && (second - expected).abs() < 1e-12, "{angle}");
+    }
+    // From the other side the second is reached first.
+    let [first, second] = arrivals(&passing(180.0), "");
+    assert!((first - 0.02).abs() < 1e-12 && second.abs() < 1e-12);
+    // What a building says of itself comes first.
+    let [_, second] = arrivals(&passing(0.0), "motion = { arrival = \"7 ms\" }");
+    assert_eq!(second, 0.007);
+    let said = refused(
+        &format!("{EL_CENTRO}\n{}", passing(10.0)),
+        "position = 0",
+        "position = 5",
+        "",
+    );
+    assert!(
+        said.contains("wave_angle") && said.contains("plan"),
+        "{said}"
+    );
+}
+
+/// The component across and the angle are those of all grounds; both components lose coherency.
+#[test]
+fn grounds_of_plans_have_both_components() {
+    let two = "across = { record = \"el-centro-1940-ns\", scale = 0.5 }\nangle = \"25 deg\"";
+    let input = read_in_plan(two, "motion = { arrival = \"20 ms\" }").expect("sound");
+    let motion = input.ground_motion().expect("a motion");
+    let t = 3.37;
+    let (common, late) = (motion.components(t), motion.under(1).at(t + 0.02));
+    for (a, b) in common.into_iter().zip(late.acceleration) {
+        assert!((a - b).abs() < 1e-12);
+    }
+    // A record of its own along, the common one across.
+    let input = read_in_plan(two, "motion = { scale = 2.0 }").expect("sound");
+    let motion = input.ground_motion().expect("a motion");
+    let own = motion.under(1).at(t).acceleration;
+    let (sin, cos) = 25.0_f64.to_radians().sin_cos();
+    let across = motion.across().expect("a component across").acceleration(t);
+    let along = motion.acceleration(t);
+    let expected = [
+        2.0 * along * cos - across * sin,
+        2.0 * along * sin + across * cos,
+    ];
+    for (a, b) in expected.into_iter().zip(own) {
+        assert!((a - b).abs() < 1e-12, "{own:?}");
+    }
+    let loses = "coherency = { alpha = 0.1, shear_wave_velocity = \"200 m/s\", seed = 1 }";
+    let input = read_in_plan(&format!("{two}\n{loses}"), "").expect("sound");
+    let motion = input.ground_motion().expect("a motion");
+    assert_eq!(motion.under(0).at(t).acceleration, common);
+    // In the directions of both components.
+    let turned = |[x, y]: [f64; 2]| [x * cos + y * sin, y * cos - x * sin];
+    let (here, there) = (turned(common), turned(motion.under(1).at(t).acceleration));
+    for (a, b) in here.into_iter().zip(there) {
+        assert!((a - b).abs() > 1e-4, "{here:?}, {there:?}");
+    }
+}

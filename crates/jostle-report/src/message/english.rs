@@ -289,6 +289,7 @@ messages! {
 
     // grounds
     displacement_of_the_grounds = "Displacement of the grounds";
+    displacement_of_the_grounds_across = "Displacement of the grounds across";
     displacement_mm = "displacement [mm]";
     part_of_the_closing = "Part of the closing of neighbours that the grounds contribute";
     d_left_d_right_mm = "d left − d right [mm]";
