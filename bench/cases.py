@@ -14,6 +14,7 @@ class Case:
     linear: bool = True  # whether nothing but contact is non-linear
     solvers: tuple[str, ...] = ("riccati", "modal")  # of jostle, if they can
     quick: bool = False
+    by_name: bool = False  # only if asked for: OpenSees takes a quarter of an hour for one run
     free_steps: tuple[float, ...] = (4e-3, 2e-3, 1e-3)  # tried for OpenSees, in free vibration [s]
     parts: tuple[int, ...] = (5, 10, 20)  # of them around contact
     piece: float = 1.0  # of the motion, from which the time of uniform steps is estimated [s]
@@ -30,6 +31,6 @@ CASES = [
     Case("row", "ten frames in a row, 15 s", "row-of-ten.toml", free_steps=(4e-3, 2e-3), parts=(5, 10)),
     Case("linked-row", "ten frames in a row with dampers between them, 15 s", "linked-row-of-ten.toml", free_steps=(4e-3, 2e-3), parts=(5, 10)),
     Case("space", "two towers of ten storeys in space, 31 s", "two-towers-in-space.toml", solvers=("modal",), free_steps=(4e-3, 2e-3, 1e-3), parts=(5, 10)),
-    Case("space-block", "block of nine buildings in space, 31 s", "block-of-nine.toml", solvers=("modal",), free_steps=(4e-3, 2e-3), parts=(5, 10)),
+    Case("space-block", "block of nine buildings in space, 31 s", "block-of-nine.toml", solvers=("modal",), by_name=True, free_steps=(4e-3, 2e-3), parts=(5, 10)),
     Case("piece", "J1 and J2, 70 cm/s², 10 mm, the first 5 s", "piece.toml", quick=True),
 ]

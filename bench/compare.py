@@ -172,7 +172,8 @@ def main():
         return 0
     if args.validation:
         return validation.main(say)
-    chosen = [case for case in CASES if (not args.cases or case.name in args.cases) and (case.quick or not args.quick)]
+    asked = [case for case in CASES if case.name in args.cases] or [case for case in CASES if not case.by_name]
+    chosen = [case for case in asked if case.quick or not args.quick]
     references = reference.load()
     if args.reference:
         for case in chosen:
