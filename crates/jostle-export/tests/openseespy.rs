@@ -320,3 +320,57 @@ damping = { ratio = 0.05, modes = "all" }
     let text = text.replace("modes = \"all\"", "modes = [1]");
     assert!(export(&model(&text)).is_ok());
 }
+
+const FAILING: &str = include_str!("../../jostle-validation/data/opensees/failing.toml");
+
+/// 260 kN, residual 0.2: the falling branch of the spring ends where it has lost 208 kN.
+#[test]
+fn columns_that_fail_in_shear_are_exported() {
+    let input = model(FAILING);
+    let exported = export(&input).expect("it can be exported");
+    let materials = table(&exported.text, "MATERIALS");
+    let failing = materials.iter().filter(|row| row[0] == "\"LimitState\"");
+    let failing: Vec<_> = failing.collect();
+    // One for each of three storeys, whose heights differ in one.
+    assert_eq!(failing.len(), 2);
+    for row in &failing {
+        let numbers: Vec<f64> = row[2..].iter().map(|value| number(value)).collect();
+        let [v, d, v2, d2, v3, d3, .., slope, residual] = numbers[..] else {
+            panic!("too few numbers: {numbers:?}")
+        };
+        assert_eq!([v, v3, residual], [260e3, 52e3, 52e3]);
+        assert!((v2 - 156e3).abs() < 1e-6);
+        for (force, deformation) in [(v2, d2), (v3, d3)] {
+            let due = v - slope * (deformation - d);
+            assert!((force - due).abs() < 1e-6 * v, "{force} instead of {due}");
+        }
+        for index in 0..6 {
+            assert_eq!(numbers[index], -numbers[index + 6]);
+        }
+    }
+    // Springs at the feet of nine columns, and at the heads of three that are struck.
+    let tags: Vec<&str> = failing.iter().map(|row| row[1]).collect();
+    let springs = table(&exported.text, "SPRINGS");
+    let own = springs.iter().filter(|row| {
+        let material = row[4].trim_end_matches([')', ',']);
+        row[3] == "((1" && tags.contains(&material)
+    });
+    assert_eq!(own.count(), 12);
+}
+
+#[test]
+fn strength_that_falls_with_ductility_is_refused() {
+    let text = include_str!("../../../examples/columns_that_fail_in_shear.toml");
+    let refused = |text: &str| -> Vec<String> {
+        let faults = export(&model(text)).expect_err("OpenSees cannot do it");
+        faults.into_iter().map(|fault| fault.path).collect()
+    };
+    let field = "building[0].shear_failure".to_owned();
+    assert_eq!(refused(text), [&field, "building[0].hinges.rule"]);
+    let normal = text.replace("takeda", "normal");
+    assert_eq!(refused(&normal), [field]);
+    // A rule without ductility, and columns that cannot yield.
+    assert!(export(&model(&normal.replace("sezen-moehle", "aci318"))).is_ok());
+    let elastic = text.replace("hinges =", "# hinges =");
+    assert!(export(&model(&elastic)).is_ok());
+}

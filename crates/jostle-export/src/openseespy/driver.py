@@ -65,6 +65,8 @@ def build(axial):
         else:
             ops.element("ElasticTimoshenkoBeam", tag, first, last, 1.0, 1.0, ea, ei, ga, 1)
     for name, tag, *arguments in MATERIALS:
+        if name == "LimitState":
+            arguments = failing(tag, where, *arguments)
         ops.uniaxialMaterial(name, tag, *arguments)
     for tag, first, last, springs, damped in SPRINGS:
         directions, materials = [pair[0] for pair in springs], [pair[1] for pair in springs]
@@ -79,6 +81,17 @@ def build(axial):
     for tag, first, last, material in LEANING:
         ops.element("zeroLength", tag, first, last, "-mat", material, "-dir", 1)
     add_contacts()
+
+
+def failing(tag, where, *numbers):
+    """Arguments of LimitState: the falling branch is part of its backbone; no pinching, no other damage.
+
+    With degrade = 1, peaks of one direction count in the other. That needs a limit curve, of some column, which is never reached."""
+    *backbone, slope, residual = numbers
+    never = 1e12
+    element, foot, head = next(row[:3] for row in MEMBERS if where[row[1]][1] != where[row[2]][1])
+    ops.limitCurve("ThreePoint", tag, element, 0.0, never, 2.0, never, 3.0, never, -slope, residual, 2, 0, foot, head, 1, 2)
+    return [*backbone, 1.0, 1.0, 0.0, 0.0, 0.0, tag, 2, 1]
 
 
 def add_contacts():

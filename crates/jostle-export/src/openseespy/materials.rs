@@ -3,7 +3,8 @@
 use jostle::LinkLaw;
 use jostle::contact::ForceLaw;
 use jostle::hysteresis::{
-    Backbone, BackboneSide, Corner, Hysteresis, HysteresisRule, Side, energy_to_yield,
+    Backbone, BackboneSide, Corner, FallingBranch, Hysteresis, HysteresisRule, Side,
+    energy_to_yield,
 };
 use jostle::interface::{Contact, LinkElement};
 
@@ -104,7 +105,7 @@ impl Materials {
                 let at = backbone.side(side).yielding.deformation;
                 Ok(self.gap(backbone.initial(), at, side.sign()))
             }
-            HysteresisRule::Failing(_) => Err("shear_failure"),
+            HysteresisRule::Failing(falling) => Ok(self.failing(backbone, falling)),
             rule @ (HysteresisRule::Takeda { .. }
             | HysteresisRule::DegradingTrilinear
             | HysteresisRule::Sliding { .. }
@@ -213,6 +214,28 @@ impl Materials {
         }
         arguments.extend(parameters);
         self.add("Hysteretic", arguments)
+    }
+
+    /// `LimitState`: three points of the backbone, the slope of the falling branch and the residual force. The driver adds the
+    /// limit curve, which must name an element, and the other parameters.
+    fn failing(&mut self, backbone: &Backbone, falling: FallingBranch) -> usize {
+        let failure = backbone.side(Side::Positive).yielding;
+        let end = Corner {
+            deformation: failure.deformation + (failure.force - falling.residual) / falling.slope,
+            force: falling.residual,
+        };
+        let middle = Corner {
+            deformation: 0.5 * (failure.deformation + end.deformation),
+            force: 0.5 * (failure.force + end.force),
+        };
+        let mut arguments = Vec::new();
+        for sign in [1.0, -1.0] {
+            for Corner { deformation, force } in [failure, middle, end] {
+                arguments.extend([sign * force, sign * deformation]);
+            }
+        }
+        arguments.extend([falling.slope, falling.residual]);
+        self.add("LimitState", arguments)
     }
 
     /// The law of a contact, strain being u_right − u_left, and what is different about it.

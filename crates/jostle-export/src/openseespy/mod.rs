@@ -86,13 +86,15 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
                 "is not exported yet; leave it and [soil] out to compare the buildings on rigid ground".into(),
             );
         }
+        // Ductility is that of the hinges of columns.
         if let Some(Hinges::Frame(hinges)) = &building.hinges
-            && !hinges.shear.is_empty()
+            && !hinges.columns.is_empty()
+            && (hinges.shear.iter().flatten())
+                .any(|column| !column.by_ductility.points().is_empty())
         {
             refuse(
                 format!("building[{index}].shear_failure"),
-                "is not exported yet; leave it out to compare the building before its columns fail"
-                    .into(),
+                "lowers the strength of columns with the ductility of their hinges, which OpenSees' LimitState cannot do; give strength and slope instead of the rule, or rule = \"aci318\" or \"gb50010\"".into(),
             );
         }
         let of_members = match &building.hinges {

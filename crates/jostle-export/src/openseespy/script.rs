@@ -564,11 +564,14 @@ impl<'a> Script<'a> {
             self.remark("The Ricker pulse is sampled every 0.1 ms, with straight lines between.");
         }
         let yields = self.export.system.buildings.iter();
-        if yields
-            .flat_map(|building| &building.equations.springs)
-            .next()
-            .is_some()
-        {
+        let mut springs = yields.flat_map(|building| &building.equations.springs);
+        if (springs.clone()).any(|spring| spring.hysteresis.falling_branch().is_some()) {
+            self.remark(
+                "Columns that fail in shear are OpenSees' LimitState with the falling branch in its backbone; it does not \
+                 look for corners inside a step.",
+            );
+        }
+        if springs.any(|spring| spring.hysteresis.falling_branch().is_none()) {
             self.remark(
                 "Hinges of the rule peak-oriented are OpenSees' Hysteretic with pinching 1, 1; it does not look for \
                  corners inside a step. Those of normal and bilinear are elastic-plastic springs in parallel, exactly \
