@@ -51,6 +51,12 @@ const NO_TEXT: &[&str] = &[
     "12px system-ui, sans-serif",
     "650 14px system-ui, sans-serif",
     "650 12px system-ui, sans-serif",
+    // Studies: names of files, a command, the end of a name of a column, a column of a file, an error of the command.
+    "{name}.csv, {name}.parquet",
+    "jostle study {}",
+    "without contact",
+    "{} demands of zero or less are left out",
+    "{}: selection: the cases take no records that could be checked",
 ];
 
 #[test]

@@ -80,8 +80,15 @@ pub(crate) fn pages() -> Vec<(String, String)> {
     collect(&root().join("jostle-report/src"), "rs", &mut files);
     files.retain(|file| !file.components().any(|part| part.as_os_str() == "message"));
     files.extend(
-        ["jostle-live/src/page.rs", "jostle-run/src/gap_page.rs"].map(|file| root().join(file)),
+        [
+            "jostle-live/src/page.rs",
+            "jostle-run/src/gap_page.rs",
+            "jostle-study/src/size/page.rs",
+            "jostle-study/src/suite/page.rs",
+        ]
+        .map(|file| root().join(file)),
     );
+    collect(&root().join("jostle-study/src/results"), "rs", &mut files);
     named(&files)
 }
 

@@ -1,6 +1,7 @@
 //! Curves over the gap for every intensity, and demand over intensity (IDA).
 
 use jostle_io::Values;
+use jostle_report::message;
 use jostle_report::{Chart, Section, Series, Stroke};
 
 use super::{Results, words};
@@ -65,8 +66,8 @@ impl Results<'_> {
             }
         }
         (!charts.is_empty()).then(|| Section {
-            title: format!("Over {}", x_axis.name),
-            remark: format!("One line for each {}.", y_axis.name),
+            title: message::over_factor(&x_axis.name),
+            remark: message::one_line_for_each(&y_axis.name),
             charts,
             ..Section::default()
         })
@@ -111,7 +112,7 @@ impl Results<'_> {
             });
         }
         (!charts.is_empty()).then(|| Section {
-            title: format!("Over {}", x_axis.name),
+            title: message::over_factor(&x_axis.name),
             charts,
             ..Section::default()
         })
@@ -163,7 +164,7 @@ impl Results<'_> {
                     name: if enough && index > 0 {
                         String::new()
                     } else if enough {
-                        "each".into()
+                        message::each_curve().into()
                     } else {
                         name.clone()
                     },
@@ -192,20 +193,16 @@ impl Results<'_> {
             } else {
                 format!("ida-{}", number + 1)
             };
-            self.write(
-                &name,
-                "demand over intensity, curve by curve, with fractiles",
-                columns,
-            )?;
+            self.write(&name, message::demand_over_intensity_file(), columns)?;
             sections.push(Section {
-                title: "Incremental dynamic analysis".into(),
+                title: message::incremental_dynamic_analysis().into(),
                 remark: if enough {
-                    "Thin: one curve for each record or other combination. Heavy: the median; dashed: the 16th and 84th percentile of the demand at each intensity.".into()
+                    message::thin_curves_heavy_median().into()
                 } else {
                     String::new()
                 },
                 charts: vec![Chart {
-                    title: format!("{} up to {}", y.name, x.name),
+                    title: message::demand_up_to_intensity(&y.name, &x.name),
                     x,
                     y,
                     series,

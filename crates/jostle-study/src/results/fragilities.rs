@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use jostle_io::{FragilityMethod, FragilityWanted, Values};
+use jostle_report::message;
 use jostle_report::{Axis, Chart, Section, Series, Stroke};
 
 use super::{Results, words};
@@ -51,12 +52,12 @@ impl Results<'_> {
             };
             self.write(
                 &name,
-                "medians and dispersions of the fragility curves, with their limits",
+                message::fragility_parameters_file(),
                 parameters(wanted, &fitted),
             )?;
             self.write(
                 &format!("{name}-curves"),
-                "probabilities and bands, point by point",
+                message::fragility_points_file(),
                 points(wanted, &fitted),
             )?;
             let left_out = left_out(wanted, &fitted);
@@ -361,25 +362,19 @@ fn section(wanted: &FragilityWanted, fitted: &[Fitted], left_out: Option<&str>) 
         series.push(dots);
     }
     let method = match wanted.method {
-        FragilityMethod::MultipleStripe => {
-            "Lognormal curves of greatest likelihood (multiple stripes); dots are observed shares."
-        }
-        FragilityMethod::Cloud => {
-            "Lognormal curves from a straight line through the logarithms of demand and intensity (cloud); dots are observed shares."
-        }
-        FragilityMethod::ModifiedCloud => {
-            "Straight line through the logarithms of demand and intensity for the cases with demand, times the logistic probability of a demand at all, with a logistic probability of collapse (modified cloud analysis, Jalayer et al. 2017). Median: the intensity at one half; β: half the logarithm of the ratio of the intensities at Φ(1) and Φ(−1). Dots are observed shares."
-        }
+        FragilityMethod::MultipleStripe => message::curves_by_multiple_stripes(),
+        FragilityMethod::Cloud => message::curves_by_cloud(),
+        FragilityMethod::ModifiedCloud => message::curves_by_modified_cloud(),
     };
     let heads = [
         "",
-        "cases",
-        "zero demand",
-        "events",
-        "median",
-        "limits",
+        message::cases_head(),
+        message::zero_demand_head(),
+        message::events_head(),
+        message::median_head(),
+        message::limits_head(),
         "β",
-        "limits",
+        message::limits_head(),
     ];
     let heads = heads.map(str::to_owned);
     let rows = fitted.iter().map(|one| {
@@ -414,19 +409,19 @@ fn section(wanted: &FragilityWanted, fitted: &[Fitted], left_out: Option<&str>) 
         row
     });
     Section {
-        title: format!("Fragility: {event}"),
-        remark: format!(
-            "{method} Bands hold {:.0} % of {} resampled fits.{}",
-            100.0 * wanted.confidence,
+        title: message::fragility_of(&event),
+        remark: message::bands_hold(
+            method,
+            format_args!("{:.0}", 100.0 * wanted.confidence),
             wanted.bootstrap,
-            left_out.map_or(String::new(), |text| format!(" {text}"))
+            left_out.map_or(String::new(), |text| format!(" {text}")),
         ),
         table: Some((heads.to_vec(), rows.collect())),
         charts: vec![Chart {
-            title: format!("Probability of {event}"),
+            title: message::probability_of(&event),
             x,
             y: Axis {
-                name: "probability".into(),
+                name: message::probability_axis().into(),
                 unit: String::new(),
             },
             series,

@@ -1,5 +1,6 @@
 //! Heat maps over two factors.
 
+use jostle_report::message;
 use jostle_report::{Cell, HeatMap};
 
 use super::{Results, words};
@@ -50,8 +51,8 @@ impl Results<'_> {
                 Cell {
                     value: (!present.is_empty()).then_some(size * mean),
                     cases: match &cases[..] {
-                        [case] => format!("case {case}"),
-                        all => format!("mean of {} cases", all.len()),
+                        [case] => message::case_of_number(case),
+                        all => message::mean_of_cases(all.len()),
                     },
                     link: cases.iter().find_map(|case| self.link(*case as u64)),
                 }

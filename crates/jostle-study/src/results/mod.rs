@@ -15,6 +15,7 @@ use std::io::Write;
 use std::path::Path;
 
 use jostle_io::{FactorValues, Values, csv_field, write_atomically, write_values_parquet};
+use jostle_report::message;
 use jostle_report::{Section, StudyPage, render_study};
 
 use crate::dataset::{Table, read_columns};
@@ -77,17 +78,14 @@ pub fn finish(study: &Study, folder: &Path) -> Result<String, StudyError> {
         folder,
         table,
         kept: kept(folder),
-        files: vec![(
-            "cases/*.parquet".into(),
-            "one row a case: inputs and everything that came out".into(),
-        )],
+        files: vec![("cases/*.parquet".into(), message::one_row_a_case().into())],
         said: Vec::new(),
     };
     if study.design.cases <= MOST_IN_CSV {
         write_csv(study, folder)?;
         results
             .files
-            .push(("cases.csv".into(), "the same as text".into()));
+            .push(("cases.csv".into(), message::same_as_text().into()));
     }
     let mut sections: Vec<Section> = Vec::new();
     let maps = results.maps();
@@ -186,22 +184,26 @@ impl Results<'_> {
             let forces = if touched == 0 {
                 String::new()
             } else {
-                format!("; the greatest force is {:.0} kN", 1e-3 * most)
+                message::greatest_force_of_cases(format_args!("{:.0}", 1e-3 * most))
             };
-            headline.push(format!(
-                "The buildings pound in {touched} of {known} cases{forces}."
-            ));
+            headline.push(message::buildings_pound_in_cases(touched, known, forces));
         }
         headline.extend(self.said.iter().cloned());
         let mut facts = vec![
-            ("cases".to_owned(), study.design.cases.to_string()),
             (
-                "design".into(),
+                message::cases_head().to_owned(),
+                study.design.cases.to_string(),
+            ),
+            (
+                message::design_word().into(),
                 words::design(study.file.design.kind).into(),
             ),
         ];
         if study.file.design.samples.is_some() {
-            facts.push(("seed".into(), study.file.design.seed.to_string()));
+            facts.push((
+                message::seed_word().into(),
+                study.file.design.seed.to_string(),
+            ));
         }
         facts.extend(
             varied(study)

@@ -2,6 +2,7 @@
 
 use jostle::Structure;
 use jostle::separation::{ddc_coefficient, double_difference, gb50011_frame_joint, srss};
+use jostle_report::message;
 use jostle_report::{Chart, Level, Section, Series, Stroke};
 
 use super::{Results, words};
@@ -122,7 +123,7 @@ impl Results<'_> {
                 }
             };
             series.push(Series {
-                name: label("needed"),
+                name: label(message::needed_gap()),
                 points: needed,
                 band: Vec::new(),
                 stroke: Stroke::Dotted,
@@ -143,7 +144,7 @@ impl Results<'_> {
         let height = places.map_or(f64::NAN, |places| places.height);
         let codes = [7, 8, 9].into_iter().filter_map(|intensity| {
             Some(Level {
-                name: format!("GB 50011, intensity {intensity}"),
+                name: message::gb50011_of_intensity(intensity),
                 value: gap_size
                     * gb50011_frame_joint(height, intensity).filter(|_| height.is_finite())?,
             })
@@ -154,19 +155,19 @@ impl Results<'_> {
             && last.value - first.value < 0.08 * gap_size * widest
         {
             let joined = Level {
-                name: format!(
-                    "GB 50011, intensities 7 to 9: {:.0} to {:.0} mm",
-                    first.value, last.value
+                name: message::gb50011_of_intensities(
+                    format_args!("{:.0}", first.value),
+                    format_args!("{:.0}", last.value),
                 ),
                 value: first.value,
             };
             codes = vec![joined];
         }
         Some(Section {
-            title: "Required gap".into(),
-            remark: "Needed: the smallest gap of this study without an impact and without one at any wider gap. ABS, SRSS and DDC come from the peak displacements of cases without contact, at the highest floors that face each other; where even the widest gap is closed there is nothing to show.".into(),
+            title: message::required_gap().into(),
+            remark: message::needed_gap_and_rules().into(),
             charts: vec![Chart {
-                title: "Smallest gap without pounding, and rules".into(),
+                title: message::smallest_gap_and_rules().into(),
                 x: axis,
                 y: gap_axis,
                 series,

@@ -1,6 +1,7 @@
 //! Which factors matter: Sobol indices, elementary effects, tornado.
 
 use jostle_io::{DesignKind, Values};
+use jostle_report::message;
 use jostle_report::{Axis, Bar, Bars, Section};
 
 use super::{Results, words};
@@ -115,7 +116,7 @@ impl Results<'_> {
                 title: axis.name.clone(),
                 value: if kind == DesignKind::Saltelli {
                     Axis {
-                        name: "share of the variance".into(),
+                        name: message::share_of_the_variance().into(),
                         unit: String::new(),
                     }
                 } else {
@@ -160,24 +161,23 @@ impl Results<'_> {
             (format!("{}_lower", legend[1]), limit(1, 0)),
             (format!("{}_upper", legend[1]), limit(1, 1)),
         ];
-        self.write("sensitivity", "how much every factor matters", columns)?;
+        self.write("sensitivity", message::how_much_factors_matter(), columns)?;
         let mut remark = match kind {
-            DesignKind::Saltelli => "Shares of the variance (Sobol indices): by itself, and together with all others; lines are 90 % limits of resampled estimates.".to_owned(),
-            DesignKind::Morris => "Elementary effects of moving a factor over its range (Morris): mean of absolute values, and standard deviation, which shows interactions and curvature.".to_owned(),
-            _ => format!(
-                "Tornado: every factor by itself at its {:.0} % and {:.0} % quantile, the others in the middle.",
-                100.0 * file.design.quantiles[0],
-                100.0 * file.design.quantiles[1]
-            ),
+            DesignKind::Saltelli => message::sobol_indices_remark().to_owned(),
+            DesignKind::Morris => message::morris_remark().to_owned(),
+            _ => {
+                let [low, high] = file
+                    .design
+                    .quantiles
+                    .map(|share| format!("{:.0}", 100.0 * share));
+                message::tornado_remark(low, high)
+            }
         };
         if !silent.is_empty() {
-            remark += &format!(
-                " Nothing to rank in {}: it does not vary, or is absent.",
-                silent.join(", ")
-            );
+            remark += &message::nothing_to_rank_in(silent.join(", "));
         }
         Ok(Some(Section {
-            title: "Sensitivity".into(),
+            title: message::sensitivity_of_results().into(),
             remark,
             bars,
             ..Section::default()

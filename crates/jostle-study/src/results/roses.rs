@@ -1,6 +1,7 @@
 //! Results over the angle of incidence: roses, and the worst angle of every quantity.
 
 use jostle_io::Values;
+use jostle_report::message;
 use jostle_report::{Axis, Petal, Rose, Section};
 
 use super::{Results, words};
@@ -119,7 +120,7 @@ impl Results<'_> {
         }
         self.write(
             "worst_angles",
-            "greatest and least value over the angle, quantity by quantity",
+            message::greatest_and_least_over_angle(),
             table(&curves),
         )?;
         self.say_worst(&curves);
@@ -192,8 +193,8 @@ impl Results<'_> {
             });
         }
         Ok(Some(Section {
-            title: "Over the angle of incidence".into(),
-            remark: "The angle counts counter-clockwise from x to the direction of the motion, seen from above; the distance from the middle is the value. Filled dots mark the worst angle. Dashed: the same buildings without contact.".into(),
+            title: message::over_the_angle().into(),
+            remark: message::angles_of_roses().into(),
             roses: roses.into_iter().map(|(_, rose)| rose).collect(),
             table: Some(rows(&curves, groups.len() > 1)),
             ..Section::default()
@@ -236,11 +237,11 @@ impl Results<'_> {
             "" => String::new(),
             group => format!(" ({group})"),
         };
-        self.said.push(format!(
-            "The worst angle for the contact force is {}°{group}; over all angles the greatest force is between {:.0} and {:.0} kN.",
+        self.said.push(message::worst_angle_is(
             degrees(*angle),
-            1e-3 * least.1,
-            1e-3 * force
+            group,
+            format_args!("{:.0}", 1e-3 * least.1),
+            format_args!("{:.0}", 1e-3 * force),
         ));
     }
 }
@@ -264,19 +265,24 @@ fn parts(column: &str) -> (&str, &str) {
 /// A quantity as the title of its rose.
 fn name_of(axis: &Axis) -> String {
     let plain = axis.name.replacen(" without contact", "", 1);
-    match &plain[..] {
-        "greatest force" => "Greatest contact force".into(),
-        "impacts" => "Number of impacts".into(),
-        "closing" => "Smallest gap without pounding".into(),
-        "corner displacement peak" => "Greatest displacement of a corner".into(),
-        "rotation peak" => "Greatest rotation of a floor".into(),
-        "drift peak" => "Greatest storey drift along x".into(),
-        "drift across peak" => "Greatest storey drift across".into(),
-        "base shear peak" => "Greatest base shear along x".into(),
-        "base shear across peak" => "Greatest base shear across".into(),
-        "base torque peak" => "Greatest base torque".into(),
-        other => {
-            let mut letters = other.chars();
+    if plain == message::greatest_force_axis() {
+        return message::greatest_contact_force_title().into();
+    }
+    if plain == message::impacts_axis() {
+        return message::number_of_impacts_title().into();
+    }
+    // Others are names of columns.
+    match &plain.replace(' ', "_")[..] {
+        "closing" => message::smallest_gap_title().into(),
+        "corner_displacement_peak" => message::corner_displacement_title().into(),
+        "rotation_peak" => message::floor_rotation_title().into(),
+        "drift_peak" => message::drift_along_title().into(),
+        "drift_across_peak" => message::drift_across_title().into(),
+        "base_shear_peak" => message::base_shear_along_title().into(),
+        "base_shear_across_peak" => message::base_shear_across_title().into(),
+        "base_torque_peak" => message::base_torque_title().into(),
+        _ => {
+            let mut letters = plain.chars();
             let first = letters.next().map(|c| c.to_uppercase().to_string());
             first.unwrap_or_default() + letters.as_str()
         }
@@ -286,19 +292,19 @@ fn name_of(axis: &Axis) -> String {
 /// Heads and rows of the table on the page.
 fn rows(curves: &[Curve], several: bool) -> (Vec<String>, Vec<Vec<String>>) {
     let mut heads: Vec<String> = [
-        "quantity",
-        "of",
-        "greatest",
-        "at",
-        "case",
-        "least",
-        "at",
-        "greatest ÷ mean",
+        message::quantity_head(),
+        message::of_head(),
+        message::greatest_head(),
+        message::at_head(),
+        message::case_head(),
+        message::least_head(),
+        message::at_head(),
+        message::greatest_over_mean_head(),
     ]
     .map(str::to_owned)
     .to_vec();
     if several {
-        heads.insert(2, "with".into());
+        heads.insert(2, message::with_head().into());
     }
     let row = |curve: &Curve| {
         let (worst, least) = (curve.worst()?, curve.least()?);
@@ -315,7 +321,7 @@ fn rows(curves: &[Curve], several: bool) -> (Vec<String>, Vec<Vec<String>>) {
             format!("{text} {}", axis.unit).trim_end().to_owned()
         };
         let free = match is_free(&curve.column) {
-            true => ", without contact",
+            true => message::and_without_contact(),
             false => "",
         };
         let mean = curve.mean();
@@ -324,7 +330,11 @@ fn rows(curves: &[Curve], several: bool) -> (Vec<String>, Vec<Vec<String>>) {
         } else {
             "–".into()
         };
-        let owner = if owner.is_empty() { "all gaps" } else { owner };
+        let owner = if owner.is_empty() {
+            message::all_gaps_owner()
+        } else {
+            owner
+        };
         let mut row = vec![
             format!("{}{free}", name_of(&axis)),
             owner.to_owned(),

@@ -9,6 +9,7 @@ use jostle_motion::{
     Accelerogram, Candidate, MainPeriod, MotionFault, Origin, SelectionCode, check_selection,
     recipe,
 };
+use jostle_report::message;
 use jostle_report::{CheckedStructure, Section, selection_sections};
 use serde_json::json;
 
@@ -138,20 +139,15 @@ impl Results<'_> {
                     .collect();
                 let clause = SelectionCode::from_target(&wanted.target).clause();
                 self.said.push(match &failed[..] {
-                    [] => format!("The records meet what is checked of {clause}."),
-                    [""] => format!("The records do not meet {clause}."),
-                    names => {
-                        format!(
-                            "The records do not meet {clause}, for {}.",
-                            names.join(", ")
-                        )
-                    }
+                    [] => message::records_meet_clause(clause),
+                    [""] => message::records_miss_clause(clause),
+                    names => message::records_miss_clause_for(clause, names.join(", ")),
                 });
                 Ok(sections)
             }
             Err(reason) => Ok(vec![Section {
-                title: "Selection of ground motions".into(),
-                remark: format!("The records cannot be held against the code: {reason}."),
+                title: message::selection_of_motions().into(),
+                remark: message::records_cannot_be_checked(reason),
                 ..Section::default()
             }]),
         }
@@ -210,7 +206,7 @@ impl Results<'_> {
         });
         let path = self.folder.join("selection.json");
         write_atomically(&path, format!("{value:#}\n").as_bytes())?;
-        let what = "the choice of records, as jostle motion select --json says it";
+        let what = message::choice_of_records_file();
         self.files.push(("selection.json".into(), what.into()));
 
         let mut texts: [Vec<String>; 3] = Default::default();
@@ -258,7 +254,7 @@ impl Results<'_> {
         let columns = columns.map(|(name, values)| (name.to_owned(), values));
         self.write(
             "selection",
-            "response of every record over the code, at every main period",
+            message::response_over_code_file(),
             columns.collect(),
         )
     }
@@ -283,23 +279,19 @@ fn scaling(wanted: &SelectionWanted, records: &[Named]) -> (Peak, String) {
     let to = |peak: f64, whose: &str| {
         (
             Peak::To(peak),
-            format!(
-                "Every motion is scaled to {:.1} cm/s², {whose}.",
-                100.0 * peak
-            ),
+            message::motions_scaled_to(format_args!("{:.1}", 100.0 * peak), whose),
         )
     };
     match wanted.scaling {
-        SelectionScaling::Peak(peak) => to(peak, "as the study asks"),
-        SelectionScaling::Code if matched => (
-            Peak::AsModel,
-            "Every motion is scaled as the model matches it.".into(),
-        ),
+        SelectionScaling::Peak(peak) => to(peak, message::as_the_study_asks()),
+        SelectionScaling::Code if matched => {
+            (Peak::AsModel, message::motions_scaled_as_matched().into())
+        }
         SelectionScaling::Code => match wanted.target.peak_ground_acceleration() {
-            Some(peak) => to(peak, "the peak of the code for time histories"),
-            None => (Peak::AsRecorded, "The motions are as recorded.".into()),
+            Some(peak) => to(peak, message::peak_of_the_code()),
+            None => (Peak::AsRecorded, message::motions_as_recorded().into()),
         },
-        SelectionScaling::AsRecorded => (Peak::AsRecorded, "The motions are as recorded.".into()),
+        SelectionScaling::AsRecorded => (Peak::AsRecorded, message::motions_as_recorded().into()),
     }
 }
 
@@ -346,7 +338,7 @@ fn structures_of(
     let usual = || study.tree(&study.usual_choices()).ok()?.input().ok();
     // Keys missing in the model are set only by the values of the study.
     let input = study.file.base.input().ok().or_else(usual);
-    let input = input.ok_or("the base model cannot be read")?;
+    let input = input.ok_or_else(message::base_model_cannot_be_read)?;
     let system = System::assemble(&input.model).map_err(|f| input.faults(f).to_string())?;
     let of = |building: &jostle::system::BuildingSystem| {
         let mut moved = 0.0;

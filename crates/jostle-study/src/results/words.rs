@@ -4,6 +4,7 @@ use std::path::Path;
 
 use jostle_io::DesignKind;
 use jostle_report::Axis;
+use jostle_report::message;
 
 /// Endings of column names: the size of the display unit, and its name.
 const UNITS: [(&str, f64, &str); 10] = [
@@ -24,7 +25,7 @@ pub(super) fn axis(column: &str) -> (Axis, f64) {
     let column = column.trim_start_matches("input.");
     if matches!(column, "angle_rad" | "motion.angle" | "motion.angle_rad") {
         let axis = Axis {
-            name: "angle of incidence".into(),
+            name: message::angle_of_incidence_axis().into(),
             unit: "°".into(),
         };
         return (axis, 1.0_f64.to_degrees());
@@ -43,11 +44,11 @@ pub(super) fn axis(column: &str) -> (Axis, f64) {
         None => (column, 1.0, ""),
     };
     let name = match plain {
-        "peak_force" => "greatest force".into(),
-        "impact_count" => "impacts".into(),
-        "first_impact" => "first impact".into(),
-        "closing_peak" => "greatest closing".into(),
-        "pga" | "motion.pga" => "peak ground acceleration".into(),
+        "peak_force" => message::greatest_force_axis().into(),
+        "impact_count" => message::impacts_axis().into(),
+        "first_impact" => message::first_impact_axis().into(),
+        "closing_peak" => message::greatest_closing_axis().into(),
+        "pga" | "motion.pga" => message::peak_ground_acceleration_axis().into(),
         other => other.replace('_', " "),
     };
     let axis = Axis {
@@ -60,14 +61,14 @@ pub(super) fn axis(column: &str) -> (Axis, f64) {
 /// A design in words.
 pub(super) fn design(kind: DesignKind) -> &'static str {
     match kind {
-        DesignKind::Factorial => "every combination",
-        DesignKind::Zipped => "side by side",
-        DesignKind::LatinHypercube => "Latin hypercube",
-        DesignKind::Sobol => "Sobol sequence",
-        DesignKind::Random => "random draws",
-        DesignKind::Saltelli => "Saltelli, for Sobol indices",
-        DesignKind::Morris => "Morris trajectories",
-        DesignKind::OneAtATime => "one at a time",
+        DesignKind::Factorial => message::every_combination(),
+        DesignKind::Zipped => message::side_by_side(),
+        DesignKind::LatinHypercube => message::latin_hypercube(),
+        DesignKind::Sobol => message::sobol_sequence(),
+        DesignKind::Random => message::random_draws(),
+        DesignKind::Saltelli => message::saltelli_for_sobol(),
+        DesignKind::Morris => message::morris_trajectories(),
+        DesignKind::OneAtATime => message::one_at_a_time(),
     }
 }
 

@@ -1,5 +1,6 @@
 //! The page of a search: the best trial, what it costs to keep more or less, how the search went.
 
+use jostle_report::message;
 use jostle_report::{Axis, Chart, Level, Section, Series, Stroke, StudyPage, render_study};
 
 use super::text::{number, rounded, shown};
@@ -31,16 +32,16 @@ impl SizeResults {
     #[must_use]
     pub fn page(&self) -> String {
         let mut facts = vec![
-            ("minimised".to_owned(), self.objective.text.clone()),
-            ("trials".into(), self.trials.len().to_string()),
-            ("seed".into(), self.seed.to_string()),
+            (message::minimised().to_owned(), self.objective.text.clone()),
+            (message::trials_word().into(), self.trials.len().to_string()),
+            (message::seed_word().into(), self.seed.to_string()),
         ];
         for condition in &self.conditions {
-            facts.insert(1, ("kept".into(), condition.text.clone()));
+            facts.insert(1, (message::kept_word().into(), condition.text.clone()));
         }
         if self.records.len() > 1 {
             let records = format!("{}, {}", self.records.len(), self.over);
-            facts.push(("records".into(), records));
+            facts.push((message::records_fact().into(), records));
         }
         let mut sections = Vec::new();
         for index in 0..self.conditions.len() {
@@ -50,7 +51,7 @@ impl SizeResults {
         sections.push(self.over_inputs());
         sections.push(self.table());
         render_study(&StudyPage {
-            kind: "Sizing".into(),
+            kind: message::kind_of_sizing().into(),
             title: self.title.clone(),
             headline: self.headline(),
             facts,
@@ -61,12 +62,12 @@ impl SizeResults {
             files: vec![
                 (
                     "size.json".into(),
-                    "the best trial and the trade-offs".into(),
+                    message::best_trial_and_trade_offs().into(),
                 ),
-                ("trials.parquet".into(), "one row per trial".into()),
+                ("trials.parquet".into(), message::one_row_per_trial().into()),
                 (
                     "trials.journal".into(),
-                    "finished trials, from which the same command goes on".into(),
+                    message::finished_trials_to_go_on_from().into(),
                 ),
             ],
             ..StudyPage::default()
@@ -84,8 +85,8 @@ impl SizeResults {
                 .collect()
         };
         let both = [
-            ("misses a condition", false, colour[1]),
-            ("keeps all", true, colour[0]),
+            (message::misses_a_condition(), false, colour[1]),
+            (message::keeps_all(), true, colour[0]),
         ];
         both.into_iter()
             .map(|(name, keeps, colour)| series(name, points(keeps), Stroke::Dots, colour))
@@ -104,16 +105,15 @@ impl SizeResults {
             .iter()
             .map(|[left, objective]| [own * left, size * objective]);
         let mut all = self.dots(|trial| Some(own * trial.kept[index]?), [0, 6]);
-        all.push(series("least", front.collect(), Stroke::Dotted, 1));
+        all.push(series(
+            message::least_of_front(),
+            front.collect(),
+            Stroke::Dotted,
+            1,
+        ));
         Section {
-            title: format!(
-                "Trade-off: {} against {}",
-                self.objective.text, condition.left.text
-            ),
-            remark: format!(
-                "The line joins trials that no other beats in both. Kept: {}.",
-                condition.text
-            ),
+            title: message::trade_off_against(&self.objective.text, &condition.left.text),
+            remark: message::line_joins_unbeaten_trials(&condition.text),
             charts: vec![Chart {
                 title: String::new(),
                 x: axis(&condition.left.text, &condition.left.suffix),
@@ -147,14 +147,14 @@ impl SizeResults {
             value: size * best,
         });
         Section {
-            title: "Course of the search".into(),
-            remark: "The least objective among the trials so far that keep all conditions.".into(),
+            title: message::course_of_the_search().into(),
+            remark: message::least_objective_so_far().into(),
             charts: if points.len() < 2 {
                 Vec::new()
             } else {
                 vec![Chart {
                     title: String::new(),
-                    x: axis("trial", ""),
+                    x: axis(message::trial_axis(), ""),
                     y: axis(&self.objective.text, &self.objective.suffix),
                     series: vec![series("", points, Stroke::Line, 0)],
                     levels: levels.into_iter().collect(),
@@ -188,7 +188,7 @@ impl SizeResults {
                 }
             });
         Section {
-            title: "Objective over the varied keys".into(),
+            title: message::objective_over_varied_keys().into(),
             remark: String::new(),
             charts: charts.collect(),
             ..Section::default()
@@ -218,7 +218,7 @@ impl SizeResults {
         });
         let rows: Vec<Vec<String>> = rows.collect();
         Section {
-            title: "The best trials".into(),
+            title: message::best_trials().into(),
             table: (!rows.is_empty()).then_some((heads, rows)),
             ..Section::default()
         }

@@ -2,6 +2,7 @@
 
 use jostle::{GroundMotion, Wave};
 use jostle_motion::{Accelerogram, Reading, response_spectrum, spaced_periods};
+use jostle_report::message;
 use jostle_report::{Axis, Chart, Section, Series, Stroke, SuitePage, SuiteRow, render_suite};
 use serde_json::Value;
 
@@ -19,7 +20,7 @@ const NEUTRAL: usize = 6;
 
 /// A peak of floors over the height.
 struct Peak {
-    title: &'static str,
+    title: fn() -> &'static str,
     unit: &'static str,
     factor: f64,
     /// Whether it belongs to the storey below the floor.
@@ -29,28 +30,28 @@ struct Peak {
 
 const PEAKS: [Peak; 4] = [
     Peak {
-        title: "Peak displacement",
+        title: message::peak_displacement_over_height,
         unit: "mm",
         factor: 1e3,
         of_storey: false,
         of: displacement,
     },
     Peak {
-        title: "Peak storey drift",
+        title: message::peak_storey_drift_over_height,
         unit: "%",
         factor: 100.0,
         of_storey: true,
         of: |floor| floor["storey_drift_peak"].as_f64(),
     },
     Peak {
-        title: "Peak total acceleration",
+        title: message::peak_total_acceleration_over_height,
         unit: "m/s²",
         factor: 1.0,
         of_storey: false,
         of: |floor| floor["total_acceleration_peak_m_s2"].as_f64(),
     },
     Peak {
-        title: "Peak storey shear",
+        title: message::peak_storey_shear_over_height,
         unit: "kN",
         factor: 1e-3,
         of_storey: true,
@@ -73,8 +74,8 @@ impl SuiteResults {
                 let name = building["name"].as_str().unwrap_or_default();
                 let charts = PEAKS.iter().map(|peak| over_height(&done, index, peak));
                 sections.push(Section {
-                    title: format!("{name}: peaks over the height"),
-                    remark: "Thin: records. Heavy: their mean. Dashed: mean plus and minus one standard deviation. With dots: mean of the runs without contact.".into(),
+                    title: message::peaks_over_height(name),
+                    remark: message::thin_records_heavy_mean().into(),
                     charts: charts.flatten().collect(),
                     ..Section::default()
                 });
@@ -92,9 +93,9 @@ impl SuiteResults {
             files: vec![
                 (
                     "suite.json".into(),
-                    "all quantities of all records, with statistics and governing values".into(),
+                    message::all_quantities_of_all_records().into(),
                 ),
-                ("suite.parquet".into(), "one row per record".into()),
+                ("suite.parquet".into(), message::one_row_per_record().into()),
             ],
         })
     }
@@ -173,7 +174,13 @@ impl SuiteResults {
             series.push(line(&periods, values, Stroke::Thin, 0, ""));
         }
         mean.iter_mut().for_each(|sum| *sum /= count);
-        series.push(line(&periods, &mean, Stroke::Heavy, 0, "mean"));
+        series.push(line(
+            &periods,
+            &mean,
+            Stroke::Heavy,
+            0,
+            message::mean_of_records(),
+        ));
         if let Some((target, _)) = target {
             let [first, last] = target.range();
             let points = periods
@@ -183,16 +190,16 @@ impl SuiteResults {
                 .filter_map(|period| Some([*period, target.acceleration(*period, damping).ok()?]));
             series.push(Series {
                 points: points.collect(),
-                ..line(&[], &[], Stroke::Dashed, 1, "code")
+                ..line(&[], &[], Stroke::Dashed, 1, message::spectrum_of_code())
             });
         }
         Some(Section {
-            title: "Spectra of the motions".into(),
-            remark: "As used in the runs, scaled. Thin: records. Heavy: their mean.".into(),
+            title: message::spectra_of_motions().into(),
+            remark: message::spectra_as_used().into(),
             charts: vec![Chart {
-                title: format!("Pseudo-acceleration, {:.0} % damping", 100.0 * damping),
-                x: axis("period", "s"),
-                y: axis("pseudo-acceleration", "m/s²"),
+                title: message::pseudo_acceleration_damped(format_args!("{:.0}", 100.0 * damping)),
+                x: axis(message::period_axis(), "s"),
+                y: axis(message::pseudo_acceleration_axis(), "m/s²"),
                 series,
                 levels: Vec::new(),
                 reach: 0.0,
@@ -275,7 +282,12 @@ fn over_height(runs: &[&Value], building: usize, peak: &Peak) -> Option<Chart> {
         series.push(drawn(&edge(1.0), Stroke::Dashed, NEUTRAL, ""));
         series.push(drawn(&edge(-1.0), Stroke::Dashed, NEUTRAL, ""));
     }
-    series.push(drawn(&mean, Stroke::Heavy, building, "mean"));
+    series.push(drawn(
+        &mean,
+        Stroke::Heavy,
+        building,
+        message::mean_of_records(),
+    ));
     let apart = values(true);
     if !apart.is_empty() {
         let (mean, _) = mean_and_deviation(&apart);
@@ -283,13 +295,13 @@ fn over_height(runs: &[&Value], building: usize, peak: &Peak) -> Option<Chart> {
             &mean,
             Stroke::Dotted,
             NEUTRAL,
-            "mean without contact",
+            message::mean_without_contact(),
         ));
     }
     Some(Chart {
-        title: peak.title.into(),
-        x: axis(&peak.title.to_lowercase(), peak.unit),
-        y: axis("height", "m"),
+        title: (peak.title)().into(),
+        x: axis(&(peak.title)().to_lowercase(), peak.unit),
+        y: axis(message::height_axis(), "m"),
         series,
         levels: Vec::new(),
         reach: 0.0,
