@@ -715,6 +715,10 @@ fn joints_are_in_equilibrium_while_yielding_frames_pound() {
     model.analysis.members = MemberRequest::all();
     let assembled = System::assemble(&model).unwrap_or_else(|faults| panic!("{faults:?}"));
     for (index, name) in ["A", "B"].into_iter().enumerate() {
+        // Every hinge is listed once, by its member, end and axis.
+        let places = &assembled.buildings[index].discretization.spring_places;
+        let again = |place| places.iter().filter(|other| *other == place).count();
+        assert!(places.iter().all(|place| again(place) == 1), "{places:?}");
         let own = assembled.buildings[index].members.members.iter();
         let names = own.map(|member| format!("{name}.{}", member.place));
         model.analysis.members.histories.extend(names);
