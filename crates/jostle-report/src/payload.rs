@@ -5,6 +5,7 @@ use jostle::model::{Building, Gap, Model, Structure};
 use jostle::motion::{GroundMotion, Wave};
 use jostle::results::summary::{ContactSummary, SpringSummary, Summary};
 use jostle::structure::SpringPlace;
+use jostle::model::LumpedFloor;
 use jostle::{SpaceFrame, SpaceMember, SpacePlace};
 use serde::Serialize;
 
@@ -456,17 +457,18 @@ fn outline(building: &Building) -> Outline<'_> {
     };
     let plans = match &building.structure {
         Structure::Tiers(tiers) => {
-            let plan = |floor: &jostle::Tier| PlanData {
-                corners: floor.plan.clone(),
-                centre: floor.centre,
+            // Motions are those of the centre of all masses.
+            let plan = |floor: LumpedFloor| PlanData {
+                corners: floor.tier.plan,
+                centre: floor.tier.centre,
             };
-            tiers.floors.iter().map(plan).collect()
+            tiers.lumped_floors().into_iter().map(plan).collect()
         }
         Structure::Frame(_) | Structure::Shear(_) | Structure::Given(_) => Vec::new(),
     };
-    let mat = match &building.structure {
-        Structure::Tiers(tiers) if building.base.isolation.is_some() => {
-            let mat = tiers.mat(0.0).tier;
+    let mat = match (&building.structure, building.base.isolation) {
+        (Structure::Tiers(tiers), Some(isolation)) => {
+            let mat = tiers.mat(isolation.mat_mass).tier;
             Some(PlanData {
                 corners: mat.plan,
                 centre: mat.centre,

@@ -11,12 +11,13 @@ pub(crate) fn point_motion(
     (building, floor): (usize, usize),
     point: PlanPoint,
 ) -> Option<[Vec<f64>; 2]> {
-    let Structure::Tiers(tiers) = &model.buildings.get(building)?.structure else {
+    let own = model.buildings.get(building)?;
+    let Structure::Tiers(tiers) = &own.structure else {
         return None;
     };
     let centre = match floor.checked_sub(1) {
-        Some(index) => tiers.floors.get(index)?.centre,
-        None => tiers.mat(0.0).tier.centre,
+        Some(index) => tiers.lumped_floors().get(index)?.tier.centre,
+        None => tiers.mat(own.base.isolation?.mat_mass).tier.centre,
     };
     let arm = [point[0] - centre[0], point[1] - centre[1]];
     let turn = history.column(Column::Rotation { building, floor })?;

@@ -66,10 +66,13 @@ pub(super) fn check_isolation(faults: &mut Faults, path: &str, building: &Buildi
 /// What bearings of a building with a plan cannot do.
 fn check_isolation_in_plan(faults: &mut Faults, path: &str, isolation: &Isolation, tiers: &Tiers) {
     let own = format!("{path}.isolation");
-    let has_frames = !tiers.frames.is_empty() || tiers.space_frame.is_some();
-    faults.require(!has_frames, own.as_str(), || {
-        "is not possible yet under frames with a plan: only storey springs and elements stand on a mat there; give stiffness or [[building.element]] instead of frames, or leave it out".into()
-    });
+    for (frame_path, frame) in each(&tiers.frames, "frame") {
+        faults.require(
+            frame.base.is_fixed(),
+            format!("{path}.{frame_path}.base"),
+            || "cannot stand beside isolation: columns are fixed to the mat; leave out base".into(),
+        );
+    }
     if let Isolator::Pendulum { friction, .. } = isolation.isolator {
         faults.require(friction.is_constant(), format!("{own}.friction"), || {
             "cannot change with speed under a building with a plan yet; give one coefficient, such as friction = 0.05".into()

@@ -17,21 +17,19 @@ impl LumpedFloor {
 }
 
 impl Tiers {
-    /// A mat of this mass \[kg\] under the building: spread evenly over the plan of the lowest floor.
+    /// A mat of this mass \[kg\] under the building: spread evenly over the plan of the lowest floor. The feet of plane frames add
+    /// their masses.
     #[must_use]
     pub fn mat(&self, mass: f64) -> LumpedFloor {
         let plan = self.floors.first().map(|floor| floor.plan.clone());
         let plan = plan.unwrap_or_default();
         let area = PlanArea::new(&plan);
-        LumpedFloor {
-            tier: Tier {
-                mass,
-                polar_mass: mass * area.gyration(),
-                centre: area.centroid,
-                plan,
-            },
-            one_way: [0.0; 2],
-        }
+        self.with_feet(&Tier {
+            mass,
+            polar_mass: mass * area.gyration(),
+            centre: area.centroid,
+            plan,
+        })
     }
 
     /// Places of the bearings: those given, otherwise four at c ± r₁e₁ ± r₂e₂, c, e and r being centroid, principal axes and radii of

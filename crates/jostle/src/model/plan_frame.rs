@@ -195,8 +195,21 @@ impl Tiers {
     /// frames share counts once.
     #[must_use]
     pub fn lumped_floors(&self) -> Vec<LumpedFloor> {
+        let masses = self.level_masses();
+        let floors = self.floors.iter().zip(&masses[1..]);
+        floors.map(|(floor, masses)| masses.on(floor)).collect()
+    }
+
+    /// A mat with the masses of the feet of frames that stand on it. As floors, they take half of the lowest segments of columns, and
+    /// their share of what columns move out of the plane of their frame.
+    pub(super) fn with_feet(&self, mat: &Tier) -> LumpedFloor {
+        self.level_masses()[0].on(mat)
+    }
+
+    /// Point masses of frames on what they stand, then on every floor.
+    fn level_masses(&self) -> Vec<FloorMasses> {
         let shared = self.shared_columns();
-        let mut masses = vec![FloorMasses::default(); self.floors.len()];
+        let mut masses = vec![FloorMasses::default(); 1 + self.floors.len()];
         for (index, frame) in self.frames.iter().enumerate() {
             let doubled = |line: usize| {
                 let mut columns = shared.iter();
@@ -208,8 +221,7 @@ impl Tiers {
             };
             frame.add_masses(&mut masses, doubled, crossed);
         }
-        let floors = self.floors.iter().zip(&masses);
-        floors.map(|(floor, masses)| masses.on(floor)).collect()
+        masses
     }
 
     /// Total mass of the columns between floors, which the floors do not include, counted once \[kg\].
@@ -254,7 +266,7 @@ impl Tiers {
     }
 }
 
-/// Point masses that a floor carries: both ways, along x alone, across alone.
+/// Point masses that a floor or a mat carries: both ways, along x alone, across alone.
 #[derive(Clone, Debug, Default)]
 struct FloorMasses([Vec<(f64, PlanPoint)>; 3]);
 
@@ -262,11 +274,11 @@ struct FloorMasses([Vec<(f64, PlanPoint)>; 3]);
 const BOTH_WAYS: usize = 0;
 
 impl PlanFrame {
-    /// Adds its lumped masses to those of the floors. `doubled`: column lines that another frame counts; `crossed`: those that
+    /// Adds its lumped masses to those of the levels, the first of which is what it stands on. `doubled`: column lines that another frame counts; `crossed`: those that
     /// another frame holds out of the plane of this one.
     fn add_masses(
         &self,
-        floors: &mut [FloorMasses],
+        levels: &mut [FloorMasses],
         doubled: impl Fn(usize) -> bool,
         crossed: impl Fn(usize) -> bool,
     ) {
@@ -284,30 +296,30 @@ impl PlanFrame {
             1
         };
         let k = frame.column_segments.max(1);
-        for storey in 0..frame.storey_heights.len().min(floors.len()) {
+        for storey in 0..frame.storey_heights.len().min(levels.len() - 1) {
+            let (below, above) = (storey, storey + 1);
             let column = frame.columns.get(storey).map_or(0.0, |own| own.line_mass)
                 * frame.storey_heights[storey];
             for (line, along) in lines.iter().enumerate() {
                 let at = self.point_at(*along);
-                let mut add = |floor: Option<usize>, kind: usize, mass: f64| {
-                    if let Some(floor) = floor.filter(|_| mass > 0.0) {
-                        floors[floor].0[kind].push((mass, at));
+                let mut add = |level: usize, kind: usize, mass: f64| {
+                    if mass > 0.0 {
+                        levels[level].0[kind].push((mass, at));
                     }
                 };
-                let below = storey.checked_sub(1);
                 if !doubled(line) {
                     let end = 0.5 * column / k as f64;
                     add(below, BOTH_WAYS, end);
-                    add(Some(storey), BOTH_WAYS, end);
+                    add(above, BOTH_WAYS, end);
                 }
                 let floor_mass = frame.floor_mass.get(storey).copied();
                 let joint = floor_mass.unwrap_or(0.0) / lines.len() as f64;
-                add(Some(storey), BOTH_WAYS, joint);
+                add(above, BOTH_WAYS, joint);
                 if !crossed(line) {
                     for cut in 1..k {
                         let share = cut as f64 / k as f64;
                         add(below, out_of_plane, (1.0 - share) * column / k as f64);
-                        add(Some(storey), out_of_plane, share * column / k as f64);
+                        add(above, out_of_plane, share * column / k as f64);
                     }
                 }
             }
@@ -323,7 +335,7 @@ impl PlanFrame {
                     let along = lines[bay] + cut as f64 / segments as f64 * span;
                     let own = ends * mass / segments as f64;
                     if own > 0.0 {
-                        floors[storey].0[BOTH_WAYS].push((own, self.point_at(along)));
+                        levels[above].0[BOTH_WAYS].push((own, self.point_at(along)));
                     }
                 }
             }

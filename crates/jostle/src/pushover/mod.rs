@@ -267,24 +267,36 @@ impl PushedBuilding<'_> {
 
 /// Reason why a pushover is not possible.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the building has no floor with mass to push, or moves without resistance")]
-pub struct NothingToPush;
+pub enum CannotPush {
+    /// No load, or no resistance.
+    #[error("the building has no floor with mass to push, or moves without resistance")]
+    Nothing,
+    /// The path of equilibrium goes from corner to corner of the springs; forces that follow the direction of sliding have none.
+    #[error(
+        "bearings under a building with a plan that yield or slide in every direction, and their ring stop, have no pushover; remove isolation to push the building fixed on its mat, or take kind = \"linear\" without stop"
+    )]
+    BearingsInPlan,
+}
 
 /// Runs a pushover of a building from rest, under self weight if included, with prescribed roof displacement
 /// (theory, Eqs. X1 to X4).
 ///
 /// # Errors
-/// [`NothingToPush`].
+/// [`CannotPush`].
 pub fn pushover(
     building: &BuildingSystem,
     settings: PushSettings,
-) -> Result<Pushover, NothingToPush> {
+) -> Result<Pushover, CannotPush> {
+    let equations = &building.equations;
+    if equations.single_springs < equations.springs.len() {
+        return Err(CannotPush::BearingsInPlan);
+    }
     if let Some(alone) = building.without_neighbours() {
         return pushover(&alone, settings);
     }
-    let forces = settings.pattern.forces(building).ok_or(NothingToPush)?;
+    let forces = settings.pattern.forces(building).ok_or(CannotPush::Nothing)?;
     let sign = settings.direction.sign();
-    let roof = building.floors.last().ok_or(NothingToPush)?;
+    let roof = building.floors.last().ok_or(CannotPush::Nothing)?;
     let driven = roof.dof - building.offset;
     let pattern: Vec<f64> = forces.iter().map(|force| sign * force).collect();
     let mut push = Push {

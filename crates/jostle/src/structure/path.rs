@@ -225,9 +225,23 @@ fn node_order(stick_model: &StickModel) -> Vec<(usize, usize)> {
         (0, 2) => 1,
         _ => 2,
     };
+    // A mat couples all that stands on it: it comes after the joints of the lowest floor, just before that floor.
+    let under_frames = stick_model.plan_mat.as_ref();
+    let under_frames = under_frames.filter(|_| !stick_model.frame_nodes.is_empty());
+    let is_floor = |node: &usize| {
+        let of_frame = stick_model.frame_nodes.get(*node).is_some_and(Option::is_some);
+        !of_frame && nodes[*node].y > 0.0
+    };
+    let lowest = (0..nodes.len()).filter(is_floor);
+    let lowest = lowest.map(|node| nodes[node].y).min_by(f64::total_cmp);
+    let height = |node: usize| match (under_frames, lowest) {
+        (Some(mat), Some(lowest)) if mat.node == node => lowest,
+        _ => nodes[node].y,
+    };
     let by_height = |a: &usize, b: &usize| {
         let (p, q) = (&nodes[*a], &nodes[*b]);
-        p.y.total_cmp(&q.y).then(p.x.total_cmp(&q.x)).then(a.cmp(b))
+        let rise = height(*a).total_cmp(&height(*b));
+        rise.then(p.x.total_cmp(&q.x)).then(a.cmp(b))
     };
     let along_column = |a: &usize, b: &usize| {
         let (p, q) = (&nodes[*a], &nodes[*b]);

@@ -6,18 +6,20 @@ use super::discretization::{Discretization, discretize_frame};
 use super::element::{X, Y};
 use super::member_forces::FrameMember;
 use super::stick_model::{FrameNode, Node, StickModel, Support};
-use crate::model::{Frame, LEVEL_TOLERANCE, LumpedFloor, PlanFrame, Tiers};
+use crate::model::{Frame, LEVEL_TOLERANCE, LumpedFloor, PlanFrame, PlanPoint, Tiers};
 
 /// Distance between frames in the elevation that shows them side by side, so that no two column lines coincide \[m\].
 const APART: f64 = 1.0;
 
-/// Adds the frames of a building, whose ground and floors are the nodes of the stick model so far.
+/// Adds the frames of a building, whose ground, mat and floors are the nodes of the stick model so far. Feet are tied to the mat, if
+/// there is one, as joints are to floors.
 ///
 /// The nodes of frames stand side by side in one elevation; floors are moved behind them, so that a floor comes after all joints at
 /// its height in the transfer path.
 pub(super) fn add_frames(
     tiers: &Tiers,
     lumped: &[LumpedFloor],
+    mat: Option<(usize, &LumpedFloor)>,
     discretization: &mut Discretization,
 ) {
     if tiers.frames.is_empty() {
@@ -46,6 +48,7 @@ pub(super) fn add_frames(
             offset,
             floors: &floors,
             lumped,
+            mat: mat.map(|(node, own)| (node, own.tier.centre)),
             doubled: &doubled,
             light: &light,
         };
@@ -60,13 +63,15 @@ pub(super) fn add_frames(
         discretization.members.extend(members);
         offset += plan_frame.frame.spans.iter().sum::<f64>() + APART;
     }
-    for &floor in &floors {
-        sticks.nodes[floor].x = offset;
+    let mat = mat.into_iter();
+    let moving: Vec<_> = mat.chain(floors.iter().copied().zip(lumped)).collect();
+    for (node, _) in &moving {
+        sticks.nodes[*node].x = offset;
     }
-    for (floor, lumped) in floors.iter().zip(lumped) {
+    for (node, lumped) in &moving {
         for (component, mass) in [X, Y].into_iter().zip(lumped.one_way) {
             if mass > 0.0 {
-                sticks.one_way_masses.push((*floor, component, mass));
+                sticks.one_way_masses.push((*node, component, mass));
             }
         }
     }
@@ -88,6 +93,8 @@ struct Place<'a> {
     offset: f64,
     floors: &'a [usize],
     lumped: &'a [LumpedFloor],
+    /// Node and centre of the mat on which it stands.
+    mat: Option<(usize, PlanPoint)>,
     /// Column lines whose mass another frame counts, as distances from its first one \[m\].
     doubled: &'a [f64],
     /// The frame with columns that have no mass.
@@ -130,11 +137,19 @@ impl StickModel {
         let floor = place.floors[level];
         let on_floor = (node.y - height(&floor)).abs() <= LEVEL_TOLERANCE;
         let is_doubled = place.doubled.contains(&node.x);
+        let (carrier, centre) = match place.mat.filter(|_| node.y <= LEVEL_TOLERANCE) {
+            Some((mat, centre)) => (Some(mat), centre),
+            None => (
+                Some(floor).filter(|_| on_floor && node.support != Support::Fixed),
+                place.lumped[level].tier.centre,
+            ),
+        };
         FrameNode {
-            shares: place.plan_frame.shares(place.lumped[level].tier.centre),
-            floor: Some(floor).filter(|_| on_floor && node.support != Support::Fixed),
+            shares: place.plan_frame.shares(centre),
+            at_mat: place.mat.map_or([0.0; 3], |(_, centre)| place.plan_frame.shares(centre)),
+            floor: carrier,
             level,
-            counted_elsewhere: on_floor || is_doubled,
+            counted_elsewhere: carrier.is_some() || on_floor || is_doubled,
             vertical_mass: match is_doubled {
                 true => place.light.nodes[index].mass,
                 false => node.mass,

@@ -1,9 +1,10 @@
 //! The mat of an isolated building in plan, and its bearings.
 
 use super::discretization::{Discretization, Mat};
+use super::element::{Place, THETA, X, Y};
 use super::plan_matrix::{Part, PlanMatrix};
 use super::spring_place::SpringPlace;
-use super::stick_model::{PlanMat, Support};
+use super::stick_model::{Coupling, PlanMat, StickModel, Support};
 use crate::hysteresis::{CircularLaw, ForceRow, Hysteresis};
 use crate::model::{Isolation, LumpedFloor, PlanPoint, Tier, TierStorey, Tiers};
 
@@ -13,12 +14,12 @@ use crate::model::{Isolation, LumpedFloor, PlanPoint, Tier, TierStorey, Tiers};
 pub(super) fn put_on_mat(
     tiers: &Tiers,
     isolation: &Isolation,
-    mat: &Tier,
+    mat: &LumpedFloor,
     [ground, node]: [usize; 2],
     discretization: &mut Discretization,
 ) {
     let sticks = &mut discretization.stick_model;
-    let mass = sticks.nodes.iter().map(|own| own.mass).sum();
+    let mass = sticks.mass_once();
     let weight = isolation.weight_of(mass);
     let dashpot = isolation.dashpot(mass);
     let bearings = tiers.bearing_points();
@@ -38,7 +39,7 @@ pub(super) fn put_on_mat(
         let rows = Hysteresis::in_plan(CircularLaw::Ring, stop.stiffness, stop.at);
         rows.ok()
     });
-    let lumped = [LumpedFloor::rigid(mat)];
+    let lumped = [mat.clone()];
     let mut matrix = PlanMatrix::new(3);
     // Stiffness-proportional damping does not act on bearings.
     for (value, part) in [(-elastic, Part::Softening), (dashpot, Part::Dashpot)] {
@@ -63,7 +64,7 @@ pub(super) fn put_on_mat(
     }
     sticks.plan_mat = Some(PlanMat {
         node,
-        centre: mat.centre,
+        centre: mat.tier.centre,
         bearings,
         slider,
         ring,
@@ -78,9 +79,33 @@ pub(super) fn put_on_mat(
     });
 }
 
+impl StickModel {
+    /// Mass of all nodes, that of nodes that belong to a floor or to another frame as well counted once \[kg\].
+    fn mass_once(&self) -> f64 {
+        let nodes = self.nodes.iter().enumerate();
+        let own = nodes.filter(|(node, _)| match self.frame_nodes.get(*node) {
+            Some(Some(frame)) => !frame.counted_elsewhere,
+            _ => true,
+        });
+        own.map(|(_, node)| node.mass).sum()
+    }
+
+    /// Masses of a floor or a mat along x, across, and about its centre \[kg, kg, kg·m²\].
+    fn masses_in_plan(&self, node: usize) -> [f64; 3] {
+        let own = &self.nodes[node];
+        let mut masses = [own.mass, own.mass, own.rotary_inertia];
+        for &(at, component, mass) in &self.one_way_masses {
+            if at == node {
+                masses[component] += mass;
+            }
+        }
+        masses
+    }
+}
+
 impl Discretization {
-    /// Mass-proportional damping of the motion relative to the mat in plan: Tᵀ α M T instead of α M, with T q the motion of every
-    /// floor less that of the mat as a rigid body (theory, Eq. B6).
+    /// Mass-proportional damping of the motion relative to the mat in plan: Tᵀ α M T instead of α M, with T q the motion of everything
+    /// less that of the mat as a rigid body (theory, Eq. B6).
     pub(super) fn damp_relative_to_mat_in_plan(&mut self, alpha: f64) {
         let Some(mat) = self.stick_model.plan_mat.clone() else {
             return;
@@ -99,24 +124,69 @@ impl Discretization {
         };
         let mut couplings = Vec::new();
         let own = point(mat.node, mat.centre);
-        let moved = |floor: &LumpedFloor, factor: f64| TierStorey {
-            stiffness: [floor.tier.mass, floor.tier.mass, floor.tier.polar_mass]
+        let moved = |node: usize, centre: PlanPoint, factor: f64| TierStorey {
+            stiffness: self
+                .stick_model
+                .masses_in_plan(node)
                 .map(|mass| factor * mass),
-            centre: floor.tier.centre,
+            centre,
         };
         for (&floor, &centre) in self.floors.iter().zip(&self.centres) {
             let pair = [own.clone(), point(floor, centre)];
             let mut matrix = PlanMatrix::new(6);
-            matrix.add_storey(&pair, 1, &moved(&pair[1], alpha), Part::Dashpot);
+            matrix.add_storey(&pair, 1, &moved(floor, centre, alpha), Part::Dashpot);
             couplings.extend(matrix.couplings(ground, &[mat.node, floor]));
             let mut alone = PlanMatrix::new(3);
-            alone.add_storey(&pair[1..], 0, &moved(&pair[1], -alpha), Part::Dashpot);
+            alone.add_storey(&pair[1..], 0, &moved(floor, centre, -alpha), Part::Dashpot);
             couplings.extend(alone.couplings(ground, &[floor]));
         }
         let mut alone = PlanMatrix::new(3);
-        let pair = [own];
-        alone.add_storey(&pair, 0, &moved(&pair[0], -alpha), Part::Dashpot);
+        let of_mat = moved(mat.node, mat.centre, -alpha);
+        alone.add_storey(&[own], 0, &of_mat, Part::Dashpot);
         couplings.extend(alone.couplings(ground, &[mat.node]));
+        couplings.extend(self.between_floors_relative_to_mat(&mat, ground, alpha));
         self.stick_model.couplings.extend(couplings);
+    }
+
+    /// The same of the masses of columns between floors: α m (u − s·q)² − α m u², s being how far motions q of the mat move their line.
+    fn between_floors_relative_to_mat(
+        &self,
+        mat: &PlanMat,
+        ground: usize,
+        alpha: f64,
+    ) -> Vec<Coupling> {
+        let sticks = &self.stick_model;
+        let of_mat = [X, Y, THETA].map(|component| (mat.node, component));
+        let mut couplings = Vec::new();
+        let mut add = |ends: [Place; 2], dashpot: f64| {
+            if dashpot != 0.0 {
+                couplings.push(Coupling {
+                    ends,
+                    stiffness: 0.0,
+                    softening: 0.0,
+                    dashpot,
+                });
+            }
+        };
+        for (node, own) in sticks.frame_nodes.iter().enumerate() {
+            let (Some(own), value) = (own, alpha * sticks.nodes[node].mass) else {
+                continue;
+            };
+            if own.floor.is_some() || value == 0.0 {
+                continue;
+            }
+            let shares = own.at_mat;
+            let sum: f64 = shares.iter().sum();
+            // α m u² cancels. A coupling between two displacements is minus the entry of the matrix, one to the ground the sum of a row.
+            add([(ground, X), (node, X)], -value * sum);
+            for (index, (place, share)) in of_mat.into_iter().zip(shares).enumerate() {
+                add([(node, X), place], value * share);
+                add([(ground, X), place], value * share * (sum - 1.0));
+                for (other, of_other) in of_mat.into_iter().zip(shares).skip(index + 1) {
+                    add([place, other], -value * share * of_other);
+                }
+            }
+        }
+        couplings
     }
 }

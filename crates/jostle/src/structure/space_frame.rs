@@ -7,7 +7,8 @@
 use crate::linear::envelope::Envelope;
 use crate::model::{LumpedFloor, PlanPoint, SpaceFrame, SpacePlace, SpaceSection};
 
-/// A space frame over the motions of its floors: u_x, u_y and θ of every floor at its centre of mass, from the ground up.
+/// A space frame over the motions of the mat under it, if there is one, and of its floors: u_x, u_y and θ of each at its centre of mass,
+/// from the ground up.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CondensedFrame {
     /// Its columns and beams, in the order of the model.
@@ -215,12 +216,14 @@ fn chord_rotation(slope: f64, turned: &Deformation, chord: &Deformation) -> Defo
     own
 }
 
-/// The frame between floors with these centres \[m\].
+/// The frame between the ground or a mat and floors with these centres \[m\].
 pub(super) struct Assembly<'a> {
-    frame: &'a SpaceFrame,
-    heights: &'a [f64],
-    /// Centres of mass in the axes of the lines.
+    pub(super) frame: &'a SpaceFrame,
+    pub(super) heights: &'a [f64],
+    /// Centres of mass of all that moves in the axes of the lines, the mat first.
     centres: Vec<PlanPoint>,
+    /// Whether the first of them is a mat.
+    on_mat: bool,
     pub(super) joints: Joints,
 }
 
@@ -237,30 +240,41 @@ impl<'a> Assembly<'a> {
     pub(super) fn new(
         frame: &'a SpaceFrame,
         storey_heights: &'a [f64],
+        mat: Option<&LumpedFloor>,
         lumped: &[LumpedFloor],
     ) -> Self {
-        let centres = lumped
-            .iter()
-            .map(|floor| frame.from_site(floor.tier.centre));
+        let centres = mat.into_iter().chain(lumped);
+        let centres = centres.map(|floor| frame.from_site(floor.tier.centre));
         Self {
             frame,
             heights: storey_heights,
             centres: centres.collect(),
+            on_mat: mat.is_some(),
             joints: Joints::new(frame, lumped.len()),
         }
     }
 
-    /// Displacements of a joint; the ground is floor `None`.
+    /// Place of a floor among all that moves; what is below the floors is `None`, and does not move without a mat.
+    pub(super) fn moving(&self, floor: Option<usize>) -> Option<usize> {
+        match floor {
+            Some(floor) => Some(floor + usize::from(self.on_mat)),
+            None => self.on_mat.then_some(0),
+        }
+    }
+
+    /// Displacements of a joint; what is below the floors is `None`. A mat holds the feet of columns as the ground does, but moves and
+    /// turns about its vertical axis.
     fn end(&self, floor: Option<usize>, crossing: [usize; 2]) -> End {
-        let Some(floor) = floor else {
+        let Some(moving) = self.moving(floor) else {
             return End::default();
         };
-        let of_floor = |component: usize| Unknown::Floor(3 * floor + component);
+        let of_floor = |component: usize| Unknown::Floor(3 * moving + component);
         let [x, y] = [
-            self.frame.lines_x[crossing[0]] - self.centres[floor][0],
-            self.frame.lines_y[crossing[1]] - self.centres[floor][1],
+            self.frame.lines_x[crossing[0]] - self.centres[moving][0],
+            self.frame.lines_y[crossing[1]] - self.centres[moving][1],
         ];
-        let [rise, about_x, about_y] = self.joints.at(floor, crossing).map(|unknown| {
+        let joint = floor.map(|floor| self.joints.at(floor, crossing));
+        let [rise, about_x, about_y] = joint.unwrap_or_default().map(|unknown| {
             let own = unknown.map(|index| (Unknown::Joint(index), 1.0));
             own.into_iter().collect::<Deformation>()
         });
@@ -321,7 +335,7 @@ impl<'a> Assembly<'a> {
     }
 
     /// K_jj, factorised, and columns of −K_jf replaced by those of R. `None` if joints move without resistance.
-    fn joint_motions(&self, members: &[SpringMember], floors: usize) -> Option<Vec<Vec<f64>>> {
+    fn joint_motions(&self, members: &[SpringMember]) -> Option<Vec<Vec<f64>>> {
         let n = self.joints.count;
         let mut firsts: Vec<usize> = (0..n).collect();
         for_each_pair(members, |a, b, _| {
@@ -331,7 +345,7 @@ impl<'a> Assembly<'a> {
         });
         let mut matrix = Envelope::default();
         matrix.reset(firsts.into_iter());
-        let mut sides = vec![vec![0.0; n]; 3 * floors];
+        let mut sides = vec![vec![0.0; n]; 3 * self.centres.len()];
         for_each_pair(members, |a, b, value| match (a, b) {
             (Unknown::Joint(a), Unknown::Joint(b)) if b <= a => {
                 matrix.set(a, b, matrix.get(a, b) + value);
@@ -384,21 +398,21 @@ fn turn_row(row: &mut [f64], [c, s]: PlanPoint) {
     }
 }
 
-/// Condenses a frame to the motions of its floors; `None` if a joint moves without resistance.
+/// Condenses a frame to the motions of the mat under it and of its floors; `None` if a joint moves without resistance.
 pub(super) fn condense(
     frame: &SpaceFrame,
     storey_heights: &[f64],
+    mat: Option<&LumpedFloor>,
     lumped: &[LumpedFloor],
 ) -> Option<(LowerTriangle, CondensedFrame)> {
-    let floors = lumped.len();
-    let assembly = Assembly::new(frame, storey_heights, lumped);
+    let assembly = Assembly::new(frame, storey_heights, mat, lumped);
     let springs: Vec<SpringMember> = frame
         .members
         .iter()
         .map(|member| assembly.springs(member.place, &member.section, [None; 2]))
         .collect();
-    let motions = assembly.joint_motions(&springs, floors)?;
-    let order = 3 * floors;
+    let motions = assembly.joint_motions(&springs)?;
+    let order = 3 * assembly.centres.len();
     // D in the axes of the site.
     let row = |own: &Deformation| -> Vec<f64> {
         let mut row = vec![0.0; order];

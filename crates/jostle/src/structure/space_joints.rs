@@ -11,7 +11,7 @@ use super::element::{Place, THETA, X, Y};
 use super::space_frame::{Assembly, Deformation, SpringMember, Unknown, planes};
 use super::spring_place::{MemberEnd, SpringPlace};
 use super::stick_model::{DeformationElement, FrameNode, Hinge, Node, StickModel, Support};
-use crate::model::{LumpedFloor, PlanAxis, SpaceFrame, SpaceMember, SpacePlace};
+use crate::model::{PlanAxis, SpaceFrame, SpaceMember, SpacePlace};
 
 /// A column or a beam of a space frame with hinges, and its elements in the stick model.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,26 +50,26 @@ pub struct JointedFrame {
     pub joints: Vec<JointNodes>,
 }
 
-/// Adds a frame to a stick model whose `ground` and `floors` are nodes already; returns it with the places of its hinges.
+/// Adds a frame to a stick model in which the `ground` and all that moves, the mat and the floors, are nodes already; returns it with the
+/// places of its hinges.
 pub(super) fn add_space_joints(
-    frame: &SpaceFrame,
-    storey_heights: &[f64],
-    lumped: &[LumpedFloor],
+    assembly: Assembly<'_>,
     sticks: &mut StickModel,
     ground: usize,
-    floors: &[usize],
+    moving: &[usize],
 ) -> (JointedFrame, Vec<SpringPlace>) {
-    let assembly = Assembly::new(frame, storey_heights, lumped);
+    let (frame, storey_heights) = (assembly.frame, assembly.heights);
+    let floors = &moving[moving.len() - storey_heights.len()..];
     let joint_nodes = add_joints(&assembly, sticks, floors);
-    // Floors come after all joints at their height.
-    for &floor in floors {
-        sticks.nodes[floor].x = assembly.joints.count as f64;
+    // Floors, and the mat, come after all joints at their height.
+    for &node in moving {
+        sticks.nodes[node].x = assembly.joints.count as f64;
     }
     let mut builder = Builder {
         assembly,
         sticks,
         ground,
-        floors,
+        moving,
         joints: joint_nodes,
         ends: Vec::new(),
         places: Vec::new(),
@@ -131,6 +131,7 @@ impl StickModel {
         });
         self.frame_nodes.push(Some(FrameNode {
             shares: [0.0; 3],
+            at_mat: [0.0; 3],
             floor: None,
             level,
             counted_elsewhere: true,
@@ -144,7 +145,8 @@ struct Builder<'a> {
     assembly: Assembly<'a>,
     sticks: &'a mut StickModel,
     ground: usize,
-    floors: &'a [usize],
+    /// Nodes of the mat and of the floors.
+    moving: &'a [usize],
     /// Nodes of the unknowns of joints.
     joints: Range<usize>,
     /// Nodes of member ends, by their numbers.
@@ -204,7 +206,8 @@ impl Builder<'_> {
             let joint = floor.and_then(|floor| self.assembly.joints.at(floor, crossing)[1 + axis]);
             let joint = joint.map_or(self.ground, |unknown| self.joints.start + unknown);
             let node = {
-                let at = self.sticks.nodes[floor.map_or(self.ground, |floor| self.floors[floor])];
+                let moving = self.assembly.moving(floor);
+                let at = self.sticks.nodes[moving.map_or(self.ground, |own| self.moving[own])];
                 let x = self.ends.len() as f64;
                 self.sticks.add_turning(x, at.y, floor.unwrap_or(0))
             };
@@ -242,7 +245,7 @@ impl Builder<'_> {
                 Unknown::Joint(index) => add((self.joints.start + index, THETA), *share),
                 Unknown::End(index) => add((self.ends[index], THETA), *share),
                 Unknown::Floor(motion) => {
-                    let floor = self.floors[motion / 3];
+                    let floor = self.moving[motion / 3];
                     match motion % 3 {
                         0 => {
                             add((floor, X), c * share);

@@ -12,12 +12,13 @@ use crate::model::{PlanAxis, SpacePlace};
 use crate::structure::AssembledBuilding;
 
 impl MemberForces {
-    /// Adds the members of a space frame: their forces follow from the motions of the floors.
+    /// Adds the members of a space frame: their forces follow from the motions of the mat and of the floors.
     pub(super) fn add_space_frame(&mut self, building: &AssembledBuilding, frame: &CondensedFrame) {
         let equations = &building.equations;
         let floors = &building.discretization.floors;
         let of_floor = |floor: &usize| [X, Y, THETA].map(|component| (*floor, component));
-        let dofs = floors.iter().flat_map(of_floor);
+        let mat = building.discretization.mat.map(|mat| mat.node);
+        let dofs = mat.iter().chain(floors).flat_map(of_floor);
         let dofs: Vec<Option<usize>> = dofs.map(|place| equations.dof(place)).collect();
         let nothing = self.index_of(LinearForm::default());
         for member in &frame.members {

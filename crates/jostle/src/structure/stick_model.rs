@@ -58,12 +58,14 @@ pub struct RigidFoundation {
 /// A node of a plane frame that stands at a line of a plan.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrameNode {
-    /// How far motions of the floor at its height, or of the next one above, would move it along its line if it were part of that
-    /// floor: along x, across, and by rotation about the centre of the floor \[–, –, m\].
+    /// How far motions of the floor or the mat at its height, or of the next floor above, would move it along its line if it were part of
+    /// that floor: along x, across, and by rotation about the centre of the floor \[–, –, m\].
     pub shares: [f64; 3],
-    /// Node of the floor to which it belongs; its displacement along its line is that of the floor.
+    /// The same for motions of the mat on which it stands; zero without one \[–, –, m\].
+    pub at_mat: [f64; 3],
+    /// Node of the floor, or of the mat, to which it belongs; its displacement along its line is that of the floor.
     pub floor: Option<usize>,
-    /// Index of that floor, or of the next one above.
+    /// Index of the floor at its height, or of the next one above.
     pub level: usize,
     /// Whether its mass is part of that of a floor, or of another frame that shares the column.
     pub counted_elsewhere: bool,

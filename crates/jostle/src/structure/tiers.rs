@@ -7,7 +7,7 @@ use super::element::{X, Y};
 use super::plan_frames::add_frames;
 use super::plan_mat::put_on_mat;
 use super::plan_matrix::{Part, PlanMatrix};
-use super::space_frame::condense;
+use super::space_frame::{Assembly, condense};
 use super::space_joints::add_space_joints;
 use super::spring_place::SpringPlace;
 use super::stick_model::{Node, StickModel, StickPlanSpring, Support};
@@ -70,7 +70,7 @@ pub(super) fn discretize_tiers(
     let elastic = tiers.space_frame.as_ref().filter(|own| !own.may_yield());
     let yielding = tiers.space_frame.as_ref().filter(|own| own.may_yield());
     let condensed = elastic.and_then(|frame| {
-        let (stiffness, own) = condense(frame, &tiers.storey_heights, &lumped)?;
+        let (stiffness, own) = condense(frame, &tiers.storey_heights, mat.as_ref(), &lumped)?;
         matrix.add_stiffness(&stiffness);
         Some(Arc::new(own))
     });
@@ -82,9 +82,8 @@ pub(super) fn discretize_tiers(
     stick_model.couplings = matrix.couplings(ground, &nodes);
     let (jointed, mut spring_places) = match yielding {
         Some(frame) => {
-            let heights = &tiers.storey_heights;
-            let sticks = &mut stick_model;
-            let (own, places) = add_space_joints(frame, heights, &lumped, sticks, ground, &floors);
+            let assembly = Assembly::new(frame, &tiers.storey_heights, mat.as_ref(), &lumped);
+            let (own, places) = add_space_joints(assembly, &mut stick_model, ground, &nodes);
             (Some(Arc::new(own)), places)
         }
         None => (None, Vec::new()),
@@ -129,10 +128,11 @@ pub(super) fn discretize_tiers(
         space_frame: condensed,
         jointed_frame: jointed,
     };
-    add_frames(tiers, &lumped, &mut discretization);
+    let below = mat.as_ref().map(|mat| (foot, mat));
+    add_frames(tiers, &lumped, below, &mut discretization);
     if let Some((isolation, mat)) = isolation.zip(mat) {
         let places = [ground, foot];
-        put_on_mat(tiers, isolation, &mat.tier, places, &mut discretization);
+        put_on_mat(tiers, isolation, &mat, places, &mut discretization);
     }
     discretization
 }

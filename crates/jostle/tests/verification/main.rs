@@ -17,6 +17,7 @@ mod given_structures;
 mod grounds;
 mod grounds_in_plan;
 mod harmonic_pounding;
+mod isolated_frames_in_plan;
 mod isolation;
 mod isolation_in_plan;
 mod linked_modal_stepping;
