@@ -4,8 +4,8 @@ use jostle::quantity::Read;
 use jostle::results::in_plan::{BuildingInPlan, FloorInPlan};
 use jostle::results::response::{BuildingResponse, FloorResponse};
 use jostle::results::summary::{
-    BuildingSummary, CapacitySummary, ContactSummary, EnergySummary, GapSummary, LinkSummary,
-    MotionSummary, ShearFailureSummary, WorkSummary,
+    BuildingSummary, CapacitySummary, ContactSummary, EnergySummary, GapSummary, IsolationInPlan,
+    IsolationSummary, LinkSummary, MotionSummary, ShearFailureSummary, WorkSummary,
 };
 use jostle::{GroundMotion, Quantity, Summary, Wave};
 use jostle_motion::{Accelerogram, Reading, response_spectrum};
@@ -32,6 +32,15 @@ impl List {
     fn add<T>(&mut self, place: &str, quantities: &'static [Quantity<T>], owner: &T) {
         for quantity in quantities.iter().filter(|quantity| quantity.places.study) {
             self.add_one(place, quantity, owner);
+        }
+    }
+
+    /// The same without numbers that the owner does not have, which depends on the model alone.
+    fn add_present<T>(&mut self, place: &str, quantities: &'static [Quantity<T>], owner: &T) {
+        for quantity in quantities.iter().filter(|quantity| quantity.places.study) {
+            if quantity.value(owner).is_some() {
+                self.add_one(place, quantity, owner);
+            }
         }
     }
 
@@ -145,6 +154,13 @@ fn building_measures(list: &mut List, building: &BuildingSummary, sa: Option<f64
     if let Some(failures) = &building.shear_failures {
         let place = format!("{place}shear_failures_");
         list.add(&place, ShearFailureSummary::QUANTITIES, failures);
+    }
+    if let Some(isolation) = &building.isolation {
+        let place = format!("{place}isolation_");
+        list.add_present(&place, IsolationSummary::QUANTITIES, isolation);
+        if let Some(plan) = &isolation.in_plan {
+            list.add(&place, IsolationInPlan::QUANTITIES, plan);
+        }
     }
     for floor in &building.floors {
         let place = format!("{place}floor{}.", floor.floor);

@@ -67,6 +67,7 @@ pub(super) fn isolation_summary(
             let stroke = peaks.in_plan.map(|own| own.stroke.value);
             stroke.unwrap_or(max.max(-min)) > limit
         }),
+        limit_m: mat.isolation.limit,
         in_plan: isolation_in_plan(building, &peaks, outcome),
     })
 }

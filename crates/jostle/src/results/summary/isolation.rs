@@ -90,6 +90,9 @@ pub struct IsolationSummary {
     pub stop_force_peak_n: Option<f64>,
     /// Whether the mat moved beyond the limit of the bearings; false without a limit.
     pub limit_exceeded: bool,
+    /// That limit; `None` without one \[m\].
+    #[serde(skip)]
+    pub limit_m: Option<f64>,
     /// Across and over all bearings; absent in one plane.
     #[serde(flatten)]
     pub in_plan: Option<IsolationInPlan>,
@@ -127,10 +130,10 @@ impl IsolationInPlan {
         Quantity::<Self>::real("stroke_peak_at_s", Unit::S, "its instant", |i| i.stroke_peak_at_s),
         Quantity::<Self>::whole("stroke_bearing", "that bearing, from 1", |i| i.stroke_bearing),
         Quantity::<Self>::real("residual_stroke_m", Unit::M, "greatest length of the displacement of a bearing at the end", |i| i.residual_stroke_m),
-        Quantity::<Self>::real("displacement_across_max_m", Unit::M, "greatest displacement of the mat across the row", |i| i.displacement_across_max_m),
-        Quantity::<Self>::real("displacement_across_min_m", Unit::M, "least displacement of the mat across the row, ≤ 0", |i| i.displacement_across_min_m),
-        Quantity::<Self>::real("residual_across_m", Unit::M, "displacement of the mat across the row at the end", |i| i.residual_across_m),
-        Quantity::<Self>::real("force_across_peak_n", Unit::N, "greatest force of bearings and dashpots across, without stops", |i| i.force_across_peak_n),
+        Quantity::<Self>::real("displacement_across_max_m", Unit::M, "greatest displacement of the mat across the row", |i| i.displacement_across_max_m).in_study(),
+        Quantity::<Self>::real("displacement_across_min_m", Unit::M, "least displacement of the mat across the row, ≤ 0", |i| i.displacement_across_min_m).in_study(),
+        Quantity::<Self>::real("residual_across_m", Unit::M, "displacement of the mat across the row at the end", |i| i.residual_across_m).in_study(),
+        Quantity::<Self>::real("force_across_peak_n", Unit::N, "greatest force of bearings and dashpots across, without stops", |i| i.force_across_peak_n).in_study(),
     ];
 }
 
@@ -143,6 +146,21 @@ impl IsolationSummary {
             None => self.displacement_max_m.max(-self.displacement_min_m),
         }
     }
+
+    /// Displacement of the mat at the end, either sign; in plan the greatest of a bearing in any direction \[m\].
+    #[must_use]
+    pub fn residual_stroke_m(&self) -> f64 {
+        match self.in_plan {
+            Some(own) => own.residual_stroke_m,
+            None => self.residual_m.abs(),
+        }
+    }
+
+    /// Greatest displacement of a bearing over the limit of the bearings; `None` without a limit \[–\].
+    #[must_use]
+    pub fn stroke_ratio(&self) -> Option<f64> {
+        self.limit_m.map(|limit| self.displacement_peak_m() / limit)
+    }
 }
 
 #[rustfmt::skip]
@@ -150,14 +168,17 @@ impl IsolationSummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
         Quantity::<Self>::real("weight_n", Unit::N, "weight on the bearings", |i| i.weight_n),
-        Quantity::<Self>::real("displacement_max_m", Unit::M, "greatest displacement of the mat to the right", |i| i.displacement_max_m),
-        Quantity::<Self>::real("displacement_min_m", Unit::M, "greatest displacement of the mat to the left", |i| i.displacement_min_m),
-        Quantity::<Self>::real("force_peak_n", Unit::N, "greatest force of bearings and dashpot, without stops", |i| i.force_peak_n),
-        Quantity::<Self>::real("residual_m", Unit::M, "displacement of the mat at the end", |i| i.residual_m),
-        Quantity::<Self>::real("hysteretic_j", Unit::J, "energy dissipated by yielding or friction", |i| i.hysteretic_j),
-        Quantity::<Self>::real("damped_j", Unit::J, "energy dissipated in the dashpot", |i| i.damped_j),
-        Quantity::<Self>::optional("stop_force_peak_n", Unit::N, "greatest force of a stop; absent without stops", |i| i.stop_force_peak_n),
+        Quantity::<Self>::real("displacement_max_m", Unit::M, "greatest displacement of the mat to the right", |i| i.displacement_max_m).in_study(),
+        Quantity::<Self>::real("displacement_min_m", Unit::M, "greatest displacement of the mat to the left", |i| i.displacement_min_m).in_study(),
+        Quantity::<Self>::real("force_peak_n", Unit::N, "greatest force of bearings and dashpot, without stops", |i| i.force_peak_n).in_study(),
+        Quantity::<Self>::real("residual_m", Unit::M, "displacement of the mat at the end", |i| i.residual_m).in_study(),
+        Quantity::<Self>::real("hysteretic_j", Unit::J, "energy dissipated by yielding or friction", |i| i.hysteretic_j).in_study(),
+        Quantity::<Self>::real("damped_j", Unit::J, "energy dissipated in the dashpot", |i| i.damped_j).in_study(),
+        Quantity::<Self>::optional("stop_force_peak_n", Unit::N, "greatest force of a stop; absent without stops", |i| i.stop_force_peak_n).in_study(),
         Quantity::<Self>::real("limit_exceeded", Unit::NONE, "whether the mat moved beyond the limit of the bearings", |i| f64::from(u8::from(i.limit_exceeded))),
+        Quantity::<Self>::real("stroke_peak_m", Unit::M, "greatest displacement of a bearing, in plan its length in any direction", Self::displacement_peak_m).not_in_summary().in_study(),
+        Quantity::<Self>::real("residual_stroke_m", Unit::M, "the same at the end", Self::residual_stroke_m).not_in_summary().in_study(),
+        Quantity::<Self>::optional("stroke_ratio", Unit::NONE, "greatest displacement of a bearing over limit; absent without limit", Self::stroke_ratio).not_in_summary().in_study(),
     ];
 }
 
