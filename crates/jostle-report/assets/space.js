@@ -73,6 +73,9 @@ class SpaceScene {
     this.peak = Math.max(1e-9, ...moves);
     this.across = page.bearing?.across && { time: unpack(page.bearing.across.time), values: unpack(page.bearing.across.values) };
     this.groundPeak = Math.hypot(greatest(ground.values), this.across ? greatest(this.across.values) : 0) || 1;
+    // A moat wall before a mat stands below the ground, as deep as a part of a storey.
+    const inMoat = this.places.some((contact) => contact.gap.between.includes(null) && !(contact.height > 0));
+    this.depth = inMoat ? 0.4 * Math.min(...page.buildings.map((building) => building.heights[0])) : 0;
     this.theme = null;
   }
 
@@ -192,7 +195,7 @@ class SpaceScene {
     this.middle = ends.map(([low, high]) => (low + high) / 2);
     // The box of the site, its corners all around, as seen.
     const free = this.exaggeration * this.peak;
-    const corners = ends[0].flatMap((x, i) => ends[1].flatMap((y, j) => [0, this.top].map((z) => [x + (i ? free : -free), y + (j ? free : -free), z])));
+    const corners = ends[0].flatMap((x, i) => ends[1].flatMap((y, j) => [-this.depth, this.top].map((z) => [x + (i ? free : -free), y + (j ? free : -free), z])));
     this.scale = 1;
     this.centre = [0, 0];
     const seen = corners.map((corner) => this.project(corner));
@@ -386,8 +389,9 @@ class SpaceScene {
       for (const side of [0, 1]) {
         const points = ends.map((point) => this.at(sides(point)[side]));
         if ([a, b][side] === null && points.length > 1) {
-          // A wall, from the ground up to the contact.
-          const feet = ends.map((point) => this.at([...sides(point)[side].slice(0, 2), 0]));
+          // A wall, from the ground or the bottom of the moat up to the contact.
+          const bottom = contact.height > 0 ? 0 : -this.depth;
+          const feet = ends.map((point) => this.at([...sides(point)[side].slice(0, 2), bottom]));
           this.line([...points, feet[1], feet[0]], { fill: this.quiet, alpha: 0.25, stroke: this.quiet, width: 1, closed: true });
         }
         if (points.length > 1) this.line(points, { stroke: this.alarm, width: 1.4 });
