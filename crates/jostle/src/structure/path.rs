@@ -229,7 +229,10 @@ fn node_order(stick_model: &StickModel) -> Vec<(usize, usize)> {
     let under_frames = stick_model.plan_mat.as_ref();
     let under_frames = under_frames.filter(|_| !stick_model.frame_nodes.is_empty());
     let is_floor = |node: &usize| {
-        let of_frame = stick_model.frame_nodes.get(*node).is_some_and(Option::is_some);
+        let of_frame = stick_model
+            .frame_nodes
+            .get(*node)
+            .is_some_and(Option::is_some);
         !of_frame && nodes[*node].y > 0.0
     };
     let lowest = (0..nodes.len()).filter(is_floor);

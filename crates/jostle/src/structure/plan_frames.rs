@@ -146,7 +146,9 @@ impl StickModel {
         };
         FrameNode {
             shares: place.plan_frame.shares(centre),
-            at_mat: place.mat.map_or([0.0; 3], |(_, centre)| place.plan_frame.shares(centre)),
+            at_mat: place
+                .mat
+                .map_or([0.0; 3], |(_, centre)| place.plan_frame.shares(centre)),
             floor: carrier,
             level,
             counted_elsewhere: carrier.is_some() || on_floor || is_doubled,

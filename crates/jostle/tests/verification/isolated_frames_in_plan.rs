@@ -11,9 +11,12 @@ use jostle::system::BuildingSystem;
 use jostle::{
     Analysis, Axial, Base, Bearing, Building, Column, Damping, Frame, FrameHinges, Gravity,
     GroundMotion, Hinges, Isolation, Isolator, IsolatorDamping, Joint, MemberRequest, Model,
-    Outcome, Plan, PlanFrame, PlanPoint, RiccatiSweep, RunEnd, Settings, Solver, SpaceFrame,
-    SpaceMember, SpacePlace, SpaceSection, SpeedFriction, Structure, System, Tier, Tiers, simulate,
+    Outcome, Plan, PlanFrame, PlanPoint, RiccatiSweep, RunEnd, Section, Settings, Solver,
+    SpaceFrame, SpaceMember, SpacePlace, SpaceSection, SpeedFriction, Structure, System, Tier,
+    Tiers, simulate,
 };
+
+use jostle::pushover::{CannotPush, PushSettings, pushover};
 
 use crate::support::{column, difference, largest, section};
 
@@ -421,8 +424,11 @@ const PLACES: [PlanPoint; 3] = [[0.5, 1.0], [10.0, 0.5], [4.0, 7.5]];
 
 const STIFFNESS: f64 = 9e6;
 
+/// Of stiffness-proportional damping \[s\].
+const BETA: f64 = 2e-3;
+
 /// On linear bearings at three places.
-fn on_bearings(mut tiers: Tiers, solver: Solver, step: f64) -> Model {
+fn on_bearings(mut tiers: Tiers, beta: f64, solver: Solver, step: f64) -> Model {
     tiers.bearings = PLACES.to_vec();
     let mut isolation = Isolation::new(
         Isolator::Linear {
@@ -431,10 +437,7 @@ fn on_bearings(mut tiers: Tiers, solver: Solver, step: f64) -> Model {
         1.1e5,
     );
     isolation.damping = IsolatorDamping::Coefficient(2.4e5);
-    let damping = Damping::Rayleigh {
-        alpha: 0.4,
-        beta: 2e-3,
-    };
+    let damping = Damping::Rayleigh { alpha: 0.4, beta };
     model(
         Structure::Tiers(tiers),
         None,
@@ -569,7 +572,7 @@ fn plane_frames_on_a_mat_have_the_flexibility_and_periods_of_the_full_matrix() {
     let (mat, _) = rectangular_mat(12.0, 8.0);
     let mut full = matrix_of_three_frames(&tiers, mat);
     add_bearings(&mut full, mat, STIFFNESS);
-    same_flexibility(&on_bearings(tiers, Solver::Riccati, 1e-3), &full);
+    same_flexibility(&on_bearings(tiers, BETA, Solver::Riccati, 1e-3), &full);
 }
 
 /// Motion from matrices of its own, by the classical method of Runge and Kutta.
@@ -637,7 +640,7 @@ fn add_relative(to: &mut Full, floor: usize, masses: [f64; 3], centre: PlanPoint
 
 /// `frames`: the stiffness of frames alone. The error of the steps is of second order.
 #[track_caller]
-fn same_motion(tiers: &Tiers, frames: &Full) {
+fn same_motion(tiers: &Tiers, frames: &Full, beta: f64) {
     let (mat, mat_masses) = rectangular_mat(12.0, 8.0);
     let first = 3 * (tiers.floors.len() + 1);
     // Frames alone are held by bearings so weak that they add nothing: the condensed stiffness needs an inverse.
@@ -668,11 +671,11 @@ fn same_motion(tiers: &Tiers, frames: &Full) {
         rows.map(|(a, b)| summed(&[(1.0, a), (share, b)])).collect()
     };
     let stiffness = plus(&of_frames, 1.0, &bearings.matrix);
-    let damping = plus(&dashpots.matrix, 2e-3, &of_frames);
+    let damping = plus(&dashpots.matrix, beta, &of_frames);
     let motion = in_two_directions();
     let exact = moved_by_rates(&mass, &stiffness, &damping, &motion, 2e-4);
     let error = |step: f64, solver: Solver| {
-        let (system, outcome) = run(&on_bearings(tiers.clone(), solver, step), &motion);
+        let (system, outcome) = run(&on_bearings(tiers.clone(), beta, solver, step), &motion);
         let dofs = moving(&system.buildings[0]);
         let found: Row = dofs
             .iter()
@@ -694,7 +697,7 @@ fn same_motion(tiers: &Tiers, frames: &Full) {
 fn plane_frames_on_a_mat_move_as_the_full_matrix() {
     let tiers = three_frames();
     let (mat, _) = rectangular_mat(12.0, 8.0);
-    same_motion(&tiers, &matrix_of_three_frames(&tiers, mat));
+    same_motion(&tiers, &matrix_of_three_frames(&tiers, mat), BETA);
 }
 
 const LINES: [&[f64]; 2] = [&[0.5, 6.0, 11.5], &[0.5, 7.0]];
@@ -854,7 +857,139 @@ fn a_space_frame_on_a_mat_has_the_flexibility_and_periods_of_the_full_matrix() {
         let tiers = in_space(axial, None);
         let mut full = matrix_in_space(&tiers, mat, None);
         add_bearings(&mut full, mat, STIFFNESS);
-        same_flexibility(&on_bearings(tiers, Solver::Riccati, 1e-3), &full);
+        same_flexibility(&on_bearings(tiers, BETA, Solver::Riccati, 1e-3), &full);
+    }
+}
+
+/// Two equal plane frames and beams between them, shaken along them: each is a plane isolated frame, its members included.
+#[test]
+fn a_space_frame_on_a_mat_is_two_isolated_plane_frames() {
+    let lines = [vec![0.0, 6.0, 11.0], vec![0.0, 7.0]];
+    let (storeys, height, mass, mat) = (2, 3.2, 1.2e5, 9e4);
+    let column = SpaceSection::rectangle([0.5, 0.4], 30e9, 0.2, false).expect("a section");
+    let beam = SpaceSection::beam([0.3, 0.6], 30e9, 0.2, false).expect("a section");
+    let of_plane = |own: &SpaceSection| Section {
+        flexural_rigidity: own.flexural_rigidity[0],
+        axial_rigidity: None,
+        shear_rigidity: None,
+        line_mass: 0.0,
+    };
+    let stiff = |own: &SpaceSection| 50.0 * own.flexural_rigidity[0] / 3.2;
+    for yields in [false, true] {
+        let hinge = |own: &SpaceSection| yields.then(|| yielding(stiff(own), 60e3));
+        let mut members = Vec::new();
+        let mut add = |place: SpacePlace, section: SpaceSection| {
+            let section = SpaceSection {
+                axial_rigidity: None,
+                ..section
+            };
+            let second = matches!(place, SpacePlace::Column { .. });
+            let hinges = [hinge(&section), hinge(&section).filter(|_| second)];
+            members.push(SpaceMember {
+                place,
+                section,
+                hinges,
+            });
+        };
+        for storey in 0..storeys {
+            for x in 0..3 {
+                for y in 0..2 {
+                    let line = [x, y];
+                    add(SpacePlace::Column { line, storey }, column);
+                    if x < 2 {
+                        let (span, line, floor) = (x, y, storey);
+                        add(SpacePlace::BeamX { span, line, floor }, beam);
+                    }
+                }
+                let (line, span, floor) = (x, 0, storey);
+                add(SpacePlace::BeamY { line, span, floor }, beam);
+            }
+        }
+        let tier = Tier::uniform(mass, rectangle(11.0, 7.0)).expect("an area");
+        let mut tiers = held_by(vec![tier; storeys], vec![height; storeys], Vec::new());
+        tiers.space_frame = Some(SpaceFrame {
+            at: [0.0, 0.0],
+            direction: [1.0, 0.0],
+            lines_x: lines[0].clone(),
+            lines_y: lines[1].clone(),
+            members,
+        });
+        let plane = Frame {
+            columns: vec![of_plane(&column); storeys],
+            beams: vec![of_plane(&beam); storeys],
+            floor_mass: vec![0.5 * mass; storeys],
+            beam_mass: vec![0.0; storeys],
+            ..massless(frame(storeys, &[6.0, 5.0]))
+        };
+        let rows = |count: usize, own: &SpaceSection| match hinge(own) {
+            Some(own) => vec![vec![own; count]; storeys],
+            None => Vec::new(),
+        };
+        let plane_hinges = yields.then(|| {
+            Hinges::Frame(FrameHinges {
+                columns: rows(3, &column),
+                beams: rows(2, &beam),
+                ..FrameHinges::default()
+            })
+        });
+        let damping = Damping::Ratio {
+            ratio: 0.04,
+            modes: vec![1, 2],
+        };
+        let motion = shaking("line", 4.0, 1.0);
+        let pairs = bearings(mat, 2.0).into_iter().zip(bearings(0.5 * mat, 1.0));
+        for (isolation, half) in pairs {
+            let kind = isolation.isolator.name();
+            let modelled = |structure, hinges, isolation| {
+                let damping = damping.clone();
+                model(structure, hinges, damping, isolation, Solver::Riccati, 4e-3)
+            };
+            let flat = modelled(Structure::Frame(plane.clone()), plane_hinges.clone(), half);
+            let (plane_system, flat) = run(&flat, &motion);
+            let deep = modelled(Structure::Tiers(tiers.clone()), None, isolation);
+            let (system, deep) = run(&deep, &motion);
+            let apart = difference(&along(&deep, storeys), &along(&flat, storeys));
+            println!("{kind} {yields}: {apart:e}");
+            assert!(apart < 1e-8, "{kind} {yields}: {apart:e}");
+            let [own, of_plane] =
+                [&system, &plane_system].map(|system| &system.buildings[0].members.members);
+            let mut compared = 0;
+            for member in own {
+                let MemberPlace::InSpace(place) = member.place else {
+                    panic!("in space");
+                };
+                let wanted = match place {
+                    SpacePlace::Column { line, storey } => MemberPlace::Column {
+                        line: line[0] + 1,
+                        storey: storey + 1,
+                    },
+                    SpacePlace::BeamX { span, floor, .. } => MemberPlace::Beam {
+                        floor: floor + 1,
+                        span: span + 1,
+                    },
+                    SpacePlace::BeamY { .. } => continue,
+                };
+                let other = of_plane.iter().find(|own| own.place == wanted);
+                let other = other.expect("the same member");
+                for end in 0..2 {
+                    for kind in 0..3 {
+                        // Floors hold beams.
+                        if kind == 0 && !member.place.is_column() {
+                            continue;
+                        }
+                        let a = deep.members[0][member.sections[end].forms[kind]];
+                        let b = flat.members[0][other.sections[end].forms[kind]];
+                        let scale = b[0].max(-b[1]).max(1e3);
+                        for (a, b) in a.into_iter().zip(b) {
+                            let apart = (a - b).abs() / scale;
+                            assert!(apart < 1e-7, "{place} {end} {kind}: {a} and {b}");
+                            compared += 1;
+                        }
+                    }
+                }
+            }
+            assert_eq!(compared, 2 * (12 * 6 + 8 * 4));
+        }
     }
 }
 
@@ -862,9 +997,49 @@ fn a_space_frame_on_a_mat_has_the_flexibility_and_periods_of_the_full_matrix() {
 #[test]
 fn a_space_frame_with_hinges_on_a_mat_moves_as_the_full_matrix() {
     let (mat, _) = rectangular_mat(12.0, 8.0);
-    for hinge in [None, Some(6.0)] {
+    // Damping does not act on hinges.
+    for (hinge, beta) in [(None, BETA), (Some(6.0), 0.0)] {
         let tiers = in_space(true, hinge);
         let full = matrix_in_space(&tiers, mat, hinge);
-        same_motion(&tiers, &full);
+        same_motion(&tiers, &full, beta);
     }
+}
+
+fn faults(model: &Model) -> String {
+    let faults = System::assemble(model).expect_err("it is refused");
+    let lines = faults
+        .iter()
+        .map(|own| format!("{}: {}\n", own.path, own.problem));
+    lines.collect()
+}
+
+#[test]
+fn columns_on_a_mat_have_no_base_of_their_own() {
+    let mut tiers = three_frames();
+    tiers.frames[1].base.rotational_stiffness = Some(1e8);
+    let found = faults(&on_bearings(tiers, BETA, Solver::Riccati, 1e-3));
+    assert!(
+        found.contains("building[0].frame[1].base: cannot stand beside isolation: columns are fixed to the mat; leave out base"),
+        "{found}"
+    );
+}
+
+/// Linear bearings are springs like others; those that slide have no path from corner to corner.
+#[test]
+fn bearings_that_slide_in_plan_have_no_pushover() {
+    let mut model = on_bearings(three_frames(), BETA, Solver::Riccati, 1e-3);
+    let system = assemble(&model);
+    let own = &system.buildings[0];
+    let pushed = pushover(own, PushSettings::default()).expect("it is elastic");
+    let last = pushed.points.last().expect("points");
+    let mut load = vec![0.0; own.equations.len()];
+    for (floor, share) in own.floors.iter().zip(&pushed.floor_loads) {
+        load[floor.dof] = share * last.base_shear;
+    }
+    let u = solve_once::<RiccatiSweep>(own, &StepMatrix::STATIC, &load).expect("it stands");
+    assert!((u[own.floors[1].dof] / last.roof - 1.0).abs() < 1e-9);
+    let [_, lead, _] = bearings(1.1e5, 1.0);
+    model.buildings[0].base.isolation = Some(lead);
+    let refused = pushover(&assemble(&model).buildings[0], PushSettings::default());
+    assert_eq!(refused.err(), Some(CannotPush::BearingsInPlan));
 }
