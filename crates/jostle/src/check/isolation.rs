@@ -73,11 +73,6 @@ fn check_isolation_in_plan(faults: &mut Faults, path: &str, isolation: &Isolatio
             || "cannot stand beside isolation: columns are fixed to the mat; leave out base".into(),
         );
     }
-    if let Isolator::Pendulum { friction, .. } = isolation.isolator {
-        faults.require(friction.is_constant(), format!("{own}.friction"), || {
-            "cannot change with speed under a building with a plan yet; give one coefficient, such as friction = 0.05".into()
-        });
-    }
     let [left, right] = isolation.stops;
     faults.require(left == right, format!("{own}.stop"), || {
         "is a ring under a building with a plan, the same all round: give at and stiffness instead of left and right, or moat walls ([[wall]] with from and to)".into()

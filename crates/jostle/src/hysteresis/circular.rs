@@ -6,10 +6,16 @@
 //! Technol. 99, 510–515). A straight path gives the same force for any division, and a curved one an error of second
 //! order. Returning the trial force to the circle along its radius would have an error of first order (theory, Eq. B1p).
 //!
+//! Friction whose strength Q depends on the speed keeps its direction by the same equation with Q of the instant,
+//! tan φ/2 = tan φ₀/2 · e^(−k ∫ds/Q). A step takes the mean of the strengths at its start and at its end there, and the strength at its
+//! end as the length of the force. Where the motion turns back within a step that slips, it is divided there, as along a line
+//! (theory, Eq. B3).
+//!
 //! In the list of springs that yield such a force has three rows: its displacement along x, across, and the difference of both, whose
 //! only force is what the tangent [a b; b c] has off its diagonal: springs a + b, c + b and −b.
 
-use super::backbone::{Backbone, Corners, Side, SpringFault};
+use super::backbone::{Backbone, Corners, Quantity, Side, SpringFault};
+use super::friction::{Rates, SLIPS, Strength};
 use super::memory::{HysteresisMemory, Response};
 use super::rule::{Hysteresis, HysteresisRule};
 
@@ -40,10 +46,17 @@ impl ForceRow {
 }
 
 /// Law of a force in plan.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CircularLaw {
     /// Elastic up to the strength, then sliding.
     Slider,
+    /// The same with a strength that rises with the speed from `slow` at rest to the strength of the slider.
+    Friction {
+        /// Strength at rest \[N\].
+        slow: f64,
+        /// Rate of the rise \[s/m\].
+        rate: f64,
+    },
     /// An elastic ring: without force up to a distance, then k (|u| − at) along the radius.
     Ring,
 }
@@ -78,26 +91,110 @@ impl PlanAnswer {
 }
 
 impl CircularForce {
-    /// Force and tangent at a displacement \[m\], reached on a straight path from the state of the rows along x and across.
+    /// Force and tangent at a displacement \[m\], reached on a straight path from the state of the rows along x and across. `rates`:
+    /// their motion over the step, on which friction that changes with speed depends.
     ///
     /// The tangent of a slider is the symmetric part of the derivative: off the radius it is not quite symmetric.
-    pub(crate) fn answer(&self, from: [&HysteresisMemory; 2], to: [f64; 2]) -> PlanAnswer {
+    pub(crate) fn answer(
+        &self,
+        from: [&HysteresisMemory; 2],
+        to: [f64; 2],
+        rates: &[Rates; 2],
+    ) -> PlanAnswer {
+        let before = from.map(|memory| memory.force);
+        let path = [0, 1].map(|axis| to[axis] - from[axis].deformation);
         match self.law {
-            CircularLaw::Slider => {
-                let before = from.map(|memory| memory.force);
-                let path = [0, 1].map(|axis| to[axis] - from[axis].deformation);
-                self.slide(before, path)
+            CircularLaw::Slider => self.slide(before, path, self.limit),
+            CircularLaw::Friction { slow, rate } => {
+                let strength = Strength {
+                    slow,
+                    fast: self.limit,
+                    rate,
+                };
+                self.rub(before, path, rates, strength)
             }
             CircularLaw::Ring => self.stop(to),
         }
     }
 
-    fn slide(&self, before: [f64; 2], path: [f64; 2]) -> PlanAnswer {
-        let Self {
-            stiffness: k,
-            limit: strength,
-            ..
-        } = *self;
+    /// Friction that changes with speed.
+    fn rub(
+        &self,
+        before: [f64; 2],
+        path: [f64; 2],
+        rates: &[Rates; 2],
+        strength: Strength,
+    ) -> PlanAnswer {
+        let k = self.stiffness;
+        let [first, last] = [rates.map(|own| own.before), rates.map(|own| own.after)];
+        let per_deformation = rates[0].per_deformation;
+        let held = before[0].hypot(before[1]);
+        let start = strength.at(first[0].hypot(first[1]))[0];
+        let slipped = held >= (1.0 - SLIPS) * start && dot(before, first) > 0.0;
+        let turned = slipped && dot(before, last) < 0.0;
+        let (before, path, start, stiffness) = if turned {
+            let share = dot(before, first) / (dot(before, first) - dot(before, last));
+            let step = rates[0].step;
+            let until = [0, 1].map(|axis| {
+                share * step * (first[axis] + 0.5 * share * (last[axis] - first[axis]))
+            });
+            let speed = [0, 1].map(|axis| first[axis] + share * (last[axis] - first[axis]));
+            let there = strength.at(speed[0].hypot(speed[1]))[0];
+            let force = self.turn(before, until, [start, there]);
+            let rest = [0, 1].map(|axis| path[axis] - until[axis]);
+            let slope = 1.0 - 0.5 * step * per_deformation * share * share;
+            (force, rest, there, k * slope.max(0.0))
+        } else {
+            (before, path, start, k)
+        };
+        let speed = last[0].hypot(last[1]);
+        let [end, by_speed] = strength.at(speed);
+        let trial = [0, 1].map(|axis| before[axis] + k * path[axis]);
+        if trial[0].hypot(trial[1]) <= end {
+            return PlanAnswer::new(trial, [stiffness, 0.0, stiffness]);
+        }
+        let goes_on = slipped && !turned && dot(before, path) >= 0.0;
+        let mut answer = if goes_on {
+            // From the circle of the start to that of the end.
+            let scaled = before.map(|force| force * end / held);
+            let mut own = self.slide(scaled, path, end);
+            own.force = self.turn(before, path, [start, end]);
+            own
+        } else {
+            self.slide(before, path, end)
+        };
+        let along = dot(answer.force, last) / (end * speed).max(f64::MIN_POSITIVE);
+        if along > 0.0 {
+            let rise = per_deformation * by_speed * along;
+            let [x, y] = answer.force.map(|force| force / end);
+            let more = [rise * x * x, rise * x * y, rise * y * y];
+            let sums = [more[0] + more[1], more[2] + more[1], -more[1]];
+            for (tangent, more) in answer.tangents.iter_mut().zip(sums) {
+                *tangent += more;
+            }
+        }
+        answer
+    }
+
+    /// A force that slides along a straight path, from one strength to another.
+    fn turn(&self, before: [f64; 2], path: [f64; 2], [start, end]: [f64; 2]) -> [f64; 2] {
+        let length = path[0].hypot(path[1]);
+        let held = before[0].hypot(before[1]);
+        if length == 0.0 || held == 0.0 {
+            return before.map(|force| force * end / held.max(f64::MIN_POSITIVE));
+        }
+        let along = path.map(|value| value / length);
+        let forward = dot(before, along);
+        let aside = along[0] * before[1] - along[1] * before[0];
+        let faded = (-self.stiffness * length / (0.5 * (start + end))).exp();
+        let half = aside / (held + forward).max(f64::MIN_POSITIVE) * faded;
+        let scale = end / (1.0 + half * half);
+        let (p, q) = ((1.0 - half * half) * scale, 2.0 * half * scale);
+        [p * along[0] - q * along[1], p * along[1] + q * along[0]]
+    }
+
+    fn slide(&self, before: [f64; 2], path: [f64; 2], strength: f64) -> PlanAnswer {
+        let k = self.stiffness;
         let trial = [0, 1].map(|axis| before[axis] + k * path[axis]);
         let length = path[0].hypot(path[1]);
         if trial[0].hypot(trial[1]) <= strength || length == 0.0 {
@@ -166,8 +263,19 @@ impl Hysteresis {
         stiffness: f64,
         limit: f64,
     ) -> Result<[Self; 3], Vec<SpringFault>> {
+        if let CircularLaw::Friction { slow, rate } = law
+            && !(slow > 0.0 && slow <= limit && rate.is_finite() && rate >= 0.0)
+        {
+            return Err(vec![SpringFault {
+                quantity: Quantity::Rule,
+                side: None,
+                problem: format!(
+                    "needs 0 < strength at rest <= strength at high speed and a rate of at least zero, found {slow}, {limit} and {rate}"
+                ),
+            }]);
+        }
         let backbone = match law {
-            CircularLaw::Slider => {
+            CircularLaw::Slider | CircularLaw::Friction { .. } => {
                 let corners = Corners::bilinear(limit, 0.0);
                 Backbone::from_forces(stiffness, corners, corners)?
             }
@@ -191,7 +299,7 @@ impl Hysteresis {
             law,
             stiffness: self.backbone.initial(),
             limit: match law {
-                CircularLaw::Slider => self.backbone.yield_force(),
+                CircularLaw::Slider | CircularLaw::Friction { .. } => self.backbone.yield_force(),
                 CircularLaw::Ring => self.backbone.side(Side::Positive).yielding.deformation,
             },
         })
@@ -207,7 +315,8 @@ impl Hysteresis {
         let still = HysteresisMemory::default();
         let (force, tangent) = match self.circular().filter(|_| row != ForceRow::Between) {
             Some(own) => {
-                let answer = own.answer([memory, &still], [deformation, 0.0]);
+                let at_rest = [Rates::default(); 2];
+                let answer = own.answer([memory, &still], [deformation, 0.0], &at_rest);
                 (answer.force[0], answer.tangents[0] + answer.tangents[2])
             }
             None => (0.0, 0.0),
@@ -219,6 +328,10 @@ impl Hysteresis {
             memory: *memory,
         }
     }
+}
+
+fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
 }
 
 /// A symmetric tangent \[a b; b c\] along a direction and at its left, in x and across.
@@ -241,6 +354,13 @@ mod tests {
         limit: 1.2e5,
     };
 
+    const STILL: [Rates; 2] = [Rates {
+        before: 0.0,
+        after: 0.0,
+        per_deformation: 0.0,
+        step: 0.0,
+    }; 2];
+
     fn at(deformation: f64, force: f64) -> HysteresisMemory {
         let mut memory = HysteresisMemory::default();
         memory.stand_at(deformation, force, Side::Positive);
@@ -250,7 +370,7 @@ mod tests {
     fn follow(law: &CircularForce, path: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
         let mut rows = [HysteresisMemory::default(); 2];
         for to in path {
-            let force = law.answer([&rows[0], &rows[1]], to).force;
+            let force = law.answer([&rows[0], &rows[1]], to, &STILL).force;
             rows = [0, 1].map(|axis| at(to[axis], force[axis]));
         }
         rows.map(|row| row.force())
@@ -296,7 +416,7 @@ mod tests {
             let mut rows = [at(0.0, start[0]), at(0.0, start[1])];
             for step in 1..=steps {
                 let to = path(f64::from(step) / f64::from(steps));
-                let force = SLIDER.answer([&rows[0], &rows[1]], to).force;
+                let force = SLIDER.answer([&rows[0], &rows[1]], to, &STILL).force;
                 rows = [0, 1].map(|axis| at(to[axis], force[axis]));
             }
             let [x, y] = [0, 1].map(|axis| rows[axis].force() - exact[axis]);
@@ -319,7 +439,7 @@ mod tests {
             let mut rows = before.map(|force| at(0.0, force));
             for step in 1..=steps {
                 let to = path(f64::from(step) / f64::from(steps));
-                let force = SLIDER.answer([&rows[0], &rows[1]], to).force;
+                let force = SLIDER.answer([&rows[0], &rows[1]], to, &STILL).force;
                 rows = [0, 1].map(|axis| at(to[axis], force[axis]));
             }
             rows.map(|row| row.force())
@@ -373,7 +493,7 @@ mod tests {
             (ring, [0.0; 2], [0.03, 0.01]),
         ] {
             let rows = before.map(|share| at(0.0, share * SLIDER.limit));
-            let answer = |to: [f64; 2]| law.answer([&rows[0], &rows[1]], to);
+            let answer = |to: [f64; 2]| law.answer([&rows[0], &rows[1]], to, &STILL);
             let by = 1e-8;
             let column = |axis: usize| {
                 let [less, more] = [-by, by].map(|by| {

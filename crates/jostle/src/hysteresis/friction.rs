@@ -28,12 +28,12 @@ pub(super) struct Strength {
 }
 
 /// Forces within this of the strength slip \[–\].
-const SLIPS: f64 = 1e-9;
+pub(super) const SLIPS: f64 = 1e-9;
 
 impl Strength {
     /// At a speed, and its derivative by the speed \[N, N·s/m\].
     #[inline]
-    fn at(&self, speed: f64) -> [f64; 2] {
+    pub(super) fn at(&self, speed: f64) -> [f64; 2] {
         let missing = (self.fast - self.slow) * (-self.rate * speed).exp();
         [self.fast - missing, self.rate * missing]
     }

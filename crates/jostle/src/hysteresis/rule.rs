@@ -104,7 +104,11 @@ impl HysteresisRule {
     #[must_use]
     pub(crate) const fn depends_on_rate(&self) -> bool {
         match self {
-            Self::Sliding { .. } => true,
+            Self::Sliding { .. }
+            | Self::InPlan {
+                law: CircularLaw::Friction { .. },
+                ..
+            } => true,
             Self::Elastic
             | Self::Bilinear
             | Self::Normal
@@ -133,7 +137,7 @@ impl HysteresisRule {
             Self::Pinched(_) => "pinched",
             Self::Failing(_) => "failing",
             Self::InPlan { law, .. } => match law {
-                CircularLaw::Slider => "friction in plan",
+                CircularLaw::Slider | CircularLaw::Friction { .. } => "friction in plan",
                 CircularLaw::Ring => "ring",
             },
         }
@@ -354,7 +358,7 @@ impl Hysteresis {
     /// Whether the force depends on velocities too.
     #[must_use]
     pub fn depends_on_speed(&self) -> bool {
-        matches!(self.rule, HysteresisRule::Sliding { .. })
+        self.rule.depends_on_rate()
     }
 
     /// Strength of friction.

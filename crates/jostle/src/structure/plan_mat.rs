@@ -6,7 +6,7 @@ use super::plan_matrix::{Part, PlanMatrix};
 use super::spring_place::SpringPlace;
 use super::stick_model::{Coupling, PlanMat, StickModel, Support};
 use crate::hysteresis::{CircularLaw, ForceRow, Hysteresis};
-use crate::model::{Isolation, LumpedFloor, PlanPoint, Tier, TierStorey, Tiers};
+use crate::model::{Isolation, Isolator, LumpedFloor, PlanPoint, Tier, TierStorey, Tiers};
 
 /// Adds bearings, dashpots and the stop between the nodes of the ground and of the mat of a building that stands on it.
 ///
@@ -30,7 +30,16 @@ pub(super) fn put_on_mat(
         None => (stiffness, None),
         Some([strength, second, _]) => {
             let own = [stiffness - second, strength].map(|value| share * value);
-            let rows = Hysteresis::in_plan(CircularLaw::Slider, own[0], own[1]);
+            let law = match *isolator {
+                Isolator::Pendulum { friction, .. } if !friction.is_constant() => {
+                    CircularLaw::Friction {
+                        slow: share * friction.slow * weight,
+                        rate: friction.rate,
+                    }
+                }
+                _ => CircularLaw::Slider,
+            };
+            let rows = Hysteresis::in_plan(law, own[0], own[1]);
             (second, rows.ok())
         }
     };

@@ -1,7 +1,7 @@
 //! Forces in plan in a step: three rows of the list of springs that answer together (theory, Eq. B1p).
 
 use super::springs::{FIT, SpringTrial};
-use crate::hysteresis::HysteresisMemory;
+use crate::hysteresis::{HysteresisMemory, Rates};
 use crate::structure::YieldingSpring;
 
 /// Takes the force of a solution from the row between to those along x and across, and answers; whether the force lies on the lines.
@@ -31,7 +31,7 @@ pub(super) fn answer(
         return;
     };
     let to = [rows[0].reached, rows[1].reached];
-    let answer = law.answer([&memories[0], &memories[1]], to);
+    let answer = law.answer([&memories[0], &memories[1]], to, &rates(rows, memories, to));
     let forces = answer.force.into_iter().chain([0.0]);
     for (row, (force, tangent)) in rows.iter_mut().zip(forces.zip(answer.tangents)) {
         (row.answer, row.next_tangent) = (force, tangent);
@@ -50,7 +50,8 @@ pub(super) fn slope(
     };
     let way = [0, 1].map(|row| rows[row].reached - rows[row].deformation);
     let at = [0, 1].map(|row| rows[row].deformation + share * way[row]);
-    let force = law.answer([&memories[0], &memories[1]], at).force;
+    let rates = rates(rows, memories, at);
+    let force = law.answer([&memories[0], &memories[1]], at, &rates).force;
     let own = |row: usize| {
         let SpringTrial {
             balance, on_line, ..
@@ -58,4 +59,9 @@ pub(super) fn slope(
         way[row] * (force[row] - balance - share * (on_line - balance))
     };
     own(0) + own(1)
+}
+
+/// Motion along x and across over a step that ends at a displacement.
+fn rates(rows: &[SpringTrial], memories: &[HysteresisMemory], to: [f64; 2]) -> [Rates; 2] {
+    [0, 1].map(|row| rows[row].rates_to(&memories[row], to[row]))
 }

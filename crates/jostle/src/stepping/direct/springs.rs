@@ -43,7 +43,7 @@ impl SpringTrial {
 
     /// Motion over the step if it ends at a deformation.
     #[inline]
-    fn rates_to(&self, memory: &HysteresisMemory, deformation: f64) -> Rates {
+    pub(super) fn rates_to(&self, memory: &HysteresisMemory, deformation: f64) -> Rates {
         let change = deformation - memory.deformation();
         Rates {
             after: self.rates.after + self.rates.per_deformation * change,
