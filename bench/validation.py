@@ -33,8 +33,9 @@ def compare(own, answer):
     if in_plan:
         keys += ["displacement_across_max_m", "displacement_across_min_m", "rotation_max_rad", "rotation_min_rad"]
     for ours, theirs in zip(own["buildings"], answer["buildings"]):
-        above = [floor for floor in ours["floors"] if floor["floor"] > 0]
-        for a, b in zip(above, theirs["floors"]):
+        known = {floor["floor"]: floor for floor in ours["floors"]}
+        for b in theirs["floors"]:
+            a = known[b["floor"]]
             worst = max(worst, *(abs(a[key] / b[key] - 1.0) for key in keys if abs(b[key]) > 1e-9))
     print(f"peak displacements: at most {worst:.2e} apart")
     contacts = [contact for gap in own["gaps"] for contact in gap["contacts"]]

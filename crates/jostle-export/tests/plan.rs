@@ -283,3 +283,78 @@ fn friction_in_plan_is_refused_by_field() {
     assert_eq!(faults.len(), 1, "{faults:?}");
     assert_eq!(faults[0].path, "gap[0].friction");
 }
+
+const ISOLATED: &str = include_str!("../../jostle-validation/data/opensees/plan_isolated.toml");
+
+/// Every bearing joins a point of the ground to a point of the mat by springs and dashpots, and by what yields; damping of the building is
+/// between its floors and the mat.
+#[test]
+fn bearings_in_plan_join_the_ground_and_the_mat() {
+    let text = export(&model(ISOLATED)).expect("it can be exported").text;
+    let (nodes, arms) = (table(&text, "NODES"), table(&text, "ARMS"));
+    let supports = table(&text, "SUPPORTS");
+    let mat = &table(&text, "LEVELS")[0];
+    assert_eq!(number(&mat[1]), 0.0);
+    let own = |tag: &str| nodes.iter().find(|row| row[0] == tag).expect("a node");
+    let heavy = own(&mat[0]);
+    assert_eq!([1, 2, 3].map(|at| number(&heavy[at])), [7.0, 5.0, 190e3]);
+    let sliders = table(&text, "SLIDERS");
+    assert_eq!(sliders.len(), 6);
+    let springs = table(&text, "SPRINGS");
+    let materials = table(&text, "MATERIALS");
+    for row in &sliders {
+        let [ground, above] = [&row[1], &row[2]];
+        assert!(supports.iter().any(|own| own[0] == **ground));
+        assert!(arms.iter().any(|arm| arm[0] == mat[0] && arm[1] == **above));
+        for axis in [1, 2] {
+            assert_eq!(own(ground)[axis], own(above)[axis]);
+        }
+        // (K1 - K2) and Q = F_y (1 - K2/K1) of one of six.
+        assert!((number(&row[3]) / (36e6 * 0.88 / 6.0) - 1.0).abs() < 1e-12);
+        assert!((number(&row[4]) / (220e3 * 0.88 / 6.0) - 1.0).abs() < 1e-12);
+        let beside = springs
+            .iter()
+            .find(|own| own[1] == **ground && own[2] == **above);
+        let material = beside.expect("a spring")[4].trim_matches([')', ',']);
+        let material = materials.iter().find(|own| own[1] == material);
+        let material = material.expect("a material");
+        assert!((number(&material[2]) / (36e6 * 0.12 / 6.0) - 1.0).abs() < 1e-12);
+        assert!((number(&material[3]) / (300e3 / 6.0) - 1.0).abs() < 1e-12);
+    }
+    assert!(text.contains("\"alpha\": 0.0, \"beta\": 0.0015"));
+    // 0.35 of the masses of both floors.
+    for mass in [210e3, 180e3] {
+        let dashpot = |row: &Vec<String>| row[0] == "\"Elastic\"" && row.len() > 3;
+        let same = |row: &Vec<String>| (number(&row[3]) / (0.35 * mass) - 1.0).abs() < 1e-12;
+        assert!(
+            materials.iter().any(|row| dashpot(row) && same(row)),
+            "{mass}"
+        );
+    }
+}
+
+#[test]
+fn a_ring_stop_and_friction_that_rises_are_refused_by_field() {
+    let text = ISOLATED.replace(
+        "damping = \"300 kN.s/m\"",
+        "stop = { at = \"80 mm\", stiffness = \"60 MN/m\" }",
+    );
+    let faults = export(&model(&text)).expect_err("OpenSees has no ring");
+    assert_eq!(faults.len(), 1, "{faults:?}");
+    assert_eq!(faults[0].path, "building[0].isolation.stop");
+    const FRAME: &str =
+        include_str!("../../jostle-validation/data/opensees/plan_isolated_frame.toml");
+    let text = FRAME.replace(
+        "friction = 0.06",
+        "friction = { slow = 0.03, fast = 0.06, rate = \"40 s/m\" }",
+    );
+    let faults = export(&model(&text)).expect_err("not by these springs");
+    assert_eq!(faults[0].path, "building[0].isolation.friction");
+    // Feet of columns stand on the mat.
+    let text = export(&model(FRAME)).expect("it can be exported").text;
+    let mat = table(&text, "LEVELS")[0][0].clone();
+    let joints = table(&text, "JOINTS");
+    let feet = joints.iter().filter(|row| row[4] == mat);
+    assert_eq!(feet.count(), 6);
+    assert!(joints.iter().all(|row| row[4] != "None"));
+}

@@ -72,6 +72,7 @@ def build(axial):
         directions, materials = [pair[0] for pair in springs], [pair[1] for pair in springs]
         extra = ["-doRayleigh", 1] if damped else []
         ops.element("zeroLength", tag, first, last, "-mat", *materials, "-dir", *directions, *extra)
+    add_sliders()
     if any(axial == "stiff" or not tied for *_, tied in RIGID):
         rigid = len(MATERIALS) + 1
         ops.uniaxialMaterial("Elastic", rigid, stiffest or 1e12)
@@ -92,6 +93,13 @@ def failing(tag, where, *numbers):
     element, foot, head = next(row[:3] for row in MEMBERS if where[row[1]][1] != where[row[2]][1])
     ops.limitCurve("ThreePoint", tag, element, 0.0, never, 2.0, never, 3.0, never, -slope, residual, 2, 0, foot, head, 1, 2)
     return [*backbone, 1.0, 1.0, 0.0, 0.0, 0.0, tag, 2, 1]
+
+
+def add_sliders():
+    """Bearings in plan: elastic up to a strength that bounds their force in every direction together."""
+    for number, (tag, ground, mat, stiffness, strength) in enumerate(SLIDERS, start=1):
+        ops.section("Bidirectional", number, stiffness, strength, 0.0, 0.0)
+        ops.element("zeroLengthSection", tag, ground, mat, number, "-doRayleigh", 0)
 
 
 def add_contacts():
@@ -129,6 +137,8 @@ def build_in_space():
         ops.element("zeroLength", 10_000_000 + number, free + number, floor, "-mat", hold, hold, hold, "-dir", 3, 4, 5)
     where = {}
     tied = {}
+    mats = {building["floors"][0] for building in BUILDINGS if building.get("has_mat")}
+    feet = []
     for tag, x, y, z, floor in JOINTS:
         where[tag] = (x, y, z)
         ops.node(tag, x, y, z)
@@ -136,6 +146,8 @@ def build_in_space():
             ops.fix(tag, 1, 1, 1, 1, 1, 1)
         else:
             tied.setdefault(floor, []).append(tag)
+            if floor in mats:
+                feet.append(tag)
     for tag, *_ in SUPPORTS:
         ops.fix(tag, 1, 1, 1, 1, 1, 1)
     floors = {tag: floor for tag, *_, floor in JOINTS}
@@ -164,6 +176,9 @@ def build_in_space():
         else:
             along, across = ga
             ops.element("ElasticTimoshenkoBeam", tag, first, last, 1.0, 1.0, ea, torsion, bending, sideways, across, along, transforms[towards])
+    for foot in feet:
+        # Held as by the ground, but free to move with the mat.
+        ops.fix(foot, 0, 0, 1, 1, 1, 0)
     for name, tag, *arguments in MATERIALS:
         ops.uniaxialMaterial(name, tag, *arguments)
     for _, _, (x, y), springs in HINGED_ENDS:
@@ -173,6 +188,7 @@ def build_in_space():
         directions, materials = [pair[0] for pair in springs], [pair[1] for pair in springs]
         extra = ["-doRayleigh", 1] if damped else []
         ops.element("zeroLength", tag, first, last, "-mat", *materials, "-dir", *directions, *extra)
+    add_sliders()
     add_contacts()
 
 
@@ -568,7 +584,8 @@ def analyse(args):
     buildings = []
     for building in BUILDINGS:
         floors = []
-        for number, (right, left) in zip(range(1, len(building["floors"]) + 1), peaks):
+        first = 0 if building.get("has_mat") else 1
+        for number, (right, left) in zip(range(first, first + len(building["floors"])), peaks):
             floors.append({"floor": number, "displacement_max_m": right, "displacement_min_m": left})
             if IN_PLAN:
                 for key in ("displacement_across", "rotation"):
@@ -642,7 +659,7 @@ def analyse(args):
 def main():
     used = [material for *_, springs, _ in SPRINGS for _, material in springs] + [row[3] for row in LINKS]
     used += [material for *_, springs in HINGED_ENDS for *_, material in springs]
-    yields = any(MATERIALS[material - 1][0] != "Elastic" for material in used)
+    yields = bool(SLIDERS) or any(MATERIALS[material - 1][0] != "Elastic" for material in used)
     parser = argparse.ArgumentParser(description=f"{TITLE}: for OpenSeesPy, {EXPORTED_BY}. Prints JSON.")
     parser.add_argument("--uniform", type=float, metavar="DT", help="one step size throughout [s]")
     parser.add_argument("--free", type=float, default=FREE_STEP, metavar="DT", help="step in free vibration [s] (%(default)s)")

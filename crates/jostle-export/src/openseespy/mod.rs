@@ -67,10 +67,11 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
             );
         }
         let in_plan = matches!(building.structure, jostle::Structure::Tiers(_));
-        if in_plan && building.base.isolation.is_some() {
+        let stop = building.base.isolation.and_then(|own| own.stops[0]);
+        if in_plan && stop.is_some() {
             refuse(
-                format!("building[{index}].isolation"),
-                "is not exported yet for a building with a plan; leave it out to compare the buildings on rigid ground".into(),
+                format!("building[{index}].isolation.stop"),
+                "is a ring, which OpenSees does not have; take moat walls ([[wall]] with from and to), or leave it out to compare".into(),
             );
         }
         let structure = export.system.structures().get(index);

@@ -5,15 +5,19 @@
 //! node in space. A node stands at the centre of mass of every floor. Points of a floor are nodes that `rigidLink` ties to it;
 //! springs of storeys join two of them at the centre of stiffness, contacts two of them at the contact point.
 //!
+//! A mat on bearings is another such floor. Bearings join points of it to points that stand still; their friction and lead is a
+//! `zeroLengthSection` with the section `Bidirectional`, whose force is bounded in every direction together.
+//!
 //! Space frames make it a model in space: their joints are tied to the nodes of floors by `rigidDiaphragm`; see `space_frame`.
 
 use std::fmt::Write;
 
 use jostle::interface::Port;
+use jostle::structure::Mat;
 use jostle::system::BuildingSystem;
-use jostle::{ModelFault, PlanPoint, Structure, TierStorey};
+use jostle::{ModelFault, PlanPoint, Structure, Tier, TierStorey};
 
-use super::script::{Script, comment, rounded, text};
+use super::script::{Script, comment, python_bool, rounded, text};
 
 /// Directions of OpenSees: along x, across, rotation.
 const DIRECTIONS: [usize; 3] = [1, 2, 6];
@@ -47,6 +51,7 @@ impl Script<'_> {
             &mut self.supports,
             &mut self.arms,
             &mut self.springs,
+            &mut self.sliders,
             &mut self.levels,
             &mut self.space_joints,
             &mut self.space_members,
@@ -55,7 +60,11 @@ impl Script<'_> {
         }
         let lumped = tiers.lumped_floors();
         let floors = &building.discretization.floors;
-        for (floor, node) in lumped.iter().zip(floors) {
+        let isolated = own.base.isolation.zip(building.discretization.mat);
+        let mat = isolated.map(|(isolation, _)| tiers.mat(isolation.mat_mass));
+        let foot = isolated.map(|(_, mat)| mat.node);
+        let moving = mat.iter().zip(&foot).chain(lumped.iter().zip(floors));
+        for (floor, node) in moving {
             let tag = self.tag(index, *node);
             let [x, y] = floor.tier.centre.map(rounded);
             let _ = writeln!(
@@ -85,7 +94,9 @@ impl Script<'_> {
                         ),
                     );
                 };
-                let lower = storey.checked_sub(1).map(|below| floors[below]);
+                let lower = storey
+                    .checked_sub(1)
+                    .map_or(foot, |below| Some(floors[below]));
                 let first = self.point(index, lower, spring.at);
                 let last = self.point(index, Some(floors[storey]), spring.at);
                 let directions = [(DIRECTIONS[spring.axis.index()], material)];
@@ -108,18 +119,27 @@ impl Script<'_> {
                 );
             }
         }
-        let tags: Vec<String> = floors
+        let mut alpha = building.equations.alpha;
+        if let Some((_, on_mat)) = isolated {
+            self.add_bearings(index, building, on_mat);
+            let floors = lumped.iter().zip(floors);
+            let masses = floors.map(|(floor, node)| (*node, &floor.tier));
+            self.damp_relative_to_mat(index, on_mat.node, std::mem::take(&mut alpha), masses);
+        }
+        let tags: Vec<String> = foot
             .iter()
+            .chain(floors)
             .map(|node| self.tag(index, *node).to_string())
             .collect();
         let _ = writeln!(
             self.buildings,
-            "    {{\"name\": {}, \"nodes\": ({}, {}), \"floors\": [{}],\n     \"alpha\": {:?}, \"beta\": {:?}, \"weight\": False}},",
+            "    {{\"name\": {}, \"nodes\": ({}, {}), \"floors\": [{}], \"has_mat\": {},\n     \"alpha\": {:?}, \"beta\": {:?}, \"weight\": False}},",
             text(&building.name),
             tags[0],
             self.tag(index, self.next_point[index] - 1),
             tags.join(", "),
-            building.equations.alpha,
+            python_bool(foot.is_some()),
+            alpha,
             building.equations.beta,
         );
         Ok(())
@@ -135,7 +155,10 @@ impl Script<'_> {
         damped: bool,
     ) {
         let floors = &building.discretization.floors;
-        let lower = storey.checked_sub(1).map(|below| floors[below]);
+        let foot = building.discretization.mat.map(|mat| mat.node);
+        let lower = storey
+            .checked_sub(1)
+            .map_or(foot, |below| Some(floors[below]));
         let first = self.point(index, lower, springs.centre);
         let last = self.point(index, Some(floors[storey]), springs.centre);
         let directions: Vec<(usize, usize)> = DIRECTIONS
@@ -146,6 +169,58 @@ impl Script<'_> {
             .collect();
         if !directions.is_empty() {
             self.spring(first, last, &directions, damped);
+        }
+    }
+
+    /// Bearings between points of the mat and of the ground: springs and dashpots, and what yields or slides.
+    fn add_bearings(&mut self, index: usize, building: &BuildingSystem, mat: Mat) {
+        let Some(own) = &building.discretization.stick_model.plan_mat else {
+            return;
+        };
+        let share = 1.0 / own.bearings.len() as f64;
+        for at in &own.bearings {
+            let ground = self.point(index, None, *at);
+            let above = self.point(index, Some(mat.node), *at);
+            let (stiffness, dashpot) = (share * mat.stiffness, share * mat.dashpot);
+            if stiffness != 0.0 || dashpot != 0.0 {
+                let material = self.materials.elastic(stiffness, dashpot);
+                let both = [DIRECTIONS[0], DIRECTIONS[1]].map(|direction| (direction, material));
+                self.spring(ground, above, &both, false);
+            }
+            if let Some([along_x, ..]) = own.slider {
+                let curve = along_x.backbone();
+                let element = self.element();
+                let _ = writeln!(
+                    self.sliders,
+                    "    ({element}, {ground}, {above}, {:?}, {:?}),",
+                    curve.initial(),
+                    curve.yield_force(),
+                );
+                self.remark("Bearings that yield or slide are OpenSees' section Bidirectional, which returns to its circle along the radius: its force turns with an error of the first order in the step.");
+            }
+        }
+    }
+
+    /// Dashpots α m between every floor and the point of the mat below its centre of mass.
+    fn damp_relative_to_mat<'t>(
+        &mut self,
+        index: usize,
+        mat: usize,
+        alpha: f64,
+        floors: impl Iterator<Item = (usize, &'t Tier)>,
+    ) {
+        if alpha == 0.0 {
+            return;
+        }
+        for (node, floor) in floors {
+            let below = self.point(index, Some(mat), floor.centre);
+            let last = self.tag(index, node);
+            let masses = [floor.mass, floor.mass, floor.polar_mass];
+            let dashpots = DIRECTIONS.into_iter().zip(masses);
+            let dashpots: Vec<(usize, usize)> = dashpots
+                .map(|(direction, mass)| (direction, self.materials.elastic(0.0, alpha * mass)))
+                .collect();
+            self.spring(below, last, &dashpots, false);
         }
     }
 
@@ -241,12 +316,18 @@ impl Script<'_> {
             // Points of walls stand still; any building numbers them.
             None => (0, None),
             Some(port) => {
-                let own = &self.export.system.buildings[port.building].discretization;
-                let floor = port.floor.map(|floor| own.floors[floor - 1]);
+                let floor = port.floor.map(|floor| self.level(port.building, floor));
                 (port.building, floor)
             }
         };
         self.point(building, floor, at)
+    }
+
+    /// Node of a floor; 0 is the mat.
+    fn level(&self, building: usize, floor: usize) -> usize {
+        let own = &self.export.system.buildings[building].discretization;
+        let mat = own.mat.map_or(0, |mat| mat.node);
+        floor.checked_sub(1).map_or(mat, |index| own.floors[index])
     }
 
     /// Ends of the edge beyond which a corner touches nothing.
@@ -257,8 +338,7 @@ impl Script<'_> {
                 let Some(port) = port else {
                     return "None".to_owned();
                 };
-                let own = &system.buildings[port.building];
-                let node = own.discretization.floors[port.floor.unwrap_or(1) - 1];
+                let node = self.level(port.building, port.floor.unwrap_or(1));
                 let shares: Vec<String> = port
                     .row
                     .entries()

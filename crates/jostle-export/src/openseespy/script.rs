@@ -39,6 +39,8 @@ pub(super) struct Script<'a> {
     members: String,
     rigid: String,
     pub(super) springs: String,
+    /// Bearings in plan that yield or slide.
+    pub(super) sliders: String,
     leaning: String,
     pub(super) contacts: String,
     links: String,
@@ -67,8 +69,11 @@ impl<'a> Script<'a> {
             .map(|(index, building)| {
                 let joints = joints.get(index).unwrap_or(&0);
                 let nodes = building.discretization.stick_model.nodes.len() + joints;
-                // Two points of every storey, twice with P-Delta, and both of every contact.
-                let points = 4 * building.floors.len() + 2 * export.system.contacts.len();
+                // Two points of every storey, twice with P-Delta, both of every contact and bearing, and one of the mat below every floor.
+                let mat = building.mat_in_plan.as_ref();
+                let bearings = mat.map_or(0, |mat| mat.bearings.len());
+                let points =
+                    5 * building.floors.len() + 2 * (export.system.contacts.len() + bearings);
                 nodes + if in_plan { points } else { 0 }
             });
         let mut block = 1000;
@@ -90,6 +95,7 @@ impl<'a> Script<'a> {
             members: String::new(),
             rigid: String::new(),
             springs: String::new(),
+            sliders: String::new(),
             leaning: String::new(),
             contacts: String::new(),
             links: String::new(),
@@ -688,6 +694,12 @@ impl<'a> Script<'a> {
         )?;
         table(
             out,
+            "SLIDERS",
+            "element, point of the ground, point of the mat, stiffness [N/m] and strength [N] of a bearing that yields or slides",
+            &self.sliders,
+        )?;
+        table(
+            out,
             "RIGID",
             "element, first node, last node, direction that does not give way, whether ties see to it",
             &self.rigid,
@@ -862,7 +874,7 @@ pub(super) fn comment(value: &str) -> String {
         .collect()
 }
 
-fn python_bool(value: bool) -> &'static str {
+pub(super) fn python_bool(value: bool) -> &'static str {
     if value { "True" } else { "False" }
 }
 

@@ -37,8 +37,9 @@ impl Script<'_> {
             heights.push(heights[heights.len() - 1] + storey);
         }
         let floors = &building.discretization.floors;
+        let mat = building.discretization.mat.map(|mat| mat.node);
         let stiff = stiffest(frame, storey_heights);
-        // Level 0 is the ground.
+        // Level 0 is the ground or the mat.
         let mut tags: BTreeMap<(usize, [usize; 2]), usize> = BTreeMap::new();
         let (c, s) = (frame.direction[0], frame.direction[1]);
         for member in &frame.members {
@@ -60,8 +61,9 @@ impl Script<'_> {
                         self.next_point[index] += 1;
                         tags.insert(place, tag);
                         let [x, y] = frame.point(place.1).map(rounded);
-                        let floor = match place.0.checked_sub(1) {
-                            Some(floor) => self.tag(index, floors[floor]).to_string(),
+                        let moving = place.0.checked_sub(1).map_or(mat, |own| Some(floors[own]));
+                        let floor = match moving {
+                            Some(node) => self.tag(index, node).to_string(),
                             None => "None".to_owned(),
                         };
                         let z = rounded(heights[place.0]);
