@@ -343,6 +343,7 @@ class SpaceFrame(Part):
         element: walls at points of the plan, beside the frame:
             ``[{"at": ["1 m", "1 m"], "stiffness": {"x": "10 MN/m", "y": "12 MN/m"}}]``.
         damping: ``{"ratio": 0.05, "modes": [1, 3]}`` or ``{"alpha": …, "beta": …}``; 5 % by default.
+        isolation: bearings and a mat under the building, such as ``{"kind": "lead-rubber", "mat_mass": "150 t", …}``.
         p_delta: whether P-Delta from the weight above is included; ``False`` by default.
         position: place along the row, for ``apparent_velocity`` and ``coherency`` of the motion.
         motion: the ground under this building, if it differs: ``{"arrival": "30 ms"}``, ``{"record": …, "scale": …}``.
@@ -386,6 +387,7 @@ class SpaceFrame(Part):
         eccentricity: Sequence[Any] | None = None,
         element: Sequence[Any] | None = None,
         damping: Table | None = None,
+        isolation: Table | None = None,
         p_delta: bool | None = None,
         position: Quantity | None = None,
         motion: Table | None = None,
@@ -423,6 +425,7 @@ class SpaceFrame(Part):
                 "eccentricity": eccentricity,
                 "element": element,
                 "damping": damping,
+                "isolation": isolation,
                 "p_delta": p_delta,
                 "position": position,
                 "motion": motion,

@@ -475,7 +475,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Frame, "shear_failure", Kind::Table(S::ShearFailure), "Lets columns fail in shear; without it their shear strength has no limit."),
 
     default(S::Shear, "base", WordOrTable("fixed", &[S::ShearBase]), "\"fixed\"", "Horizontal spring and dashpot under the building."),
-    optional(S::Shear, "isolation", Kind::Table(S::Isolation), "Bearings and a mat under the building, instead of base; under a plan without frames."),
+    optional(S::Shear, "isolation", Kind::Table(S::Isolation), "Bearings and a mat under the building, instead of base."),
     optional(S::Shear, "foundation", Kind::Table(S::Foundation), "Rigid foundation on [soil], instead of base; in one plane."),
     required(S::Shear, "mass", PerStorey(D::Mass), "Floor masses from the ground up. A weight is converted."),
     optional(S::Shear, "stiffness", Kind::PlanStiffness, "Storey stiffnesses from the ground up; required without elements. With a plan also { x, y, torsion }: a bare value is along x, y is then the same, and torsion that of stiffness spread evenly over the plan."),
