@@ -55,6 +55,7 @@ class SpaceScene {
   take() {
     this.buildings = page.buildings.map((building, i) => ({
       plans: building.plans,
+      mat: building.mat,
       members: (building.members ?? []).map((member, k) => ({ ...member, hinges: hinges.filter((hinge) => hinge.building === i && hinge.line === k + 1) })),
       levels: [0, ...building.heights],
       // A mat is the floor before the first one.
