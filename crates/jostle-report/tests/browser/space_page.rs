@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use jostle_report::render;
 
-use crate::fixture::in_space;
+use crate::fixture::{in_space, isolated_in_space};
 use crate::opened::{Opened, open_page};
 
 fn open(width: u32, height: u32) -> Option<Opened> {
@@ -15,6 +15,9 @@ fn open(width: u32, height: u32) -> Option<Opened> {
 const PICTURE: &str = "document.querySelector('#space canvas').toDataURL()";
 /// Number of pixels that are drawn on.
 const DRAWN: &str = "(() => { const s = document.querySelector('#space canvas'); const c = document.createElement('canvas'); c.width = s.width; c.height = s.height; const g = c.getContext('2d', { willReadFrequently: true }); g.drawImage(s, 0, 0); const d = g.getImageData(0, 0, c.width, c.height).data; let n = 0; for (let i = 3; i < d.length; i += 4) if (d[i]) n++; return n; })()";
+
+/// Number of pixels in the colour of contacts.
+const MARKED: &str = "(() => { const s = document.querySelector('#space canvas'); const g = s.getContext('2d'); const d = g.getImageData(0, 0, s.width, s.height).data; let n = 0; for (let i = 0; i < d.length; i += 4) if (d[i + 3] > 200 && d[i] > 140 && d[i + 1] < 90 && d[i + 2] < 90) n++; return n; })()";
 
 fn settle() {
     std::thread::sleep(Duration::from_millis(250));
@@ -85,6 +88,19 @@ fn paths_are_those_of_the_chosen_corners() {
         "{titles}"
     );
     page.assert_content();
+}
+
+/// The mat, and a wall below the ground before it: contacts are marked at both.
+#[test]
+fn the_scene_shows_a_moat_wall_before_a_mat() {
+    let run = isolated_in_space();
+    let Some(page) = open_page(&render(&run.page()), 1280, 900) else {
+        return;
+    };
+    page.value("document.getElementById('space').scrollIntoView()");
+    settle();
+    let marked = page.number(MARKED);
+    assert!(marked > 100.0, "{marked} pixels of contacts");
 }
 
 #[test]
