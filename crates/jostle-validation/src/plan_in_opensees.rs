@@ -31,8 +31,9 @@ const CASES: [(&str, &str, &str, f64); 9] = [
     case!("plan_space_frames", 3e-4),
     // Corners slide off at ends of steps, which is of first order.
     case!("plan_corners", 3e-4),
-    // Bearings return to their circle along the radius, which is of first order.
-    case!("plan_isolated", 3e-4),
+    // Bearings return to their circle along the radius, which is of first order: steps five times as long moved the force of a light
+    // blow by 1.9e-3, so that a quarter of that is left.
+    case!("plan_isolated", 5e-4),
     case!("plan_isolated_frame", 3e-4),
 ];
 /// Ours, on peak forces and displacements \[–\].
