@@ -1,11 +1,10 @@
 //! Data of the page's scripts: geometry, impacts and thinned histories as one JSON text.
 
 use jostle::history::{Column, EnergyTerm, History};
-use jostle::model::{Building, Gap, Model, Structure};
+use jostle::model::{Building, Gap, LumpedFloor, Model, Structure};
 use jostle::motion::{GroundMotion, Wave};
 use jostle::results::summary::{ContactSummary, SpringSummary, Summary};
 use jostle::structure::SpringPlace;
-use jostle::model::LumpedFloor;
 use jostle::{SpaceFrame, SpaceMember, SpacePlace};
 use serde::Serialize;
 

@@ -161,7 +161,13 @@ impl CircularForce {
             own.force = self.turn(before, path, [start, end]);
             own
         } else {
-            self.slide(before, path, end)
+            let held = before[0].hypot(before[1]);
+            if held > end && dot(before, path) < 0.0 {
+                // The circle came inwards faster than the force: it follows along the radius.
+                return self.pulled_in(trial, end);
+            }
+            let inside = before.map(|force| force * (end / held).min(1.0));
+            self.slide(inside, path, end)
         };
         let along = dot(answer.force, last) / (end * speed).max(f64::MIN_POSITIVE);
         if along > 0.0 {
@@ -174,6 +180,17 @@ impl CircularForce {
             }
         }
         answer
+    }
+
+    /// A force returned along the radius to a circle inside of it.
+    fn pulled_in(&self, trial: [f64; 2], strength: f64) -> PlanAnswer {
+        let length = trial[0].hypot(trial[1]);
+        let radius = trial.map(|force| force / length);
+        let own = [0.0, 0.0, self.stiffness * strength / length];
+        PlanAnswer::new(
+            radius.map(|share| strength * share),
+            turned_back(own, radius),
+        )
     }
 
     /// A force that slides along a straight path, from one strength to another.

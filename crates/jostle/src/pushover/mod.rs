@@ -283,10 +283,7 @@ pub enum CannotPush {
 ///
 /// # Errors
 /// [`CannotPush`].
-pub fn pushover(
-    building: &BuildingSystem,
-    settings: PushSettings,
-) -> Result<Pushover, CannotPush> {
+pub fn pushover(building: &BuildingSystem, settings: PushSettings) -> Result<Pushover, CannotPush> {
     let equations = &building.equations;
     if equations.single_springs < equations.springs.len() {
         return Err(CannotPush::BearingsInPlan);
@@ -294,7 +291,10 @@ pub fn pushover(
     if let Some(alone) = building.without_neighbours() {
         return pushover(&alone, settings);
     }
-    let forces = settings.pattern.forces(building).ok_or(CannotPush::Nothing)?;
+    let forces = settings
+        .pattern
+        .forces(building)
+        .ok_or(CannotPush::Nothing)?;
     let sign = settings.direction.sign();
     let roof = building.floors.last().ok_or(CannotPush::Nothing)?;
     let driven = roof.dof - building.offset;

@@ -428,13 +428,10 @@ impl ByRates {
             let outwards = f[0] * moved[0] + f[1] * moved[1];
             let speed = moved[0].hypot(moved[1]).max(1e-300);
             let faster = (moved[0] * quickened[0] + moved[1] * quickened[1]) / speed;
-            // A force on the circle may have been rounded into it.
-            let slides = held >= (1.0 - 1e-7) * strength && outwards > 0.0;
-            let share = if slides {
-                (outwards / held - by_speed * faster / k) / held
-            } else {
-                0.0
-            };
+            // A circle that widens faster than the elastic force grows holds it; a force on it may have been rounded into it.
+            let slip = outwards / held - by_speed * faster / k;
+            let slides = held >= (1.0 - 1e-7) * strength && outwards > 0.0 && slip > 0.0;
+            let share = if slides { slip / held } else { 0.0 };
             for axis in 0..2 {
                 rates[12 + 2 * index + axis] = k * (moved[axis] - share * f[axis]);
             }
@@ -473,7 +470,10 @@ impl ByRates {
                 let f = [state[12 + 2 * index], state[13 + 2 * index]];
                 let moved = Self::bearing(at, &state[6..12]);
                 let over = f[0].hypot(f[1]) / self.strength(moved)[0];
-                let slides = over > 1.0 - 1e-6 && f[0] * moved[0] + f[1] * moved[1] > 0.0;
+                // A strength that changes leaves it by the error of the step alone.
+                let constant = self.slider[3] == 0.0;
+                let slides =
+                    constant && over > 1.0 - 1e-6 && f[0] * moved[0] + f[1] * moved[1] > 0.0;
                 if over > 1.0 || slides {
                     state[12 + 2 * index] /= over;
                     state[13 + 2 * index] /= over;
