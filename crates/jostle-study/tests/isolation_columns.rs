@@ -148,7 +148,7 @@ fn a_study_without_bearings_has_no_columns_of_them() {
 /// The least strength of the lead that keeps the bearings within their limit: at it, the limit is used up.
 #[test]
 fn size_keeps_bearings_within_their_limit() {
-    let text = model(PLAN, "limit = \"70 mm\"");
+    let text = model(PLAN, "limit = \"91 mm\"");
     let request = SizeRequest {
         vary: vec!["building[0].isolation.yield=60 kN..600 kN".to_owned()],
         keep: vec!["A.isolation_stroke_ratio <= 1".to_owned()],

@@ -258,6 +258,18 @@ fn on_a_line_bearings_are_those_of_one_plane() {
                     (peaks.base_shear_across / shear - 1.0).abs() < 1e-8,
                     "{kind}"
                 );
+                // So are the force of the bearings and the total acceleration of the mat.
+                for (across, line) in [
+                    (peaks.force_across, a.force),
+                    (
+                        deep.in_plan[0].across[0].storey_drift,
+                        flat.floors[0][0].storey_drift,
+                    ),
+                    (peaks.total_acceleration_across, a.total_acceleration),
+                ] {
+                    let expected = line * angle.sin().abs();
+                    assert!((across / expected - 1.0).abs() < 1e-8, "{kind}: {across}");
+                }
             }
             let rows = system.buildings[0].equations.springs.len();
             println!("{rows} rows");
@@ -528,6 +540,45 @@ fn an_eccentric_block_moves_by_the_rate_equation() {
             assert!(middle < 0.5 * coarse || middle < 1e-5, "{kind}: {errors:?}");
         }
     }
+}
+
+/// The worst bearing and its stroke are those of the histories of the mat.
+#[test]
+fn the_worst_bearing_is_that_of_the_histories() {
+    let motion = two_components(0.4);
+    let (_, outcome) = run(&eccentric_block(lead_rubber(), 1e-3), &motion);
+    let (building, floor) = (0, 0);
+    let [u, v, turn] = [
+        Column::Displacement { building, floor },
+        Column::DisplacementAcross { building, floor },
+        Column::Rotation { building, floor },
+    ]
+    .map(|own| column(&outcome, own));
+    let rows = u.iter().zip(&v).zip(&turn);
+    let greatest = |at: &PlanPoint| {
+        let moved = rows
+            .clone()
+            .map(|((u, v), turn)| ByRates::bearing(*at, &[*u, *v, *turn]));
+        moved.map(|[x, y]| x.hypot(y)).fold(0.0, f64::max)
+    };
+    // The lowest storey twists by the floor less the mat; its height is 3 m.
+    let above = column(&outcome, Column::Rotation { building, floor: 1 });
+    let twists = above.iter().zip(&turn).map(|(a, b)| (a - b).abs() / 3.0);
+    let twist = outcome.in_plan[0].turning[0].storey_drift;
+    assert!((twists.fold(0.0, f64::max) / twist - 1.0).abs() < 1e-3);
+    let strokes = PLACES.each_ref().map(greatest);
+    let worst = (0..4).max_by(|a, b| strokes[*a].total_cmp(&strokes[*b]));
+    let peaks = outcome.supports[0].in_plan.expect("in plan");
+    assert_eq!(worst, Some(peaks.bearing));
+    assert!(
+        peaks.bearing > 0,
+        "the first one would prove nothing: {strokes:?}"
+    );
+    let stroke = peaks.stroke.value;
+    assert!(
+        (strokes[peaks.bearing] / stroke - 1.0).abs() < 1e-4,
+        "{strokes:?} {stroke}"
+    );
 }
 
 /// The block and two moat walls, before its right side and before its upper side, all turned.
