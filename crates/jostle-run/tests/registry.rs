@@ -221,6 +221,13 @@ fn every_number_of_the_summary_is_in_the_registry_and_the_other_way_round() {
     let isolated_in_space = isolated_in_space.expect("a summary is JSON");
     let founded = serde_json::to_value(summary_of(FOUNDED)).expect("a summary is JSON");
     let delayed = serde_json::to_value(summary_of(DELAYED)).expect("a summary is JSON");
+    let delayed_in_space = IN_SPACE.replacen(
+        "[[building]]\n",
+        "[[building]]\nmotion = { arrival = \"40 ms\" }\n",
+        1,
+    );
+    let delayed_in_space = serde_json::to_value(summary_of(&delayed_in_space));
+    let delayed_in_space = delayed_in_space.expect("a summary is JSON");
     let failing = serde_json::to_value(summary_of(
         &FAILING.replace("pga = \"0.4 g\"", "pga = \"0.4 g\"\nduration = \"3 s\""),
     ));
@@ -234,6 +241,9 @@ fn every_number_of_the_summary_is_in_the_registry_and_the_other_way_round() {
         if owner.title == "Bearings in plan" {
             let same_key = all.iter().filter(|other| other.key == owner.key);
             compare(&isolated_in_space, &same_key.collect::<Vec<_>>());
+        } else if owner.title == "Ground in plan" {
+            let same_key = all.iter().filter(|other| other.key == owner.key);
+            compare(&delayed_in_space, &same_key.collect::<Vec<_>>());
         } else if in_space(&owner) {
             // The same objects have the numbers of one plane as well.
             let same_key = all.iter().filter(|other| other.key == owner.key);

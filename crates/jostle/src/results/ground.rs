@@ -15,12 +15,27 @@ pub struct GroundSummary {
     pub displacement_peak_m: f64,
     /// Ground displacement at the end of the run, positive to the right \[m\].
     pub displacement_end_m: f64,
-    /// Greatest ground displacement across from rest, either sign, of buildings in space \[m\].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub displacement_across_peak_m: Option<f64>,
-    /// Ground displacement across at the end of the run, of buildings in space \[m\].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub displacement_across_end_m: Option<f64>,
+    /// Across, of buildings in space; absent in one plane.
+    #[serde(flatten)]
+    pub in_plan: Option<GroundInPlan>,
+}
+
+/// The ground under one building with a plan, across.
+#[derive(Clone, Copy, Debug, Default, Serialize, PartialEq)]
+pub struct GroundInPlan {
+    /// Greatest ground displacement across from rest, either sign \[m\].
+    pub displacement_across_peak_m: f64,
+    /// Ground displacement across at the end of the run \[m\].
+    pub displacement_across_end_m: f64,
+}
+
+#[rustfmt::skip]
+impl GroundInPlan {
+    /// Its numbers.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::real("displacement_across_peak_m", Unit::M, "greatest displacement of the ground across from rest, either sign", |g| g.displacement_across_peak_m),
+        Quantity::<Self>::real("displacement_across_end_m", Unit::M, "displacement of the ground across at the end", |g| g.displacement_across_end_m),
+    ];
 }
 
 #[rustfmt::skip]
@@ -30,8 +45,6 @@ impl GroundSummary {
         Quantity::<Self>::real("arrival_s", Unit::S, "when the ground motion arrives", |g| g.arrival_s),
         Quantity::<Self>::real("displacement_peak_m", Unit::M, "greatest displacement of the ground from rest, either sign", |g| g.displacement_peak_m),
         Quantity::<Self>::real("displacement_end_m", Unit::M, "displacement of the ground at the end, positive to the right", |g| g.displacement_end_m),
-        Quantity::<Self>::optional("displacement_across_peak_m", Unit::M, "greatest displacement of the ground across, of buildings in space", |g| g.displacement_across_peak_m),
-        Quantity::<Self>::optional("displacement_across_end_m", Unit::M, "displacement of the ground across at the end, of buildings in space", |g| g.displacement_across_end_m),
     ];
 }
 
@@ -58,8 +71,10 @@ pub(super) fn ground_summary(index: usize, run: &Run<'_>) -> Option<GroundSummar
         arrival_s: path.arrival(),
         displacement_peak_m: peaks[0],
         displacement_end_m: last[0],
-        displacement_across_peak_m: in_space.then_some(peaks[1]),
-        displacement_across_end_m: in_space.then_some(last[1]),
+        in_plan: in_space.then_some(GroundInPlan {
+            displacement_across_peak_m: peaks[1],
+            displacement_across_end_m: last[1],
+        }),
     })
 }
 

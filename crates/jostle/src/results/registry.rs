@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::comparison::{HistoryScore, ImpactScore};
 use super::floor_spectra::{self, FilterSummary, FloorSpectra, FloorSpectrum};
-use super::ground::GroundSummary;
+use super::ground::{GroundInPlan, GroundSummary};
 use super::in_plan::{BuildingInPlan, FloorInPlan};
 use super::response::{BuildingResponse, FloorResponse};
 use super::summary::{
@@ -72,6 +72,7 @@ pub fn owners() -> Vec<Owner> {
         owner("Bearings in plan", "buildings[].isolation", None, "A.isolation_", &[entries(IsolationInPlan::QUANTITIES)]),
         owner("Foundations", "buildings[].foundation", None, "", &[entries(FoundationSummary::QUANTITIES)]),
         owner("Ground under a building", "buildings[].ground", None, "", &[entries(GroundSummary::QUANTITIES)]),
+        owner("Ground in plan", "buildings[].ground", None, "", &[entries(GroundInPlan::QUANTITIES)]),
         owner("Hinges of a building", "buildings[].hinges", None, "", &[entries(HingeSummary::QUANTITIES)]),
         owner("Hinges", "buildings[].hinges.list[]", Some("hinges.parquet"), "", &[entries(SpringSummary::QUANTITIES)]),
         owner("Columns that fail in shear", "buildings[].shear_failures", None, "J1.shear_failures_", &[entries(ShearFailureSummary::QUANTITIES)]),

@@ -117,7 +117,15 @@ pub(crate) fn columns(system: &System, grounds: &RunGrounds<'_>) -> Vec<Column> 
     columns.extend(EnergyTerm::ALL.map(Column::Energy));
     if grounds.part {
         columns.push(Column::Energy(EnergyTerm::Ground));
-        columns.extend(grounds.columns());
+        let places = 0..grounds.places();
+        columns.extend(
+            places
+                .clone()
+                .map(|building| Column::GroundDisplacement { building }),
+        );
+        if system.is_in_space() {
+            columns.extend(places.map(|building| Column::GroundDisplacementAcross { building }));
+        }
     }
     columns
 }

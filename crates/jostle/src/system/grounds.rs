@@ -3,7 +3,6 @@
 //! Joints are counted as contacts, then links, then friction along contacts, then ends of edges.
 
 use super::{Direction, System};
-use crate::history::Column;
 use crate::interface::PortPair;
 use crate::motion::{Ground, GroundMotion, GroundPath, GroundPoint, Side};
 
@@ -236,12 +235,9 @@ impl<'a> RunGrounds<'a> {
         })
     }
 
-    /// Columns of a history for these displacements.
-    pub(crate) fn columns(&self) -> impl Iterator<Item = Column> {
-        let count = self.structures + self.walls;
-        let along = (0..count).map(|building| Column::GroundDisplacement { building });
-        let across = (0..count).map(|building| Column::GroundDisplacementAcross { building });
-        along.chain(across.filter(|_| self.in_space))
+    /// Number of buildings and walls of the model.
+    pub(crate) fn places(&self) -> usize {
+        self.structures + self.walls
     }
 
     /// Number of joints whose grounds may move apart: none, or all.

@@ -14,7 +14,7 @@ mod links;
 mod members;
 mod shear_failure;
 
-pub use super::ground::GroundSummary;
+pub use super::ground::{GroundInPlan, GroundSummary};
 pub use accuracy::{PromiseSummary, WorkSummary};
 pub use building::{BuildingSummary, FloorSummary};
 pub use capacity::{
