@@ -241,7 +241,9 @@ fn less_coherent(
 
 /// Velocity at the end of a motion, and the greatest of all \[m/s\].
 fn end_and_peak(motion: &GroundMotion) -> [f64; 2] {
+    // Along itself, not in its direction in plan.
     let alone = GroundMotion {
+        bearing: None,
         grounds: None,
         ..motion.clone()
     };

@@ -343,3 +343,30 @@ fn grounds_of_plans_have_both_components() {
         assert!((a - b).abs() > 1e-4, "{here:?}, {there:?}");
     }
 }
+
+/// Drift is that along the record, in any direction in plan: a share of the same motion drifts as it does.
+#[test]
+fn drift_does_not_depend_on_the_angle() {
+    let folder = std::env::temp_dir().join(format!("jostle-drift-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let row = |i: u32| {
+        let t = 0.01 * f64::from(i);
+        format!("{t:.2} {:.6}\n", 2.0 * (6.0 * t).sin() + 0.05)
+    };
+    let record = folder.join("drifts.txt");
+    std::fs::write(&record, (0..500).map(row).collect::<String>()).expect("a file");
+    let towers = IN_PLAN.replace("A_KEYS", "");
+    let resolved = |own: &str| {
+        let record = record.display();
+        let motion = format!("record = '{record}'\nunit = \"m/s2\"\nangle = \"90 deg\"");
+        let text = format!("[motion]\n{motion}\n{}", towers.replace("B_KEYS", own));
+        let input = read_model_text("model.toml", &text, Format::Toml, Path::new(""));
+        input.expect("sound").ground_motion()
+    };
+    let same = resolved("motion = { scale = 1.0, arrival = \"10 ms\" }");
+    assert!(same.is_ok(), "{same:?}");
+    let twice = resolved("motion = { scale = 2.0 }");
+    let said = twice.expect_err("it drifts").to_string();
+    assert!(said.contains("baseline"), "{said}");
+    std::fs::remove_dir_all(&folder).expect("it is there");
+}
