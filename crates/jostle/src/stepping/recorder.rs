@@ -503,8 +503,8 @@ impl Recorder {
     }
 }
 
-/// Whether histories have the closing of a contact: on a column between floors, or where grounds move apart; in space faces stand
-/// for their points.
+/// Whether histories have the closing of a contact: on a column between floors, or where grounds move apart. In space they have
+/// forces of faces, not what happens at points of them.
 pub(crate) fn has_closing(system: &System, grounds: &RunGrounds<'_>, contact: usize) -> bool {
     let contact = &system.contacts[contact];
     contact.is_between_floors() || (grounds.part && contact.plan.is_none())
