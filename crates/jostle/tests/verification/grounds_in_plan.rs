@@ -3,14 +3,14 @@
 use std::f64::consts::PI;
 
 use jostle::{
-    Analysis, Building, ContactLaw, Damping, GroundMotion, Grounds, LawKind, OwnGround, PlanPoint,
-    Solver, Structure,
+    Analysis, Bearing, Building, ContactLaw, Damping, Gap, GroundMotion, Grounds, LawKind,
+    OwnGround, PlanPoint, Solver, Structure, Wave,
 };
 
 use crate::direct_in_space;
 use crate::grounds::arriving;
 use crate::space::{
-    LAW, around_a_corner, changed, compare_with_the_plane, model, run, same, shaking,
+    LAW, around_a_corner, changed, compare_with_the_plane, model, run, same, shaking, tower,
 };
 
 /// The second and third building of the corner are reached later, or shaken by another record.
@@ -136,4 +136,79 @@ fn grounds_that_differ_matter() {
     let (_, apart) = run(&model(buildings, gaps), &differing(motion));
     assert_eq!(alike.energy.ground, 0.0);
     assert!(alike.face_impacts.len() != apart.face_impacts.len());
+}
+
+/// Two buildings that hardly move on grounds that do: the corner of one touches the edge of the other and slides off it when the
+/// grounds have moved that far, a closed form of the double integral of the sine.
+#[test]
+fn grounds_carry_a_corner_off_its_edge() {
+    let (gap, inside, rigid) = (2e-3, 0.02, [100e3, 1e12]);
+    let law = ContactLaw {
+        kind: LawKind::Linear,
+        stiffness: 1e6,
+        ..LAW
+    };
+    let plan = [[0.0, 0.0], [10.0, 0.0], [10.0, 8.0], [0.0, 8.0]];
+    let (x, y) = (10.0 + gap, 8.0 - inside);
+    let wedge = [[x, y], [x + 10.0, y - 4.0], [x + 10.0, y]];
+    let buildings = vec![
+        tower("edge", 1, rigid, &plan, [0.0; 2]),
+        tower("corner", 1, rigid, &wedge, [0.0; 2]),
+    ];
+    let sine = |amplitude: f64, bearing: Option<f64>| GroundMotion {
+        name: "sine".to_owned(),
+        scale: 1.0,
+        duration: 0.5,
+        wave: Wave::Sine {
+            amplitude,
+            period: 2.0,
+        },
+        bearing: bearing.map(|angle| {
+            Box::new(Bearing {
+                angle,
+                across: None,
+            })
+        }),
+        grounds: None,
+    };
+    // To the left and upwards alike.
+    let own = OwnGround {
+        motion: Some(sine(1.0, Some(0.75 * PI))),
+        ..OwnGround::default()
+    };
+    let mut motion = sine(1e-9, None);
+    motion.grounds = Some(Box::new(Grounds {
+        own: vec![OwnGround::default(), own],
+    }));
+    let instant = |distance: f64| {
+        let moved = |t: f64| (t - (PI * t).sin() / PI) / PI * 0.5_f64.sqrt();
+        let (mut low, mut high) = (0.0, 0.5);
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if moved(middle) < distance {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        low
+    };
+    let gaps = vec![Gap::between([Some(0), Some(1)], gap, law)];
+    let model = model(buildings, gaps);
+    for solver in [Solver::Modal, Solver::Riccati] {
+        let analysis = Analysis {
+            solver: Some(solver),
+            tolerance: 1e-5,
+            ..Analysis::default()
+        };
+        let (_, outcome) = direct_in_space::run(&model, &motion, analysis);
+        let impact = outcome.impacts.first().expect("the corner touches");
+        assert!(impact.sliding.slid_off, "{solver:?}: {impact:?}");
+        for (got, expected) in [(impact.start, instant(gap)), (impact.end, instant(inside))] {
+            assert!(
+                (got - expected).abs() < 2e-5,
+                "{solver:?}: {got}, {expected}"
+            );
+        }
+    }
 }
