@@ -14,6 +14,8 @@ const ROUNDING: f64 = 1e-9;
 
 /// Numbers of eight rows.
 pub(super) type Rows = [f64; ROWS];
+/// Values of rows while modes are at rest.
+pub(super) const AT_REST: Rows = [0.0; ROWS];
 
 /// Adds sums over modes, list by list; `terms`: rows of a block and modal values, mode by mode.
 #[inline(always)]
@@ -272,6 +274,9 @@ impl WithSimd for FollowOwn<'_> {
                 least: &mut self.least[block],
                 loose: self.loose[block],
             };
+            if !always && covers(&limits.slack([&AT_REST; 2]), &uses(norms, &reach.size)) {
+                continue;
+            }
             let mut values = [[0.0; ROWS]; INSTANTS];
             let values = &mut values[..=last];
             let list = |instant| steps.list(instant, 0);

@@ -73,8 +73,8 @@ pub(super) struct Reach {
     /// ‖ω Δq‖ over the step, and what a cubic may add within, part by part.
     pub(super) moved: [f64; PARTS],
     pub(super) beyond: [f64; PARTS],
-    /// Most that the rest reaches within the step: ‖ω q‖.
-    pub(super) rest: f64,
+    /// Most that every part reaches within the step: ‖ω q‖.
+    pub(super) size: [f64; PARTS],
     /// ‖ω q̇‖ and ‖ω q̈‖ at the end of the step, part by part.
     pub(super) rate: [f64; PARTS],
     pub(super) quickening: [f64; PARTS],
@@ -82,7 +82,7 @@ pub(super) struct Reach {
     pub(super) rate_before: [f64; PARTS],
     /// What a cubic of velocities may add within.
     pub(super) beyond_rates: [f64; PARTS],
-    rest_before: f64,
+    size_before: [f64; PARTS],
     quickening_before: [f64; PARTS],
 }
 
@@ -111,15 +111,15 @@ impl Reach {
             now,
             then,
         });
-        let [moved, rate, quickening] = norms.sums;
+        let [moved, rate, quickening, size] = norms;
         (self.moved, self.rate, self.quickening) = (moved, rate, quickening);
         for part in 0..PARTS {
             self.beyond[part] = BEYOND * step * (self.rate[part] + self.rate_before[part]);
             self.beyond_rates[part] =
                 BEYOND * step * (self.quickening[part] + self.quickening_before[part]);
+            self.size[part] = size[part].max(self.size_before[part]) + self.beyond[part];
         }
-        self.rest = norms.rest.max(self.rest_before) + self.beyond[GROUPS];
-        self.rest_before = norms.rest;
+        self.size_before = size;
         for (way, moved) in self.way.iter_mut().zip(&self.moved) {
             *way += moved;
         }
@@ -133,7 +133,7 @@ impl Reach {
             now: [rate, rate, quickening],
             then: rate,
         });
-        let [_, rate, quickening] = norms.sums;
+        let [_, rate, quickening, _] = norms;
         (self.rate, self.quickening) = (rate, quickening);
     }
 
@@ -142,7 +142,7 @@ impl Reach {
         Self {
             beyond: [0.0; PARTS],
             beyond_rates: [0.0; PARTS],
-            rest: 0.0,
+            size: [0.0; PARTS],
             ..*self
         }
     }
@@ -150,8 +150,8 @@ impl Reach {
     /// Adds a step to those that are looked at together: the greatest of what modes do within any of them.
     pub(super) fn add_later(&mut self, step: &Self) {
         self.way = step.way;
-        self.rest = self.rest.max(step.rest);
         for part in 0..PARTS {
+            self.size[part] = self.size[part].max(step.size[part]);
             self.beyond[part] = self.beyond[part].max(step.beyond[part]);
             self.beyond_rates[part] = self.beyond_rates[part].max(step.beyond_rates[part]);
         }
@@ -161,7 +161,7 @@ impl Reach {
     #[inline(always)]
     pub(super) fn of_low(&self) -> [f64; PARTS] {
         let mut parts = self.beyond;
-        parts[GROUPS] = self.rest;
+        parts[GROUPS] = self.size[GROUPS];
         parts
     }
 
@@ -174,17 +174,11 @@ impl Reach {
     }
 }
 
-/// ‖ω Δq‖, ‖ω q̇‖ and ‖ω q̈‖ of every part, and ‖ω q‖ of the rest.
+/// ‖ω Δq‖, ‖ω q̇‖, ‖ω q̈‖ and ‖ω q‖ of every part.
 struct Norms<'a> {
     stiffness: &'a [f64],
     now: [&'a [f64]; 3],
     then: &'a [f64],
-}
-
-#[derive(Default)]
-struct StepNorms {
-    sums: [[f64; PARTS]; 3],
-    rest: f64,
 }
 
 /// Sums of squares over a chunk of modes, lane by lane: k Δq², k q̇², k q̈² and k q².
@@ -201,10 +195,10 @@ fn squares(k: &[f64], lists: [&[f64]; 4], lanes: &mut [[f64; ROWS]; 4]) {
 }
 
 impl NullaryFnOnce for Norms<'_> {
-    type Output = StepNorms;
+    type Output = [[f64; PARTS]; 4];
 
     #[inline(always)]
-    fn call(self) -> StepNorms {
+    fn call(self) -> Self::Output {
         let n = self.stiffness.len();
         let [q, v, a] = self.now.map(|list| &list[..n]);
         let (stiffness, then) = (&self.stiffness[..n], &self.then[..n]);
@@ -218,8 +212,8 @@ impl NullaryFnOnce for Norms<'_> {
             squares(&stiffness[range.clone()], part(range), &mut rest);
         }
         squares(&stiffness[whole..], part(whole..n), &mut rest);
-        let mut norms = StepNorms::default();
-        for (sums, (grouped, rest)) in norms.sums.iter_mut().zip(grouped.iter().zip(&rest)) {
+        let mut norms = [[0.0; PARTS]; 4];
+        for (sums, (grouped, rest)) in norms.iter_mut().zip(grouped.iter().zip(&rest)) {
             let mut start = 0;
             for (sum, end) in sums.iter_mut().zip(ENDS) {
                 *sum = grouped[start..end].iter().sum();
@@ -230,7 +224,6 @@ impl NullaryFnOnce for Norms<'_> {
                 *sum = sum.sqrt();
             }
         }
-        norms.rest = rest[3].iter().sum::<f64>().sqrt();
         norms
     }
 }
@@ -254,7 +247,7 @@ impl BlockWatch {
     /// displacements uses up the slack.
     #[inline(always)]
     pub(super) fn is_due(&self, reach: &Reach, more: f64) -> bool {
-        let mut used = self.per[GROUPS] * reach.rest + more - self.base;
+        let mut used = self.per[GROUPS] * reach.size[GROUPS] + more - self.base;
         for part in 0..GROUPS {
             used += self.per[part] * (reach.way[part] + reach.beyond[part]);
         }

@@ -3,7 +3,7 @@
 use pulp::{Simd, WithSimd};
 
 use super::member_kernels::{
-    Limits, Near, Rows, add_sums, add_sums_at, beyond, covers, range_of, uses,
+    AT_REST, Limits, Near, Rows, add_sums, add_sums_at, beyond, covers, range_of, uses,
 };
 use super::member_reach::{BlockWatch, PARTS, Reach};
 use super::member_steps::{INSTANTS, Steps};
@@ -131,6 +131,14 @@ impl PassedBounds {
     }
 }
 
+/// Adds rows.
+#[inline(always)]
+fn add(to: &mut Rows, more: &Rows) {
+    for (to, more) in to.iter_mut().zip(more) {
+        *to += more;
+    }
+}
+
 /// Sums of one list in three parts, which do not wait for each other.
 #[inline(always)]
 fn sums_by_thirds<S: Simd>(simd: S, block: &[Rows], modal: &[f64]) -> Rows {
@@ -190,12 +198,19 @@ impl WithSimd for FollowPassed<'_> {
             };
             let mut near = Near::all(last);
             if bounded {
+                let mut driven = AT_REST;
+                bounds.add_drive(drive, &mut driven);
+                let mut used = uses(&bounds.norms, &reach.size);
+                add(&mut used, &driven);
+                if covers(&limits.slack([&AT_REST; 2]), &used) {
+                    continue;
+                }
                 let mut values = [[0.0; ROWS]; INSTANTS];
                 let values = &mut values[..=last];
                 let list = |instant| &steps.list(instant, 0)[..low];
                 add_sums_at(simd, &bounds.low, list, &every[..=last], values);
                 let mut used = uses(&bounds.norms, &reach.of_low());
-                bounds.add_drive(drive, &mut used);
+                add(&mut used, &driven);
                 let [high, least] = range_of(values);
                 if covers(&limits.slack([&high, &least]), &used) {
                     watch.set(reach, bounds, &limits.slack([&values[last]; 2]));
