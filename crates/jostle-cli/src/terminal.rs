@@ -8,6 +8,8 @@ use jostle_run::{LOUD, styled};
 
 use crate::failure::Failure;
 
+/// With what colours begin.
+const ESCAPE: char = '\x1b';
 const ERROR: Style = AnsiColor::Red.on_default().bold();
 
 /// Prints a text and a line break to standard output.
@@ -16,8 +18,14 @@ const ERROR: Style = AnsiColor::Red.on_default().bold();
     reason = "commands that only print end with it"
 )]
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
+    let text = text.trim_end();
     // A closed pipe, as of `head`, is not an error.
-    let _ = writeln!(anstream::stdout().lock(), "{}", text.trim_end());
+    let _ = if text.contains(ESCAPE) {
+        writeln!(anstream::stdout().lock(), "{text}")
+    } else {
+        // Nothing to take out where colours are not wanted: the search for it takes longer than everything else in long output.
+        writeln!(std::io::stdout().lock(), "{text}")
+    };
     Ok(())
 }
 
