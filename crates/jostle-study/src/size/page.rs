@@ -166,27 +166,29 @@ impl SizeResults {
         }
     }
 
-    /// The objective over every varied key.
+    /// Numbers and names of varied keys, with their columns, without that which is the objective itself.
+    fn other_inputs(&self) -> impl Iterator<Item = (usize, &(String, String))> {
+        let all = self.inputs.iter().enumerate();
+        all.filter(|(_, (name, _))| *name != self.objective.text)
+    }
+
+    /// The objective over every other varied key.
     fn over_inputs(&self) -> Section {
-        let charts = self
-            .inputs
-            .iter()
-            .enumerate()
-            .map(|(index, (name, column))| {
-                let suffix = ["_n_s_m", "_m_s2", "_n_m", "_m_s", "_m", "_n", "_s", "_kg"];
-                let suffix = suffix.into_iter().find(|suffix| column.ends_with(suffix));
-                let suffix = suffix.unwrap_or_default();
-                let size = shown(suffix).1;
-                Chart {
-                    title: String::new(),
-                    x: axis(name, suffix),
-                    y: axis(&self.objective.text, &self.objective.suffix),
-                    series: self.dots(|trial| Some(size * trial.inputs[index].0?), [0, 6]),
-                    levels: Vec::new(),
-                    reach: 0.0,
-                    ordered: false,
-                }
-            });
+        let charts = self.other_inputs().map(|(index, (name, column))| {
+            let suffix = ["_n_s_m", "_m_s2", "_n_m", "_m_s", "_m", "_n", "_s", "_kg"];
+            let suffix = suffix.into_iter().find(|suffix| column.ends_with(suffix));
+            let suffix = suffix.unwrap_or_default();
+            let size = shown(suffix).1;
+            Chart {
+                title: String::new(),
+                x: axis(name, suffix),
+                y: axis(&self.objective.text, &self.objective.suffix),
+                series: self.dots(|trial| Some(size * trial.inputs[index].0?), [0, 6]),
+                levels: Vec::new(),
+                reach: 0.0,
+                ordered: false,
+            }
+        });
         Section {
             title: message::objective_over_varied_keys().into(),
             remark: String::new(),
@@ -201,11 +203,15 @@ impl SizeResults {
             let value = |trial: &Trial| trial.objective.unwrap_or(f64::INFINITY);
             value(a).total_cmp(&value(b))
         });
-        let mut heads: Vec<String> = self.inputs.iter().map(|(name, _)| name.clone()).collect();
+        let names = self.other_inputs().map(|(_, (name, _))| name.clone());
+        let mut heads: Vec<String> = names.collect();
         heads.push(self.objective.text.clone());
         heads.extend(self.conditions.iter().map(|c| c.left.text.clone()));
         let rows = best.into_iter().take(BEST).map(|trial| {
-            let mut row: Vec<String> = trial.inputs.iter().map(|(_, text)| rounded(text)).collect();
+            let inputs = self.other_inputs();
+            let mut row: Vec<String> = inputs
+                .map(|(index, _)| rounded(&trial.inputs[index].1))
+                .collect();
             row.push(number(
                 trial.objective.unwrap_or(f64::NAN),
                 &self.objective.suffix,
