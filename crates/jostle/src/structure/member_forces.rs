@@ -226,10 +226,15 @@ impl LinearForm {
         sum
     }
 
-    /// What displacements of the building add to the force.
-    pub(crate) fn of_displacements(&self, displacement: &[f64]) -> f64 {
-        let entries = self.displacement.iter();
-        entries.map(|(dof, share)| share * displacement[*dof]).sum()
+    /// What several displacements of the building add to the force; `displacement`: all of them, by degree of freedom.
+    pub(crate) fn of_displacements<const N: usize>(&self, displacement: &[[f64; N]]) -> [f64; N] {
+        let mut sums = [-0.0; N];
+        for (dof, share) in &self.displacement {
+            for (sum, value) in sums.iter_mut().zip(&displacement[*dof]) {
+                *sum += share * value;
+            }
+        }
+        sums
     }
 
     /// Whether displacements and self weight alone determine it.

@@ -4,7 +4,7 @@
 //! loads, the residual of a motion Σ φ q in the equations of the full building is −Σ (r/θ)(q̈ + α q̇): it is driven
 //! by modal accelerations, and vanishes for natural modes (theory, Eq. Q7).
 
-use super::reduced::{forces_count, forces_of};
+use super::force_rows;
 use super::span::RitzModes;
 use crate::interface::DofRow;
 use crate::linear::NotPositive;
@@ -33,29 +33,38 @@ impl Defects {
     ) -> Result<Self, NotPositive> {
         let count = modes.stiffness.len();
         let mut found = Self {
-            rows: vec![vec![0.0; count]; places.len() + 1 + forces_count(building)],
+            rows: vec![vec![0.0; count]; places.len() + 1 + force_rows::count(building)],
             detuning: vec![0.0; count],
         };
         let all: Vec<usize> = (0..count).collect();
         let mass = &building.equations.mass;
+        let mut wholes = vec![0.0; count];
+        let mut vectors = [(); 2].map(|()| vec![Vec::new(); count]);
         for_each_defect(building, modes, &all, |mode, whole, shape, answer| {
             let theta = modes.stiffness[mode];
             for (row, place) in found.rows.iter_mut().zip(places) {
                 row[mode] = (place.value(shape) - whole * place.value(answer)) / theta;
             }
             let shear = |vector: &[f64]| building.equations.base_shear(vector);
-            let bases = [shape, answer].map(shear);
-            let forces = [shape, answer].map(|vector| forces_of(building, vector));
-            let of_shape = bases[..1].iter().chain(&forces[0]);
-            let of_answer = bases[1..].iter().chain(&forces[1]);
-            let rows = found.rows[places.len()..].iter_mut();
-            for (row, (of_shape, of_answer)) in rows.zip(of_shape.zip(of_answer)) {
-                row[mode] = (of_shape - whole * of_answer) / theta;
+            found.rows[places.len()][mode] = (shear(shape) - whole * shear(answer)) / theta;
+            wholes[mode] = whole;
+            for (vectors, vector) in vectors.iter_mut().zip([shape, answer]) {
+                vectors[mode] = vector.to_vec();
             }
             let own = shape.iter().zip(mass).zip(answer);
             let own: f64 = own.map(|((v, m), y)| v * m * y).sum();
             found.detuning[mode] = (whole * (whole * own - 1.0) / theta).max(0.0);
         })?;
+        let [of_shapes, of_answers] =
+            vectors.map(|vectors| force_rows::of_vectors(building, &vectors));
+        let rows = found.rows[places.len() + 1..].iter_mut();
+        for (row, (of_shape, of_answer)) in rows.zip(of_shapes.iter().zip(&of_answers)) {
+            let modes = wholes.iter().zip(&modes.stiffness);
+            let values = of_shape.iter().zip(of_answer).zip(modes);
+            for (to, ((of_shape, of_answer), (whole, theta))) in row.iter_mut().zip(values) {
+                *to = (of_shape - whole * of_answer) / theta;
+            }
+        }
         Ok(found)
     }
 

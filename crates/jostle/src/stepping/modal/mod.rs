@@ -13,6 +13,7 @@ mod defects;
 mod energy;
 mod estimate;
 mod finish;
+mod force_rows;
 mod forces;
 mod free_steps;
 mod friction;

@@ -7,6 +7,7 @@ use pulp::{Arch, Simd, WithSimd};
 
 use super::basis::{self, Basis, Demand};
 use super::defects::Defects;
+use super::force_rows;
 use super::links::{ModalLink, own_dashpots};
 use super::members::{FormRows, MemberRows};
 use super::mode_kernels::{AddUp, ROWS, Show};
@@ -19,7 +20,7 @@ use crate::interface::{DofRow, InterfaceGraph};
 use crate::linear::NotPositive;
 use crate::motion::Ground;
 use crate::simd;
-use crate::system::{BuildingSystem, Direction, GroundsAt, System};
+use crate::system::{Direction, GroundsAt, System};
 
 /// A row of buildings as oscillators, with their displacements at floors and contacts.
 pub(super) struct Reduced {
@@ -364,7 +365,7 @@ impl Reduced {
             .map(|place| basis.of_shapes(|vector| place.value(vector)))
             .chain([shear])
             .collect();
-        let mut storeys = storey_forms(building, &basis);
+        let mut storeys = force_rows::of_shapes(building, &basis.modes);
         let members = storeys.split_off(2 * building.storeys.len());
         let mut defects_of_members = [const { Vec::new() }; 2];
         let forcing = self.forces();
@@ -693,47 +694,6 @@ impl Reduced {
     }
 }
 
-/// Rows of values of all modes, in blocks; padding rows are zero. Shears of all storeys, then their overturning
-/// moments, then forces of columns and beams that are followed, of every shape.
-fn storey_forms(building: &BuildingSystem, basis: &Basis) -> Vec<Vec<f64>> {
-    let count = forces_count(building);
-    let mut rows = Vec::with_capacity(count);
-    let of_vectors: Vec<Vec<f64>> = basis
-        .modes
-        .vectors
-        .iter()
-        .map(|vector| forces_of(building, vector))
-        .collect();
-    for row in 0..count {
-        let own: Vec<f64> = of_vectors.iter().map(|forces| forces[row]).collect();
-        let shapes = basis.modes.parts.iter();
-        rows.push(shapes.map(|parts| simd::dot(parts, &own)).collect());
-    }
-    rows
-}
-
-/// Number of the forces of [`forces_of`].
-pub(super) fn forces_count(building: &BuildingSystem) -> usize {
-    2 * building.storeys.len() + building.members.forms.len()
-}
-
-/// Shears of all storeys under displacements of an elastic building, then overturning moments, then what displacements
-/// add to the forces of columns and beams that are followed \[N, N·m\].
-pub(super) fn forces_of(building: &BuildingSystem, displacement: &[f64]) -> Vec<f64> {
-    let storeys = building.storeys.len();
-    let mut forces = vec![0.0; 2 * storeys];
-    let elastic = |_| 0.0;
-    building
-        .storeys
-        .for_each(displacement, elastic, |storey, force| {
-            forces[storey] = force.shear;
-            forces[storeys + storey] = force.moment;
-        });
-    let members = building.members.forms.iter();
-    forces.extend(members.map(|form| form.of_displacements(displacement)));
-    forces
-}
-
 /// Forces of the storeys of all buildings.
 struct ShowForces<'a> {
     buildings: &'a [ReducedBuilding],
@@ -758,6 +718,7 @@ impl WithSimd for ShowForces<'_> {
     }
 }
 
+/// Rows of values of all modes, in blocks; padding rows are zero.
 pub(super) fn in_blocks(rows: &[Vec<f64>], modes: usize) -> Vec<[f64; ROWS]> {
     let mut blocks = Vec::with_capacity(modes * rows.len().div_ceil(ROWS));
     for block in rows.chunks(ROWS) {
