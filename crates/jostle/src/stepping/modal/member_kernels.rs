@@ -3,7 +3,7 @@
 
 use pulp::{Simd, WithSimd};
 
-use super::member_reach::{BlockWatch, PARTS, PartRows, Reach};
+use super::member_reach::{BatchReach, PARTS, PartRows, low_modes};
 use super::member_steps::{INSTANTS, Steps};
 use super::members::{MemberRows, tests_look_always};
 use super::mode_kernels::ROWS;
@@ -239,12 +239,10 @@ impl Near {
     }
 }
 
-/// Several steps of the forces of one building that displacements determine.
+/// A batch of steps of the forces of one building that displacements determine.
 pub(super) struct FollowOwn<'a> {
     pub(super) rows: &'a MemberRows,
-    pub(super) watch: &'a mut [BlockWatch],
-    /// Of all steps together.
-    pub(super) reach: &'a Reach,
+    pub(super) reach: &'a BatchReach,
     pub(super) greatest: &'a mut [Rows],
     pub(super) least: &'a mut [Rows],
     pub(super) with_off: &'a mut [Rows],
@@ -261,14 +259,9 @@ impl WithSimd for FollowOwn<'_> {
         let Self {
             rows, reach, steps, ..
         } = self;
-        let (low, last) = (reach.low, steps.count());
+        let (low, last) = (low_modes(steps.modes), steps.count());
         let every = [true; INSTANTS];
-        for (block, watch) in self.watch.iter_mut().enumerate() {
-            if !always && !watch.is_due(reach, 0.0) {
-                continue;
-            }
-            let norms = &rows.norms[block];
-            let shapes = &rows.shapes[block * steps.modes..(block + 1) * steps.modes];
+        for (block, norms) in rows.norms.iter().enumerate() {
             let limits = Limits {
                 greatest: &mut self.greatest[block],
                 least: &mut self.least[block],
@@ -277,22 +270,21 @@ impl WithSimd for FollowOwn<'_> {
             if !always && covers(&limits.slack([&AT_REST; 2]), &uses(norms, &reach.size)) {
                 continue;
             }
+            let shapes = &rows.shapes[block * steps.modes..(block + 1) * steps.modes];
             let mut values = [[0.0; ROWS]; INSTANTS];
             let values = &mut values[..=last];
             let list = |instant| steps.list(instant, 0);
             add_sums_at(simd, &shapes[..low], list, &every[..=last], values);
-            let used = uses(norms, &reach.of_low());
             let near = if always {
                 Near::all(last)
             } else {
+                let used = uses(norms, &reach.of_low());
                 let [high, least] = range_of(values);
                 if covers(&limits.slack([&high, &least]), &used) {
-                    watch.set(reach, norms, &limits.slack([&values[last]; 2]));
                     continue;
                 }
                 Near::find(&limits, values, &used)
             };
-            *watch = BlockWatch::DUE;
             let list = |instant| &steps.list(instant, 0)[low..];
             add_sums_at(simd, &shapes[low..], list, &near.ends[..=last], values);
             let mut exact = ExactSteps {
@@ -440,36 +432,16 @@ impl ExactSteps<'_> {
     }
 }
 
-/// Raises the greatest accelerations of modes, and what they may add to the rows of one building; whether any rose.
-pub(super) fn raise_accelerations(
-    rows: &MemberRows,
-    accelerations: &[f64],
-    known: &mut [f64],
-    loose: &mut [Rows],
-) -> bool {
-    let mut any = false;
-    for (a, known) in accelerations.iter().zip(&*known) {
-        any |= a.abs() > *known;
-    }
-    if !any {
-        return false;
-    }
-    for (mode, (a, known)) in accelerations.iter().zip(known).enumerate() {
-        if a.abs() <= *known {
-            continue;
-        }
-        let more = AHEAD * a.abs() - *known;
-        *known += more;
-        for (block, loose) in loose.iter_mut().enumerate() {
-            let at = block * accelerations.len() + mode;
-            let lists = rows.missed[at].iter().zip(&rows.off[at]);
-            for (loose, (missed, off)) in loose.iter_mut().zip(lists) {
-                *loose += (missed.abs() + off.abs()) * more;
+/// What accelerations up to these may add to the rows of one building, with what may be off.
+pub(super) fn set_loose(rows: &MemberRows, accelerations: &[f64], loose: &mut [Rows]) {
+    let blocks = rows.missed.chunks(accelerations.len().max(1));
+    let blocks = blocks.zip(rows.off.chunks(accelerations.len().max(1)));
+    for (loose, (missed, off)) in loose.iter_mut().zip(blocks) {
+        *loose = [0.0; ROWS];
+        for ((missed, off), a) in missed.iter().zip(off).zip(accelerations) {
+            for (row, loose) in loose.iter_mut().enumerate() {
+                *loose += (missed[row].abs() + off[row].abs()) * a;
             }
         }
     }
-    true
 }
-
-/// Margin of greatest accelerations, so that they are seldom raised.
-const AHEAD: f64 = 1.6;

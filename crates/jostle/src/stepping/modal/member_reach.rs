@@ -136,23 +136,27 @@ impl Reach {
         let [_, rate, quickening, _] = norms;
         (self.rate, self.quickening) = (rate, quickening);
     }
+}
 
-    /// That of no step yet, after this one.
-    pub(super) fn ahead(&self) -> Self {
-        Self {
-            beyond: [0.0; PARTS],
-            beyond_rates: [0.0; PARTS],
-            size: [0.0; PARTS],
-            ..*self
-        }
-    }
+/// The most that the modes of a building do within some steps, part by part.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct BatchReach {
+    /// ‖ω q‖, and what cubics may add to the ends of a step.
+    pub(super) size: [f64; PARTS],
+    pub(super) beyond: [f64; PARTS],
+    /// The same of velocities.
+    pub(super) rates: [f64; PARTS],
+    pub(super) beyond_rates: [f64; PARTS],
+}
 
-    /// Adds a step to those that are looked at together: the greatest of what modes do within any of them.
-    pub(super) fn add_later(&mut self, step: &Self) {
-        self.way = step.way;
+impl BatchReach {
+    /// Adds a step.
+    pub(super) fn add(&mut self, step: &Reach) {
         for part in 0..PARTS {
+            let rate = step.rate[part].max(step.rate_before[part]) + step.beyond_rates[part];
             self.size[part] = self.size[part].max(step.size[part]);
             self.beyond[part] = self.beyond[part].max(step.beyond[part]);
+            self.rates[part] = self.rates[part].max(rate);
             self.beyond_rates[part] = self.beyond_rates[part].max(step.beyond_rates[part]);
         }
     }
@@ -163,14 +167,6 @@ impl Reach {
         let mut parts = self.beyond;
         parts[GROUPS] = self.size[GROUPS];
         parts
-    }
-
-    /// Greatest ‖ω q̇‖ within the step, part by part.
-    #[inline(always)]
-    pub(super) fn greatest_rates(&self) -> [f64; PARTS] {
-        std::array::from_fn(|part| {
-            self.rate[part].max(self.rate_before[part]) + self.beyond_rates[part]
-        })
     }
 }
 

@@ -5,10 +5,10 @@ use std::ops::Range;
 use super::basis::Basis;
 use super::member_kernels::{self, FollowOwn};
 use super::member_ratios::{ModalRatios, StepEnds};
-use super::member_reach::{BlockWatch, PARTS, PartRows, Reach, low_modes, norms_in_blocks};
-use super::member_steps::WaitingSteps;
+use super::member_reach::{PARTS, PartRows, Reach, low_modes, norms_in_blocks};
+use super::member_steps::KeptSteps;
 use super::mode_kernels::ROWS;
-use super::passed_kernels::{Drive, FollowPassed, PassedWatch};
+use super::passed_kernels::{Drive, FollowPassed};
 use super::reduced::{Reduced, in_blocks};
 use super::unit_force::UnitForce;
 use crate::history::MemberHistory;
@@ -293,31 +293,27 @@ pub(super) struct Instant<'a> {
     pub(super) smooth: bool,
 }
 
-/// Follows the forces of columns and beams, several steps together. A block of them is computed only once modes can have
-/// carried one beyond its greatest or least value; what is found is the same, bit by bit, as if all were computed in every
-/// step.
+/// Follows the forces of columns and beams after steps were kept, batch by batch: first those in which modes come farthest from
+/// rest. A block of forces is computed in a batch only if modes can carry one beyond its greatest or least value; what is found is
+/// the same, bit by bit, as if all were computed in every step.
 pub(super) struct MemberPeaks {
     /// Greatest and least value, and greatest size with what may be missed.
     greatest: Vec<[f64; ROWS]>,
     least: Vec<[f64; ROWS]>,
     with_off: Vec<[f64; ROWS]>,
-    /// Of every row, most that the accelerations so far add to what displacements say, with what may be off.
+    /// Of every row, most that accelerations add to what displacements say, with what may be off.
     loose: Vec<[f64; ROWS]>,
-    /// The greatest acceleration of every mode so far, with a margin, building by building.
+    /// The greatest acceleration of every mode, building by building.
     accelerations: Vec<f64>,
-    /// What the modes of every building have done, and the most of it in the steps that wait.
+    /// What the modes of every building have done.
     reach: Vec<Reach>,
-    reach_waiting: Vec<Reach>,
-    rates_waiting: Vec<[f64; PARTS]>,
-    watch: Vec<Vec<BlockWatch>>,
     /// The same of axial forces that pass through beams.
     passed_greatest: Vec<[f64; ROWS]>,
     passed_least: Vec<[f64; ROWS]>,
-    watch_passed: Vec<Vec<PassedWatch>>,
     drive: Drive,
     /// Whether modes are driven by other forces than the ground's and those of contacts.
     is_linked: bool,
-    waiting: WaitingSteps,
+    kept: KeptSteps,
     time: f64,
     history: Option<MemberHistory>,
     /// Demand over capacity of those that are rated.
@@ -366,19 +362,11 @@ impl MemberPeaks {
             loose: vec![[0.0; ROWS]; own / ROWS],
             accelerations: vec![0.0; reduced.modes()],
             reach: buildings().map(|own| Reach::new(own.modes.len())).collect(),
-            reach_waiting: buildings().map(|own| Reach::new(own.modes.len())).collect(),
-            rates_waiting: vec![[0.0; PARTS]; reduced.buildings.len()],
-            watch: buildings()
-                .map(|own| vec![BlockWatch::DUE; own.range.len() / ROWS])
-                .collect(),
             passed_greatest: vec![[0.0; ROWS]; passed / ROWS],
             passed_least: vec![[0.0; ROWS]; passed / ROWS],
-            watch_passed: buildings()
-                .map(|own| vec![PassedWatch::DUE; own.passed.range.len() / ROWS])
-                .collect(),
             drive: Drive::new(system.contacts.len()),
             is_linked: !reduced.links.is_empty(),
-            waiting: WaitingSteps::new(reduced, system.contacts.len()),
+            kept: KeptSteps::new(reduced, system.contacts.len()),
             time: 0.0,
             history: MemberHistory::new(system).filter(|_| records),
             ratios: ModalRatios::new(system, reduced),
@@ -397,116 +385,106 @@ impl MemberPeaks {
     pub(super) fn follow(&mut self, system: &System, reduced: &Reduced, now: Instant<'_>) {
         let step = now.time - self.time;
         self.time = now.time;
-        let smooth = now.smooth && step > 0.0;
-        if self.waiting.smooth != smooth {
-            self.follow_waiting(reduced);
-            self.waiting.smooth = smooth;
+        if self.kept.is_full() {
+            self.look_at_kept(reduced);
         }
         let lists = [now.q, now.v, now.a, now.jerk];
-        self.waiting
-            .push(reduced, lists, now.ground, now.phases, step);
-        let end = self.waiting.len();
+        let length = (step, now.smooth && step > 0.0);
+        self.kept
+            .push(reduced, lists, now.ground, now.phases, length);
         for (index, own) in reduced.buildings.iter().enumerate() {
             let own = &own.members;
             let stiffness = &reduced.stiffness[own.modes.clone()];
-            let steps = self.waiting.of(index, &own.modes);
+            let steps = self.kept.last_step(index, &own.modes);
             let [then, now_of_building] =
-                [end - 1, end].map(|end| [0, 1, 2].map(|part| steps.list(end, part)));
+                [0, 1].map(|end| [0, 1, 2].map(|part| steps.list(end, part)));
             let reach = &mut self.reach[index];
             reach.add(reduced.arch(), stiffness, now_of_building, then[0], step);
-            self.reach_waiting[index].add_later(reach);
-            let rates = reach.greatest_rates();
-            for (most, rate) in self.rates_waiting[index].iter_mut().zip(rates) {
-                *most = most.max(rate);
-            }
             if let Some(ratios) = &mut self.ratios {
                 let ends = StepEnds {
                     then,
                     now: now_of_building,
-                    ground: [end - 1, end].map(|end| steps.ground(end)),
+                    ground: [0, 1].map(|end| steps.ground(end)),
                     step,
                 };
                 let of = (system, index, &self.reach[index]);
                 ratios.follow(reduced.arch(), of, &ends, now);
             }
-            self.raise_accelerations(index, own, &now.a[own.modes.clone()]);
-        }
-        if self.waiting.is_full() || tests_look_always() {
-            self.follow_waiting(reduced);
+            self.kept.add_reach(index, &self.reach[index]);
         }
     }
 
     /// Replaces velocities, accelerations and jerks of the last instant, after they have jumped.
     pub(super) fn restart(&mut self, reduced: &Reduced, jumped: [&[f64]; 3]) {
-        self.follow_waiting(reduced);
-        self.waiting.set_from(reduced, 1, &jumped);
+        if self.kept.is_full() {
+            self.look_at_kept(reduced);
+        }
+        self.kept.restart(reduced, jumped);
         for (index, own) in reduced.buildings.iter().enumerate() {
             let own = &own.members;
             let [velocities, accelerations, _] = jumped.map(|list| &list[own.modes.clone()]);
             let stiffness = &reduced.stiffness[own.modes.clone()];
             let jumped = [velocities, accelerations];
             self.reach[index].restart(reduced.arch(), stiffness, jumped);
-            self.raise_accelerations(index, own, accelerations);
         }
     }
 
-    /// Raises the greatest accelerations of modes, and what they may add to forces.
-    fn raise_accelerations(&mut self, index: usize, own: &MemberRows, accelerations: &[f64]) {
-        if own.missed.is_empty() {
-            return;
-        }
-        let known = &mut self.accelerations[own.modes.clone()];
-        let loose = &mut self.loose[own.blocks()];
-        if member_kernels::raise_accelerations(own, accelerations, known, loose) {
-            self.watch[index].fill(BlockWatch::DUE);
-        }
-    }
-
-    /// Looks at the steps that wait.
-    pub(super) fn follow_waiting(&mut self, reduced: &Reduced) {
-        if self.waiting.is_empty() {
+    /// Looks at the steps that are kept.
+    pub(super) fn look_at_kept(&mut self, reduced: &Reduced) {
+        if self.kept.is_empty() {
             return;
         }
         for (index, own) in reduced.buildings.iter().enumerate() {
-            self.follow_own(reduced, index, &own.members);
-            self.follow_passed(reduced, index, &own.members);
-            self.reach_waiting[index] = self.reach[index].ahead();
-            self.rates_waiting[index] = [0.0; PARTS];
+            let own = &own.members;
+            if !own.missed.is_empty() {
+                let known = &mut self.accelerations[own.modes.clone()];
+                self.kept.raise_accelerations(&own.modes, known);
+                member_kernels::set_loose(own, known, &mut self.loose[own.blocks()]);
+            }
+            // Next to great values others seldom count.
+            let first = self.kept.farthest(index);
+            let first = first.as_flattened();
+            for (at, batch) in first.iter().enumerate() {
+                if !first[..at].contains(batch) {
+                    self.look_at_batch(reduced, index, *batch);
+                }
+            }
+            for batch in 0..self.kept.batches() {
+                if !first.contains(&batch) {
+                    self.look_at_batch(reduced, index, batch);
+                }
+            }
         }
-        self.waiting.clear();
+        self.kept.clear();
     }
 
-    fn follow_own(&mut self, reduced: &Reduced, index: usize, own: &MemberRows) {
+    fn look_at_batch(&mut self, reduced: &Reduced, index: usize, batch: usize) {
+        let own = &reduced.buildings[index].members;
+        let steps = self.kept.batch(batch, index, &own.modes);
+        let reach = self.kept.reach(batch, index);
         let blocks = own.blocks();
         reduced.arch().dispatch(FollowOwn {
             rows: own,
-            watch: &mut self.watch[index],
-            reach: &self.reach_waiting[index],
+            reach,
             greatest: &mut self.greatest[blocks.clone()],
             least: &mut self.least[blocks.clone()],
             with_off: &mut self.with_off[blocks.clone()],
             loose: &self.loose[blocks],
-            steps: self.waiting.of(index, &own.modes),
+            steps,
         });
-    }
-
-    fn follow_passed(&mut self, reduced: &Reduced, index: usize, own: &MemberRows) {
         let passed = &own.passed;
         if passed.range.is_empty() {
             return;
         }
-        let steps = self.waiting.of(index, &own.modes);
-        self.drive.set(&steps, self.rates_waiting[index]);
+        self.drive.set(&steps);
         let blocks = passed.range.start / ROWS..passed.range.end / ROWS;
         reduced.arch().dispatch(FollowPassed {
             passed,
-            watch: &mut self.watch_passed[index],
-            reach: &self.reach_waiting[index],
+            reach,
             drive: &self.drive,
             greatest: &mut self.passed_greatest[blocks.clone()],
             least: &mut self.passed_least[blocks],
             steps,
-            cubic: self.waiting.smooth,
             is_bounded: !self.is_linked,
         });
     }

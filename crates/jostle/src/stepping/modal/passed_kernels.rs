@@ -5,109 +5,60 @@ use pulp::{Simd, WithSimd};
 use super::member_kernels::{
     AT_REST, Limits, Near, Rows, add_sums, add_sums_at, beyond, covers, range_of, uses,
 };
-use super::member_reach::{BlockWatch, PARTS, Reach};
+use super::member_reach::{BatchReach, low_modes};
 use super::member_steps::{INSTANTS, Steps};
 use super::members::{Passed, PassedBounds, tests_look_always};
 use super::mode_kernels::ROWS;
 use super::peaks::BEYOND;
 
-/// When a block of axial forces that pass through beams has to be computed again.
-#[derive(Clone, Copy)]
-pub(super) struct PassedWatch {
-    modes: BlockWatch,
-    /// Share of its slack per ‖ω q̇‖, ground acceleration and contact force.
-    rates: [f64; PARTS],
-    ground: f64,
-    pushed: f64,
-}
-
 /// The most that drives a building within some steps beside its modal displacements.
 pub(super) struct Drive {
-    /// ‖ω q̇‖, part by part.
-    pub(super) rates: [f64; PARTS],
+    /// Greatest size of the ground acceleration \[m/s²\].
     pub(super) ground: f64,
     /// Most that the ground acceleration changes within a step \[m/s²\].
     pub(super) ground_change: f64,
-    /// Greatest size of every contact force, and of their sum.
+    /// Greatest size of every contact force \[N\].
     pub(super) contacts: Vec<f64>,
-    pub(super) pushes: f64,
+    /// Whether there is any.
+    pub(super) is_pushed: bool,
 }
 
 impl Drive {
     pub(super) fn new(contacts: usize) -> Self {
         Self {
-            rates: [0.0; PARTS],
             ground: 0.0,
             ground_change: 0.0,
             contacts: vec![0.0; contacts],
-            pushes: 0.0,
+            is_pushed: false,
         }
     }
 
-    /// That of these steps; `rates`: greatest ‖ω q̇‖ in them.
-    pub(super) fn set(&mut self, steps: &Steps<'_>, rates: [f64; PARTS]) {
-        self.rates = rates;
+    /// That of these steps.
+    pub(super) fn set(&mut self, steps: &Steps<'_>) {
         self.ground = steps.ground(0).abs();
-        (self.ground_change, self.pushes) = (0.0, 0.0);
+        (self.ground_change, self.is_pushed) = (0.0, false);
         self.contacts.fill(0.0);
         for end in 1..=steps.count() {
             let (before, now) = (steps.ground(end - 1), steps.ground(end));
             self.ground = self.ground.max(now.abs());
             self.ground_change = self.ground_change.max((now - before).abs());
-            let mut pushes = 0.0;
             for (most, force) in self.contacts.iter_mut().zip(steps.pushes(end)) {
                 *most = most.max(force.abs());
-                pushes += force.abs();
+                self.is_pushed |= *force != 0.0;
             }
-            self.pushes = self.pushes.max(pushes);
         }
-    }
-}
-
-impl PassedWatch {
-    pub(super) const DUE: Self = Self {
-        modes: BlockWatch::DUE,
-        rates: [0.0; PARTS],
-        ground: 0.0,
-        pushed: 0.0,
-    };
-
-    #[inline(always)]
-    fn is_due(&self, reach: &Reach, drive: &Drive) -> bool {
-        let mut more = self.ground * drive.ground + self.pushed * drive.pushes;
-        for (own, rate) in self.rates.iter().zip(&drive.rates) {
-            more += own * rate;
-        }
-        self.modes.is_due(reach, more)
-    }
-
-    #[inline(always)]
-    fn set(&mut self, reach: &Reach, bounds: &PassedBounds, slack: &Rows) {
-        self.modes.set(reach, &bounds.norms, slack);
-        let most = |list: &Rows| {
-            let mut most = 0.0_f64;
-            for (own, slack) in list.iter().zip(slack) {
-                if *own > 0.0 {
-                    most = most.max(own / slack.max(f64::EPSILON));
-                }
-            }
-            most
-        };
-        self.rates = bounds.norms_of_rates.each_ref().map(most);
-        self.ground = most(&bounds.ground);
-        self.pushed = bounds.pushed.iter().map(most).fold(0.0, f64::max);
     }
 }
 
 impl PassedBounds {
     /// Adds what drives rows beside modal displacements.
     #[inline(always)]
-    fn add_drive(&self, drive: &Drive, used: &mut Rows) {
-        let by_rates = uses(&self.norms_of_rates, &drive.rates);
+    fn add_drive(&self, reach: &BatchReach, drive: &Drive, used: &mut Rows) {
+        let by_rates = uses(&self.norms_of_rates, &reach.rates);
         for (row, used) in used.iter_mut().enumerate() {
             *used += by_rates[row] + self.ground[row] * drive.ground;
         }
-        if drive.pushes == 0.0 {
+        if !drive.is_pushed {
             return;
         }
         for (pushed, force) in self.pushed.iter().zip(&drive.contacts) {
@@ -120,7 +71,7 @@ impl PassedBounds {
     /// Most that rows go beyond the ends of a step while modes are free: their rates follow from q̇, q̈ and the rate of the
     /// ground acceleration, by the equations of modes.
     #[inline(always)]
-    fn beyond(&self, reach: &Reach, by_ground: &Rows, drive: &Drive) -> Rows {
+    fn beyond(&self, reach: &BatchReach, by_ground: &Rows, drive: &Drive) -> Rows {
         let mut most = uses(&self.norms, &reach.beyond);
         let by_rates = uses(&self.norms_of_rates, &reach.beyond_rates);
         for (row, most) in most.iter_mut().enumerate() {
@@ -155,18 +106,14 @@ fn sums_by_thirds<S: Simd>(simd: S, block: &[Rows], modal: &[f64]) -> Rows {
     all
 }
 
-/// Several steps of axial forces that pass through rigid beams of one building.
+/// A batch of steps of axial forces that pass through rigid beams of one building.
 pub(super) struct FollowPassed<'a> {
     pub(super) passed: &'a Passed,
-    pub(super) watch: &'a mut [PassedWatch],
-    /// Of all steps together.
-    pub(super) reach: &'a Reach,
+    pub(super) reach: &'a BatchReach,
     pub(super) drive: &'a Drive,
     pub(super) greatest: &'a mut [Rows],
     pub(super) least: &'a mut [Rows],
     pub(super) steps: Steps<'a>,
-    /// Whether accelerations follow a cubic.
-    pub(super) cubic: bool,
     /// Whether nothing drives modes but the ground and contacts.
     pub(super) is_bounded: bool,
 }
@@ -183,14 +130,10 @@ impl WithSimd for FollowPassed<'_> {
             steps,
             ..
         } = self;
-        let (low, last) = (reach.low, steps.count());
+        let (low, last) = (low_modes(steps.modes), steps.count());
         let every = [true; INSTANTS];
         let bounded = self.is_bounded && !tests_look_always();
-        for (block, watch) in self.watch.iter_mut().enumerate() {
-            if bounded && !watch.is_due(reach, drive) {
-                continue;
-            }
-            let bounds = &passed.bounds[block];
+        for (block, bounds) in passed.bounds.iter().enumerate() {
             let limits = Limits {
                 greatest: &mut self.greatest[block],
                 least: &mut self.least[block],
@@ -199,7 +142,7 @@ impl WithSimd for FollowPassed<'_> {
             let mut near = Near::all(last);
             if bounded {
                 let mut driven = AT_REST;
-                bounds.add_drive(drive, &mut driven);
+                bounds.add_drive(reach, drive, &mut driven);
                 let mut used = uses(&bounds.norms, &reach.size);
                 add(&mut used, &driven);
                 if covers(&limits.slack([&AT_REST; 2]), &used) {
@@ -213,19 +156,17 @@ impl WithSimd for FollowPassed<'_> {
                 add(&mut used, &driven);
                 let [high, least] = range_of(values);
                 if covers(&limits.slack([&high, &least]), &used) {
-                    watch.set(reach, bounds, &limits.slack([&values[last]; 2]));
                     continue;
                 }
                 near = Near::find(&limits, values, &used);
             }
-            *watch = PassedWatch::DUE;
             let mut exact = ExactPassed {
                 passed,
                 block,
                 steps: &steps,
                 limits,
             };
-            if self.cubic {
+            if steps.smooth {
                 exact.take_cubics(simd, &near, bounded.then_some((reach, drive)));
             } else {
                 exact.take_ends(simd, &near);
@@ -294,7 +235,12 @@ impl ExactPassed<'_> {
 
     /// Takes in steps in which accelerations follow a cubic; `bounds`: what drives them, where it is known.
     #[inline(always)]
-    fn take_cubics<S: Simd>(&mut self, simd: S, near: &Near, bounds: Option<(&Reach, &Drive)>) {
+    fn take_cubics<S: Simd>(
+        &mut self,
+        simd: S,
+        near: &Near,
+        bounds: Option<(&BatchReach, &Drive)>,
+    ) {
         let (steps, last) = (self.steps, self.steps.count());
         let by_ground = [0, 1].map(|part| self.by_ground(part));
         let mut free = [[0.0; ROWS]; INSTANTS];

@@ -317,10 +317,10 @@ impl Peaks {
         }
     }
 
-    /// Looks at the steps that wait: after this, peaks are those of all steps so far.
+    /// Looks at the steps that were kept: after this, peaks are those of all steps so far.
     pub(super) fn complete(&mut self, reduced: &Reduced) {
         if let Some(members) = &mut self.members {
-            members.follow_waiting(reduced);
+            members.look_at_kept(reduced);
         }
     }
 
