@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use jostle::LawKind;
+use jostle::contact::ModifiedKelvin;
 use jostle_report::CollidedLaw;
 use jostle_run::{AdviceOptions, CollideOptions, collision_json};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
@@ -102,10 +103,7 @@ pub(crate) fn contact_advice(
 #[pyfunction]
 pub(crate) fn contact_laws() -> String {
     let laws = LawKind::ALL.into_iter().map(|kind| {
-        let variant = match kind {
-            LawKind::ModifiedKelvin(variant) => Some(variant.name()),
-            _ => None,
-        };
+        let variant = kind.variant().map(ModifiedKelvin::name);
         json!({
             "law": kind.name(),
             "variant": variant,

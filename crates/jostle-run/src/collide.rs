@@ -197,12 +197,9 @@ fn kinds(options: &CollideOptions, shape: BilinearShape, bumper: RubberBumper) -
     let variant = ModifiedKelvin::MahmoudJankowski;
     let wanted = |kind: &LawKind| {
         kind.name() == options.law
-            && match kind {
-                LawKind::ModifiedKelvin(found) => {
-                    (*found == variant) == (options.variant == variant.name())
-                }
-                _ => true,
-            }
+            && kind
+                .variant()
+                .is_none_or(|found| (found == variant) == (options.variant == variant.name()))
     };
     all.filter(wanted).collect()
 }
@@ -262,10 +259,7 @@ impl Stiffness {
 #[must_use]
 pub fn collision_json(collided: &CollidedLaw) -> Value {
     let CollidedLaw { law, collision } = collided;
-    let variant = match law.kind {
-        LawKind::ModifiedKelvin(variant) => Some(variant.name()),
-        _ => None,
-    };
+    let variant = law.kind.variant().map(ModifiedKelvin::name);
     json!({
         "law": law.kind.name(),
         "variant": variant,

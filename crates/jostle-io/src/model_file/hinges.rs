@@ -53,9 +53,16 @@ pub(super) fn read_rule(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Hyst
     Some(match HysteresisRule::from_name(name?)? {
         HysteresisRule::Takeda { .. } => HysteresisRule::Takeda { exponent },
         HysteresisRule::Pinched(_) => HysteresisRule::Pinched(pinching?),
-        rule if !rule.has_parameters() => rule,
-        // Those of bearings have no name among the rules.
-        _ => return None,
+        rule @ (HysteresisRule::Elastic
+        | HysteresisRule::Bilinear
+        | HysteresisRule::Normal
+        | HysteresisRule::PeakOriented
+        | HysteresisRule::DegradingTrilinear) => rule,
+        // Those of bearings, stops and shear failure have no name among the rules.
+        HysteresisRule::Sliding { .. }
+        | HysteresisRule::Stop { .. }
+        | HysteresisRule::Failing(_)
+        | HysteresisRule::InPlan { .. } => return None,
     })
 }
 
@@ -273,9 +280,12 @@ fn read_members(
         let mut row = Vec::new();
         for length in lengths {
             let stiffness = initial.stiffness(rigidity, length);
-            let [a, b] = sides.map(|side| match rule {
-                HysteresisRule::Elastic => side,
-                _ => initial.ratios(side),
+            let [a, b] = sides.map(|side| {
+                if rule == HysteresisRule::Elastic {
+                    side
+                } else {
+                    initial.ratios(side)
+                }
             });
             let spring = Backbone::from_forces(stiffness, a, b)
                 .and_then(|backbone| Hysteresis::new(rule, backbone));
@@ -544,16 +554,15 @@ fn spring_of(
     let backbone = curve
         .hinge(6.0 * member.rigidity / member.length, stiffness)
         .map_err(first)?;
-    let backbone = match rule {
-        HysteresisRule::Bilinear => {
-            // Without a cracking point.
-            let corners = Side::BOTH.map(|side| {
-                let given = backbone.side(side);
-                Corners::bilinear(given.yielding.force, given.post_yield / stiffness)
-            });
-            Backbone::from_forces(stiffness, corners[0], corners[1]).map_err(first)?
-        }
-        _ => backbone,
+    let backbone = if rule == HysteresisRule::Bilinear {
+        // Without a cracking point.
+        let corners = Side::BOTH.map(|side| {
+            let given = backbone.side(side);
+            Corners::bilinear(given.yielding.force, given.post_yield / stiffness)
+        });
+        Backbone::from_forces(stiffness, corners[0], corners[1]).map_err(first)?
+    } else {
+        backbone
     };
     Hysteresis::new(rule, backbone).map_err(first)
 }
@@ -619,7 +628,15 @@ pub(super) fn read_spring(
     let corners = match rule {
         HysteresisRule::Elastic => Corners::bilinear(1.0, 1.0),
         HysteresisRule::Bilinear => Corners::bilinear(yielding?, post_yield?),
-        _ => Corners {
+        HysteresisRule::Normal
+        | HysteresisRule::PeakOriented
+        | HysteresisRule::Takeda { .. }
+        | HysteresisRule::DegradingTrilinear
+        | HysteresisRule::Pinched(_)
+        | HysteresisRule::Sliding { .. }
+        | HysteresisRule::Stop { .. }
+        | HysteresisRule::Failing(_)
+        | HysteresisRule::InPlan { .. } => Corners {
             cracking: cracking?,
             yielding: yielding?,
             post_cracking: post_cracking?,
@@ -745,7 +762,15 @@ fn storey_springs(
         let corners = match rule {
             HysteresisRule::Elastic => Corners::bilinear(1.0, 1.0),
             HysteresisRule::Bilinear => Corners::bilinear(yielding[storey], post_yield[storey]),
-            _ => Corners {
+            HysteresisRule::Normal
+            | HysteresisRule::PeakOriented
+            | HysteresisRule::Takeda { .. }
+            | HysteresisRule::DegradingTrilinear
+            | HysteresisRule::Pinched(_)
+            | HysteresisRule::Sliding { .. }
+            | HysteresisRule::Stop { .. }
+            | HysteresisRule::Failing(_)
+            | HysteresisRule::InPlan { .. } => Corners {
                 cracking: cracking[storey],
                 yielding: yielding[storey],
                 post_cracking: post_cracking[storey],

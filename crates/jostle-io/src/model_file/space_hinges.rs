@@ -112,9 +112,12 @@ impl<'n> SpaceHinges<'n> {
             let stiffness = self
                 .initial
                 .stiffness(section.flexural_rigidity[plane], length);
-            let [a, b] = sides.map(|side| match self.rule {
-                HysteresisRule::Elastic => side,
-                _ => self.initial.ratios(side),
+            let [a, b] = sides.map(|side| {
+                if self.rule == HysteresisRule::Elastic {
+                    side
+                } else {
+                    self.initial.ratios(side)
+                }
             });
             let spring = Backbone::from_forces(stiffness, a, b)
                 .and_then(|backbone| Hysteresis::new(self.rule, backbone));

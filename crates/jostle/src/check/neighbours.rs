@@ -299,7 +299,15 @@ fn check_shape(faults: &mut Faults, path: &str, law: &ContactLaw) {
                 format!("must lie between 1 and 6, found {n}")
             });
         }
-        _ => {}
+        LawKind::Linear
+        | LawKind::Kelvin
+        | LawKind::KelvinNoTension
+        | LawKind::ModifiedKelvin(_)
+        | LawKind::Hertz
+        | LawKind::HertzDamp
+        | LawKind::Ye
+        | LawKind::Jankowski
+        | LawKind::Restitution => {}
     }
 }
 

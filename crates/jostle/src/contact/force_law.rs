@@ -104,9 +104,10 @@ impl ForceLaw {
         Memory {
             speed: rate.max(SLOWEST),
             from_rest: rate < REST,
-            scale: match self {
-                Self::Bilinear(bilinear) => bilinear.scale(rate),
-                _ => 1.0,
+            scale: if let Self::Bilinear(bilinear) = self {
+                bilinear.scale(rate)
+            } else {
+                1.0
             },
             indentation: 0.0,
             slip: 0.0,
@@ -225,10 +226,16 @@ impl ForceLaw {
     #[must_use]
     pub fn rebound(&self, rate: f64) -> Option<f64> {
         match *self {
-            Self::Restitution { restitution, .. } if rate > super::momentum::REST_SPEED => {
-                Some(restitution)
+            Self::Restitution { restitution, .. } => {
+                (rate > super::momentum::REST_SPEED).then_some(restitution)
             }
-            _ => None,
+            Self::Kelvin { .. }
+            | Self::ApproachKelvin { .. }
+            | Self::DampedLinear { .. }
+            | Self::Hertz { .. }
+            | Self::Jankowski { .. }
+            | Self::Bilinear(_)
+            | Self::Rubber(_) => None,
         }
     }
 
@@ -237,7 +244,12 @@ impl ForceLaw {
         match self {
             Self::Bilinear(bilinear) => bilinear.kink(inwards, memory),
             Self::Rubber(rubber) => rubber.limit,
-            _ => f64::INFINITY,
+            Self::Kelvin { .. }
+            | Self::ApproachKelvin { .. }
+            | Self::DampedLinear { .. }
+            | Self::Hertz { .. }
+            | Self::Jankowski { .. }
+            | Self::Restitution { .. } => f64::INFINITY,
         }
     }
 

@@ -161,8 +161,13 @@ impl LawKind {
         self.is_dissipative() && !matches!(self, Self::Kelvin | Self::Restitution | Self::Rubber(_))
     }
 
-    /// F = k δ^1.5 (1 + d δ̇/v₀) with some published d.
-    pub(crate) fn is_hertz_with_damping(self) -> bool {
-        matches!(self, Self::HertzDamp | Self::Ye)
+    /// Which modified Kelvin law it is, of these.
+    #[must_use]
+    pub fn variant(self) -> Option<ModifiedKelvin> {
+        if let Self::ModifiedKelvin(variant) = self {
+            Some(variant)
+        } else {
+            None
+        }
     }
 }

@@ -148,7 +148,7 @@ impl ContactLaw {
                     },
             },
             LawKind::Hertz => hertz(0.0),
-            _ if self.kind.is_hertz_with_damping() && realised => hertz(hertz_damping(e)),
+            LawKind::HertzDamp | LawKind::Ye if realised => hertz(hertz_damping(e)),
             LawKind::HertzDamp => hertz(published_muthukumar(e)),
             LawKind::Ye => hertz(published_ye(e)),
             LawKind::Jankowski => ForceLaw::Jankowski {
@@ -175,11 +175,21 @@ impl ContactLaw {
     /// Lower limit of the restitution that calibration can realise; zero for published damping \[–\].
     #[must_use]
     pub fn least_restitution(&self) -> f64 {
+        if self.restitution_is == RestitutionIs::Input {
+            return 0.0;
+        }
         match self.kind {
-            _ if self.restitution_is == RestitutionIs::Input => 0.0,
             LawKind::KelvinNoTension => CLIPPED_KELVIN_LEAST_RESTITUTION + 1e-6,
             LawKind::Bilinear(shape) => shape.least_restitution() + 1e-6,
-            _ => 0.0,
+            LawKind::Linear
+            | LawKind::Kelvin
+            | LawKind::ModifiedKelvin(_)
+            | LawKind::Hertz
+            | LawKind::HertzDamp
+            | LawKind::Ye
+            | LawKind::Jankowski
+            | LawKind::Restitution
+            | LawKind::Rubber(_) => 0.0,
         }
     }
 

@@ -82,24 +82,6 @@ impl HysteresisRule {
         Self::ALL.into_iter().find(|rule| rule.name() == name)
     }
 
-    /// Whether the rule has parameters besides its backbone.
-    #[must_use]
-    pub const fn has_parameters(&self) -> bool {
-        match self {
-            Self::Elastic
-            | Self::Bilinear
-            | Self::Normal
-            | Self::PeakOriented
-            | Self::DegradingTrilinear => false,
-            Self::Takeda { .. }
-            | Self::Sliding { .. }
-            | Self::Stop { .. }
-            | Self::Pinched(_)
-            | Self::Failing(_)
-            | Self::InPlan { .. } => true,
-        }
-    }
-
     /// Whether the force depends on the rate of deformation, so that no straight line holds it between two corners.
     #[must_use]
     pub(crate) const fn depends_on_rate(&self) -> bool {
@@ -296,9 +278,10 @@ impl Hysteresis {
     /// What happens beyond the strength, for a spring that loses it.
     #[must_use]
     pub fn falling_branch(&self) -> Option<FallingBranch> {
-        match self.rule {
-            HysteresisRule::Failing(falling) => Some(falling),
-            _ => None,
+        if let HysteresisRule::Failing(falling) = self.rule {
+            Some(falling)
+        } else {
+            None
         }
     }
 
@@ -313,11 +296,9 @@ impl Hysteresis {
     /// Force that a spring that loses its strength can still bear, as far as it was deformed \[N\]; the yield force of others.
     #[must_use]
     pub fn strength_left(&self, memory: &HysteresisMemory) -> f64 {
-        match self.rule {
-            HysteresisRule::Failing(falling) => {
-                failing::strength_left(&self.backbone, &falling, memory)
-            }
-            _ => self.backbone.yield_force(),
+        match self.falling_branch() {
+            Some(falling) => failing::strength_left(&self.backbone, &falling, memory),
+            None => self.backbone.yield_force(),
         }
     }
 
@@ -487,7 +468,16 @@ impl Hysteresis {
                 let answer = sliders::answer(&self.backbone, memory, deformation);
                 [answer.force, answer.tangent]
             }
-            _ => {
+            HysteresisRule::Elastic
+            | HysteresisRule::Bilinear
+            | HysteresisRule::Normal
+            | HysteresisRule::PeakOriented
+            | HysteresisRule::Takeda { .. }
+            | HysteresisRule::DegradingTrilinear
+            | HysteresisRule::Stop { .. }
+            | HysteresisRule::Pinched(_)
+            | HysteresisRule::Failing(_)
+            | HysteresisRule::InPlan { .. } => {
                 let response = self.respond(memory, deformation);
                 [response.force, response.tangent]
             }
@@ -510,7 +500,13 @@ impl Hysteresis {
                     memory.stand_at(deformation, answer.force, Side::from_change(change));
                 }
             }
-            _ => *memory = self.respond(memory, deformation).memory,
+            HysteresisRule::Elastic
+            | HysteresisRule::PeakOriented
+            | HysteresisRule::Takeda { .. }
+            | HysteresisRule::DegradingTrilinear
+            | HysteresisRule::Stop { .. }
+            | HysteresisRule::Pinched(_)
+            | HysteresisRule::Failing(_) => *memory = self.respond(memory, deformation).memory,
         }
     }
 

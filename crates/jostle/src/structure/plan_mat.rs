@@ -37,7 +37,9 @@ pub(super) fn put_on_mat(
                         rate: friction.rate,
                     }
                 }
-                _ => CircularLaw::Slider,
+                Isolator::Linear { .. }
+                | Isolator::LeadRubber { .. }
+                | Isolator::Pendulum { .. } => CircularLaw::Slider,
             };
             let rows = Hysteresis::in_plan(law, own[0], own[1]);
             (second, rows.ok())
