@@ -4,10 +4,15 @@
 //! F. McKenna, M. H. Scott, G. L. Fenves (2010), J. Comput. Civ. Eng. 24, 95–107; M. Zhu, F. McKenna, M. H. Scott
 //! (2018), SoftwareX 7, 6–11. docs/export.md describes the behaviour of the program.
 
+mod building;
+mod contacts;
 mod materials;
+mod motion;
 mod plan;
+mod remarks;
 mod script;
 mod space_frame;
+mod tables;
 mod ties;
 
 use jostle::hysteresis::HysteresisRule;

@@ -1,0 +1,271 @@
+//! Buildings in one plane: nodes, members, hinges and storeys.
+
+use std::fmt::Write;
+
+use jostle::hysteresis::Hysteresis;
+use jostle::structure::{StickModel, Support};
+use jostle::system::BuildingSystem;
+
+use super::script::{Script, comment, python_bool, rounded, text};
+use super::ties::{COMPONENTS, Ties, is_held_by, is_vertical, stiffnesses};
+
+impl Script<'_> {
+    pub(super) fn add_building(
+        &mut self,
+        index: usize,
+        building: &BuildingSystem,
+    ) -> Result<(), &'static str> {
+        let stick_model = &building.discretization.stick_model;
+        let ties = Ties::new(stick_model);
+        self.add_heading(index, building);
+        self.add_nodes(index, building, &ties);
+        self.add_members(index, stick_model);
+        self.add_hinges(index, stick_model, &ties)?;
+        self.add_storeys(index, stick_model)
+    }
+
+    fn add_heading(&mut self, index: usize, building: &BuildingSystem) {
+        let title = format!("    # {}\n", comment(&building.name));
+        for table in [
+            &mut self.nodes,
+            &mut self.supports,
+            &mut self.held,
+            &mut self.ties,
+            &mut self.members,
+            &mut self.rigid,
+            &mut self.springs,
+            &mut self.leaning,
+        ] {
+            table.push_str(&title);
+        }
+        let floors: Vec<String> = building
+            .discretization
+            .floors
+            .iter()
+            .map(|node| self.tag(index, *node).to_string())
+            .collect();
+        // Walls follow the buildings of the model, and have no weight.
+        let of_model = self.export.model.buildings.get(index);
+        let gravity = of_model.map_or_else(Default::default, |building| building.gravity);
+        let (equations, nodes) = (
+            &building.equations,
+            building.discretization.stick_model.nodes.len(),
+        );
+        let _ = writeln!(
+            self.buildings,
+            "    {{\"name\": {}, \"nodes\": ({}, {}), \"floors\": [{}],\n     \"alpha\": {:?}, \"beta\": {:?}, \"weight\": {}}},",
+            text(&building.name),
+            self.tag(index, 0),
+            self.tag(index, nodes - 1),
+            floors.join(", "),
+            equations.alpha,
+            equations.beta,
+            python_bool(gravity.preload),
+        );
+    }
+
+    fn add_nodes(&mut self, index: usize, building: &BuildingSystem, ties: &Ties) {
+        for (number, node) in building.discretization.stick_model.nodes.iter().enumerate() {
+            let tag = self.tag(index, number);
+            // Fixed nodes need no mass.
+            let mass = if node.support == Support::Fixed {
+                0.0
+            } else {
+                node.mass
+            };
+            let _ = writeln!(
+                self.nodes,
+                "    ({tag}, {:?}, {:?}, {mass:?}, {:?}),",
+                rounded(node.x + self.places[index]),
+                rounded(node.y),
+                node.rotary_inertia,
+            );
+            let fixed: Vec<&str> = (0..COMPONENTS)
+                .map(|component| {
+                    if is_held_by(node.support, component) {
+                        "1"
+                    } else {
+                        "0"
+                    }
+                })
+                .collect();
+            if fixed.contains(&"1") {
+                let _ = writeln!(self.supports, "    ({tag}, {}),", fixed.join(", "));
+            }
+        }
+        for (node, component) in &ties.held {
+            let _ = writeln!(
+                self.held,
+                "    ({}, {}),",
+                self.tag(index, *node),
+                component + 1
+            );
+        }
+        for (first, other, components) in &ties.followed {
+            let components: Vec<String> = components.iter().map(|c| (c + 1).to_string()).collect();
+            let _ = writeln!(
+                self.ties,
+                "    ({}, {}, {}),",
+                self.tag(index, *first),
+                self.tag(index, *other),
+                components.join(", ")
+            );
+        }
+    }
+
+    fn add_members(&mut self, index: usize, stick_model: &StickModel) {
+        for member in &stick_model.members {
+            let tag = self.element();
+            let [mut a, mut b] = member.ends;
+            let vertical = is_vertical(stick_model, member.ends);
+            let along = |node: usize| {
+                if vertical {
+                    stick_model.nodes[node].y
+                } else {
+                    stick_model.nodes[node].x
+                }
+            };
+            if along(a) > along(b) {
+                (a, b) = (b, a);
+            }
+            let optional = |value: Option<f64>| {
+                value.map_or_else(|| "None".to_owned(), |value| format!("{value:?}"))
+            };
+            let (first, last) = (self.tag(index, a), self.tag(index, b));
+            let _ = writeln!(
+                self.members,
+                "    ({tag}, {first}, {last}, {:?}, {}, {}),",
+                member.flexural_rigidity,
+                optional(member.axial_rigidity),
+                optional(member.shear_rigidity),
+            );
+            if member.compression != 0.0 {
+                let stiffness = -member.compression / (along(b) - along(a));
+                self.lean(first, last, stiffness);
+            }
+        }
+    }
+
+    /// A spring of negative stiffness between the horizontal displacements of two nodes.
+    fn lean(&mut self, first: usize, last: usize, stiffness: f64) {
+        let tag = self.element();
+        let material = self.materials.elastic(stiffness, 0.0);
+        let _ = writeln!(self.leaning, "    ({tag}, {first}, {last}, {material}),");
+    }
+
+    fn add_hinges(
+        &mut self,
+        index: usize,
+        stick_model: &StickModel,
+        ties: &Ties,
+    ) -> Result<(), &'static str> {
+        for hinge in &stick_model.hinges {
+            let ends = hinge.ends;
+            // Strain is that of the second node against the first; the rotation of a hinge counts the other way.
+            let (first, last) = (self.tag(index, ends[1]), self.tag(index, ends[0]));
+            let mut directions = Vec::new();
+            for (component, stiffness) in stiffnesses(hinge).into_iter().enumerate() {
+                let direction = [1, 2, 6][component];
+                let Some(stiffness) = stiffness else {
+                    let tag = self.element();
+                    let tied = python_bool(ties.are_tied(ends, component));
+                    let _ = writeln!(
+                        self.rigid,
+                        "    ({tag}, {first}, {last}, {direction}, {tied}),"
+                    );
+                    continue;
+                };
+                let hysteresis = hinge.hysteresis.as_ref().filter(|_| component == 2);
+                for material in
+                    self.spring_materials(stiffness, hysteresis, hinge.dashpots[component])?
+                {
+                    directions.push((direction, material));
+                }
+            }
+            if !directions.is_empty() {
+                self.spring(first, last, &directions, hinge.proportional_damping);
+            }
+        }
+        Ok(())
+    }
+
+    fn add_storeys(&mut self, index: usize, stick_model: &StickModel) -> Result<(), &'static str> {
+        for spring in &stick_model.springs {
+            let [first, last] = spring.ends.map(|node| self.tag(index, node));
+            let materials = self.spring_materials(
+                spring.stiffness,
+                spring.hysteresis.as_ref(),
+                spring.dashpot,
+            )?;
+            let directions: Vec<(usize, usize)> = materials
+                .into_iter()
+                .map(|material| (1, material))
+                .collect();
+            if !directions.is_empty() {
+                self.spring(first, last, &directions, spring.proportional_damping);
+            }
+            if spring.softening != 0.0 {
+                self.lean(first, last, -spring.softening);
+            }
+        }
+        for coupling in &stick_model.couplings {
+            let [(first, a), (last, b)] = coupling.ends;
+            if a != 0 || b != 0 {
+                return Err(
+                    "has matrices with rotations or vertical displacements, between which OpenSees has no springs; export the model they came from",
+                );
+            }
+            let [first, last] = [first, last].map(|node| self.tag(index, node));
+            let materials = self.spring_materials(coupling.stiffness, None, coupling.dashpot)?;
+            let directions: Vec<(usize, usize)> = materials
+                .into_iter()
+                .map(|material| (1, material))
+                .collect();
+            self.spring(first, last, &directions, true);
+        }
+        Ok(())
+    }
+
+    /// Parallel elements: a spring, elastic or not, and a dashpot.
+    fn spring_materials(
+        &mut self,
+        stiffness: f64,
+        hysteresis: Option<&Hysteresis>,
+        dashpot: f64,
+    ) -> Result<Vec<usize>, &'static str> {
+        let mut materials = Vec::new();
+        match hysteresis {
+            Some(hysteresis) => {
+                materials.push(self.materials.yielding(hysteresis)?);
+                if dashpot != 0.0 {
+                    materials.push(self.materials.elastic(0.0, dashpot));
+                }
+            }
+            None if stiffness != 0.0 || dashpot != 0.0 => {
+                materials.push(self.materials.elastic(stiffness, dashpot));
+            }
+            None => {}
+        }
+        Ok(materials)
+    }
+
+    pub(super) fn spring(
+        &mut self,
+        first: usize,
+        last: usize,
+        directions: &[(usize, usize)],
+        damped: bool,
+    ) {
+        let tag = self.element();
+        let pairs: Vec<String> = directions
+            .iter()
+            .map(|(direction, material)| format!("({direction}, {material}),"))
+            .collect();
+        let _ = writeln!(
+            self.springs,
+            "    ({tag}, {first}, {last}, ({}), {}),",
+            pairs.join(" "),
+            python_bool(damped)
+        );
+    }
+}

@@ -1,0 +1,216 @@
+//! The text of a script: its head, its tables, its motion and the driver.
+
+use std::fmt::Write;
+
+use super::script::{Script, comment, text};
+
+impl Script<'_> {
+    pub(super) fn text(&self, driver: &str) -> String {
+        let mut text = String::new();
+        let _ = self.write(&mut text, driver);
+        text
+    }
+
+    fn write(&self, out: &mut String, driver: &str) -> std::fmt::Result {
+        let title = comment(&self.export.model.title);
+        writeln!(out, "#!/usr/bin/env python3")?;
+        writeln!(out, "# {title}")?;
+        writeln!(
+            out,
+            "#\n# The same model for OpenSeesPy, written by jostle {}; SI units, relative to the ground.\n#",
+            env!("CARGO_PKG_VERSION")
+        )?;
+        writeln!(
+            out,
+            "#   python FILE                     at its best: long linear steps in free vibration, short ones near contact"
+        )?;
+        writeln!(
+            out,
+            "#   python FILE --uniform 1e-4      the usual way: one step size throughout"
+        )?;
+        writeln!(
+            out,
+            "#   python FILE --modes 5           natural periods, to compare with jostle modes"
+        )?;
+        writeln!(out, "#   python FILE --help\n#")?;
+        if !self.remarks.is_empty() {
+            writeln!(out, "# Differences from jostle:")?;
+            for remark in &self.remarks {
+                for (index, line) in wrapped(remark, 110).iter().enumerate() {
+                    let bullet = if index == 0 { "-" } else { " " };
+                    writeln!(out, "# {bullet} {line}")?;
+                }
+            }
+            writeln!(out, "#")?;
+        }
+        writeln!(out, "# ruff: noqa\n")?;
+        writeln!(out, "TITLE = {}", text(&self.export.model.title))?;
+        writeln!(
+            out,
+            "EXPORTED_BY = \"jostle {}\"",
+            env!("CARGO_PKG_VERSION")
+        )?;
+        table(
+            out,
+            "BUILDINGS",
+            "from left to right; first and last node; Rayleigh damping alpha [1/s], beta [s]; whether it starts under its weight",
+            &self.buildings,
+        )?;
+        table(
+            out,
+            "NODES",
+            "node, x [m], y [m], mass [kg], rotary inertia [kg m2]; neighbours stand face to face, the gap is left out",
+            &self.nodes,
+        )?;
+        table(
+            out,
+            "SUPPORTS",
+            "node, and whether x, y, rotation are fixed",
+            &self.supports,
+        )?;
+        table(
+            out,
+            "HELD",
+            "node, direction: stands still because members keep their length",
+            &self.held,
+        )?;
+        table(
+            out,
+            "TIES",
+            "node, node that moves with it, directions: members that keep their length, hinges that only turn",
+            &self.ties,
+        )?;
+        table(
+            out,
+            "MEMBERS",
+            "element, first node, last node, EI [N m2], EA [N], G As [N]; None is rigid",
+            &self.members,
+        )?;
+        let mut materials = String::new();
+        for (tag, name, arguments) in self.materials.iter() {
+            let arguments: Vec<String> = arguments
+                .iter()
+                .map(|value| {
+                    if name == "Parallel" {
+                        format!("{value:.0}")
+                    } else {
+                        format!("{value:?}")
+                    }
+                })
+                .collect();
+            writeln!(
+                materials,
+                "    (\"{name}\", {tag}, {}),",
+                arguments.join(", ")
+            )?;
+        }
+        table(out, "MATERIALS", "as OpenSees wants them", &materials)?;
+        table(
+            out,
+            "SPRINGS",
+            "element, first node, last node, (direction, material), whether Rayleigh damping acts",
+            &self.springs,
+        )?;
+        table(
+            out,
+            "SLIDERS",
+            "element, point of the ground, point of the mat, stiffness [N/m] and strength [N] of a bearing that yields or slides",
+            &self.sliders,
+        )?;
+        table(
+            out,
+            "RIGID",
+            "element, first node, last node, direction that does not give way, whether ties see to it",
+            &self.rigid,
+        )?;
+        table(
+            out,
+            "LEANING",
+            "element, first node, last node, material: P-Delta as springs of stiffness -P/h",
+            &self.leaning,
+        )?;
+        table(
+            out,
+            "CONTACTS",
+            "element, left node, right node, material, gap [m], number of the gap, floors, height [m]",
+            &self.contacts,
+        )?;
+        table(
+            out,
+            "LINKS",
+            "element, left node, right node, material, number of the link, floors, height [m]",
+            &self.links,
+        )?;
+        table(
+            out,
+            "ARMS",
+            "node of a floor in plan, node at one of its points",
+            &self.arms,
+        )?;
+        table(
+            out,
+            "FACES",
+            "element of a contact in plan, number of the face, its kind, unit normal, place [m]",
+            &self.faces,
+        )?;
+        table(
+            out,
+            "ENDS",
+            "element at a corner; node and shares of its motions along the edge, on either side; distance from the end of the edge [m]",
+            &self.ends,
+        )?;
+        table(
+            out,
+            "LEVELS",
+            "node of a floor in plan, height [m]",
+            &self.levels,
+        )?;
+        table(
+            out,
+            "JOINTS",
+            "joint of a space frame, x, y, z [m], node of the floor with which it moves; None is the ground",
+            &self.space_joints,
+        )?;
+        table(
+            out,
+            "COLUMNS_AND_BEAMS",
+            "element, first and last joint, EI in the plane of bending and sideways [N m2], GJ [N m2], EA [N], G As in both planes [N], direction in the plane of bending; None is rigid",
+            &self.space_members,
+        )?;
+        table(
+            out,
+            "HINGED_ENDS",
+            "end of a member, its joint, unit vector of the lines along x, (first element, directions, materials) of springs",
+            &self.space_hinges,
+        )?;
+        self.write_motion(out)?;
+        writeln!(out, "\n{}", driver.trim_end())
+    }
+}
+
+/// A list of rows, said to be empty where it has none.
+fn table(out: &mut String, name: &str, about: &str, rows: &str) -> std::fmt::Result {
+    writeln!(out, "\n# {about}")?;
+    if rows.lines().all(|row| row.trim_start().starts_with('#')) {
+        writeln!(out, "{name} = []")
+    } else {
+        writeln!(out, "{name} = [\n{rows}]")
+    }
+}
+
+/// Lines with a maximum length.
+fn wrapped(text: &str, width: usize) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in text.split_whitespace() {
+        let last = lines.len() - 1;
+        if !lines[last].is_empty() && lines[last].len() + word.len() >= width {
+            lines.push(word.to_owned());
+        } else {
+            if !lines[last].is_empty() {
+                lines[last].push(' ');
+            }
+            lines[last].push_str(word);
+        }
+    }
+    lines
+}
