@@ -3,11 +3,11 @@
 use std::fmt::Write;
 
 use jostle::hysteresis::Hysteresis;
-use jostle::structure::{StickModel, Support};
+use jostle::structure::{Spring, StickModel, Support};
 use jostle::system::BuildingSystem;
 
 use super::script::{Script, comment, python_bool, rounded, text};
-use super::ties::{COMPONENTS, Ties, is_held_by, is_vertical, stiffnesses};
+use super::ties::{COMPONENTS, Ties, is_held, is_vertical, stiffnesses};
 
 impl Script<'_> {
     pub(super) fn add_building(
@@ -17,14 +17,16 @@ impl Script<'_> {
     ) -> Result<(), &'static str> {
         let stick_model = &building.discretization.stick_model;
         let ties = Ties::new(stick_model);
-        self.add_heading(index, building);
+        self.add_heading(building);
         self.add_nodes(index, building, &ties);
         self.add_members(index, stick_model);
         self.add_hinges(index, stick_model, &ties)?;
-        self.add_storeys(index, stick_model)
+        self.add_storeys(index, stick_model)?;
+        self.add_foundation(index, building, &ties);
+        Ok(())
     }
 
-    fn add_heading(&mut self, index: usize, building: &BuildingSystem) {
+    fn add_heading(&mut self, building: &BuildingSystem) {
         let title = format!("    # {}\n", comment(&building.name));
         for table in [
             &mut self.nodes,
@@ -34,10 +36,15 @@ impl Script<'_> {
             &mut self.members,
             &mut self.rigid,
             &mut self.springs,
+            &mut self.levered,
             &mut self.leaning,
         ] {
             table.push_str(&title);
         }
+    }
+
+    /// The row of a building, when all of its nodes are there.
+    pub(super) fn add_row(&mut self, index: usize, building: &BuildingSystem) {
         let floors: Vec<String> = building
             .discretization
             .floors
@@ -47,25 +54,32 @@ impl Script<'_> {
         // Walls follow the buildings of the model, and have no weight.
         let of_model = self.export.model.buildings.get(index);
         let gravity = of_model.map_or_else(Default::default, |building| building.gravity);
-        let (equations, nodes) = (
-            &building.equations,
-            building.discretization.stick_model.nodes.len(),
-        );
+        let equations = &building.equations;
+        let foundation = building.discretization.stick_model.foundation.as_ref();
+        // Dashpots do it where it acts on motion relative to something that moves.
+        let alpha = match self.damps_by_dashpots(building) {
+            true => 0.0,
+            false => equations.alpha,
+        };
         let _ = writeln!(
             self.buildings,
-            "    {{\"name\": {}, \"nodes\": ({}, {}), \"floors\": [{}],\n     \"alpha\": {:?}, \"beta\": {:?}, \"weight\": {}}},",
+            "    {{\"name\": {}, \"nodes\": ({}, {}), \"floors\": [{}],\n     \"alpha\": {alpha:?}, \"beta\": {:?}, \"weight\": {}{}}},",
             text(&building.name),
             self.tag(index, 0),
-            self.tag(index, nodes - 1),
+            self.tag(index, self.next_point[index] - 1),
             floors.join(", "),
-            equations.alpha,
             equations.beta,
             python_bool(gravity.preload),
+            foundation.map_or_else(String::new, |own| format!(
+                ", \"foundation\": {}",
+                self.tag(index, own.node)
+            )),
         );
     }
 
     fn add_nodes(&mut self, index: usize, building: &BuildingSystem, ties: &Ties) {
-        for (number, node) in building.discretization.stick_model.nodes.iter().enumerate() {
+        let stick_model = &building.discretization.stick_model;
+        for (number, node) in stick_model.nodes.iter().enumerate() {
             let tag = self.tag(index, number);
             // Fixed nodes need no mass.
             let mass = if node.support == Support::Fixed {
@@ -82,7 +96,7 @@ impl Script<'_> {
             );
             let fixed: Vec<&str> = (0..COMPONENTS)
                 .map(|component| {
-                    if is_held_by(node.support, component) {
+                    if is_held(stick_model, number, component) {
                         "1"
                     } else {
                         "0"
@@ -192,23 +206,18 @@ impl Script<'_> {
     fn add_storeys(&mut self, index: usize, stick_model: &StickModel) -> Result<(), &'static str> {
         for spring in &stick_model.springs {
             let [first, last] = spring.ends.map(|node| self.tag(index, node));
-            let materials = self.spring_materials(
-                spring.stiffness,
-                spring.hysteresis.as_ref(),
-                spring.dashpot,
-            )?;
-            let directions: Vec<(usize, usize)> = materials
-                .into_iter()
-                .map(|material| (1, material))
-                .collect();
-            if !directions.is_empty() {
-                self.spring(first, last, &directions, spring.proportional_damping);
+            if stick_model.foundation.is_some() && spring.lever.is_some_and(|lever| lever != 0.0) {
+                self.add_storey_on_foundation([first, last], spring)?;
+            } else {
+                self.add_storey([first, last], spring)?;
             }
             if spring.softening != 0.0 {
                 self.lean(first, last, -spring.softening);
             }
         }
-        for coupling in &stick_model.couplings {
+        // On a foundation they are damping relative to it.
+        let on_foundation = stick_model.foundation.is_some();
+        for coupling in stick_model.couplings.iter().filter(|_| !on_foundation) {
             let [(first, a), (last, b)] = coupling.ends;
             if a != 0 || b != 0 {
                 return Err(
@@ -226,8 +235,25 @@ impl Script<'_> {
         Ok(())
     }
 
+    fn add_storey(
+        &mut self,
+        [first, last]: [usize; 2],
+        spring: &Spring,
+    ) -> Result<(), &'static str> {
+        let materials =
+            self.spring_materials(spring.stiffness, spring.hysteresis.as_ref(), spring.dashpot)?;
+        let directions: Vec<(usize, usize)> = materials
+            .into_iter()
+            .map(|material| (1, material))
+            .collect();
+        if !directions.is_empty() {
+            self.spring(first, last, &directions, spring.proportional_damping);
+        }
+        Ok(())
+    }
+
     /// Parallel elements: a spring, elastic or not, and a dashpot.
-    fn spring_materials(
+    pub(super) fn spring_materials(
         &mut self,
         stiffness: f64,
         hysteresis: Option<&Hysteresis>,

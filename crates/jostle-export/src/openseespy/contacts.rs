@@ -106,7 +106,7 @@ impl Script<'_> {
 
     pub(super) fn add_links(&mut self, faults: &mut Vec<ModelFault>) {
         let system = self.export.system;
-        for link in &system.links {
+        for link in system.model_links() {
             let path = format!("link[{}]", link.link);
             let ports = link.ports.0;
             let own = ports.iter().flatten().map(|port| port.building).next();

@@ -6,11 +6,14 @@
 
 mod building;
 mod contacts;
+mod foundation;
+mod grounds;
 mod materials;
 mod motion;
 mod plan;
 mod remarks;
 mod script;
+mod soil;
 mod space_frame;
 mod tables;
 mod ties;
@@ -22,7 +25,12 @@ use crate::{Export, Exported};
 use script::Script;
 
 /// The part of every script that is the same: it builds the model from the tables above it, and runs it.
-const DRIVER: &str = include_str!("driver.py");
+const DRIVER: [&str; 4] = [
+    include_str!("driver/model.py"),
+    include_str!("driver/ground.py"),
+    include_str!("driver/contacts.py"),
+    include_str!("driver/run.py"),
+];
 
 /// Writes the script.
 ///
@@ -36,7 +44,7 @@ pub fn export(export: &Export<'_>) -> Result<Exported, Vec<ModelFault>> {
     let script = Script::new(export)?;
     let remarks = script.remarks().to_vec();
     Ok(Exported {
-        text: script.text(DRIVER),
+        text: script.text(&DRIVER),
         remarks,
     })
 }
@@ -53,10 +61,10 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
                 .into(),
         );
     }
-    if export.motion.has_own_grounds() {
+    if export.motion.has_own_grounds() && export.system.is_in_space() {
         refuse(
             "motion".into(),
-            "ground that differs under the buildings, and vertical shaking, are not exported yet: the script shakes one ground along the row; leave out arrival, position, [building.motion] and vertical".into(),
+            "ground that differs under buildings with plans is not exported: their ties need the constraint handler Transformation, which does not let the script move supports; leave out arrival, position, apparent_velocity and [building.motion], or compare buildings in one plane".into(),
         );
     }
     for (index, building) in model.buildings.iter().enumerate() {
@@ -84,12 +92,6 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
             refuse(
                 format!("building[{index}].damping.modes"),
                 "\"all\" cannot be exported: OpenSees has one list of modal ratios for all buildings together; give two modes, such as modes = [1, 2], to compare".into(),
-            );
-        }
-        if building.base.foundation.is_some() {
-            refuse(
-                format!("building[{index}].foundation"),
-                "is not exported yet; leave it and [soil] out to compare the buildings on rigid ground".into(),
             );
         }
         // Ductility is that of the hinges of columns.

@@ -21,7 +21,11 @@ impl Script<'_> {
 
     pub(super) fn write_motion(&self, out: &mut String) -> std::fmt::Result {
         let motion = self.export.motion;
-        let free = motion.step().map_or(FREE_STEP, |step| {
+        let step = match motion.has_own_grounds() {
+            true => motion.corner_step(),
+            false => motion.step(),
+        };
+        let free = step.map_or(FREE_STEP, |step| {
             step / (step / FREE_STEP - 1e-9).ceil().max(1.0)
         });
         writeln!(out, "GRAVITY = {STANDARD_GRAVITY:?}  # m/s2")?;
@@ -48,6 +52,7 @@ impl Script<'_> {
                 writeln!(out)?;
             }
         }
+        self.write_grounds(out)?;
         writeln!(
             out,
             "\n# Steps at its best, in free vibration and around contact [s]."
@@ -58,7 +63,7 @@ impl Script<'_> {
 }
 
 /// The shape of a ground motion, and its factor.
-fn write_wave(out: &mut String, motion: &GroundMotion) -> std::fmt::Result {
+pub(super) fn write_wave(out: &mut String, motion: &GroundMotion) -> std::fmt::Result {
     writeln!(
         out,
         "MOTION_FACTOR = {:?}  # on the values, sign included",

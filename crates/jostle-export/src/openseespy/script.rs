@@ -24,12 +24,14 @@ pub(super) struct Script<'a> {
     pub(super) members: String,
     pub(super) rigid: String,
     pub(super) springs: String,
+    /// Springs of storeys and of the soil that the rotation of a foundation deforms.
+    pub(super) levered: String,
     /// Bearings in plan that yield or slide.
     pub(super) sliders: String,
     pub(super) leaning: String,
     pub(super) contacts: String,
     pub(super) links: String,
-    /// Of every building, the next node at a point of the plan.
+    /// Of every building, the next node beyond those of jostle: at a point of the plan, or on a foundation.
     pub(super) next_point: Vec<usize>,
     pub(super) arms: String,
     pub(super) faces: String,
@@ -57,9 +59,16 @@ impl<'a> Script<'a> {
                 // Two points of every storey, twice with P-Delta, both of every contact and bearing, and one of the mat below every floor.
                 let mat = building.mat_in_plan.as_ref();
                 let bearings = mat.map_or(0, |mat| mat.bearings.len());
-                let points =
-                    5 * building.floors.len() + 2 * (export.system.contacts.len() + bearings);
-                nodes + if in_plan { points } else { 0 }
+                let points = match &building.discretization.stick_model.foundation {
+                    _ if in_plan => {
+                        5 * building.floors.len() + 2 * (export.system.contacts.len() + bearings)
+                    }
+                    // Two beside every mass, and those of the soil.
+                    Some(_) => 2 * nodes + 4 * export.system.buildings.len() + 2,
+                    // The ground.
+                    None => 1,
+                };
+                nodes + points
             });
         let mut block = 1000;
         while block <= largest.clone().max().unwrap_or(0) {
@@ -80,6 +89,7 @@ impl<'a> Script<'a> {
             members: String::new(),
             rigid: String::new(),
             springs: String::new(),
+            levered: String::new(),
             sliders: String::new(),
             leaning: String::new(),
             contacts: String::new(),
@@ -120,6 +130,11 @@ impl<'a> Script<'a> {
         } else {
             script.add_contacts(&mut faults);
             script.add_links(&mut faults);
+            script.add_soil();
+            script.add_ground_dashpots();
+            for (index, building) in export.system.buildings.iter().enumerate() {
+                script.add_row(index, building);
+            }
         }
         script.remark_on_springs();
         script.remark_on_motion();

@@ -5,13 +5,13 @@ use std::fmt::Write;
 use super::script::{Script, comment, text};
 
 impl Script<'_> {
-    pub(super) fn text(&self, driver: &str) -> String {
+    pub(super) fn text(&self, driver: &[&str]) -> String {
         let mut text = String::new();
         let _ = self.write(&mut text, driver);
         text
     }
 
-    fn write(&self, out: &mut String, driver: &str) -> std::fmt::Result {
+    fn write(&self, out: &mut String, driver: &[&str]) -> std::fmt::Result {
         let title = comment(&self.export.model.title);
         writeln!(out, "#!/usr/bin/env python3")?;
         writeln!(out, "# {title}")?;
@@ -113,6 +113,12 @@ impl Script<'_> {
         )?;
         table(
             out,
+            "LEVERED",
+            "element, first node, last node, material of the shear between them, share of the rotation of the first node, whether Rayleigh damping acts",
+            &self.levered,
+        )?;
+        table(
+            out,
             "SLIDERS",
             "element, point of the ground, point of the mat, stiffness [N/m] and strength [N] of a bearing that yields or slides",
             &self.sliders,
@@ -184,7 +190,10 @@ impl Script<'_> {
             &self.space_hinges,
         )?;
         self.write_motion(out)?;
-        writeln!(out, "\n{}", driver.trim_end())
+        for part in driver {
+            writeln!(out, "\n\n{}", part.trim_end())?;
+        }
+        Ok(())
     }
 }
 

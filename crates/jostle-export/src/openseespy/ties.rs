@@ -3,6 +3,8 @@
 //! OpenSees' transformation handler takes one constraint for a node, and none for the node that others follow: it
 //! applies the first and ignores the rest. So horizontal ties come first, and anything that would need a second
 //! constraint is left to very stiff elements.
+//!
+//! Buildings on a foundation need `Plain`, which ties single displacements: there every displacement has a constraint of its own.
 
 use std::collections::BTreeMap;
 
@@ -11,6 +13,7 @@ use jostle::structure::{StickModel, Support};
 /// Horizontal, vertical, rotation.
 pub(super) const COMPONENTS: usize = 3;
 const VERTICAL: usize = 1;
+const ROTATION: usize = 2;
 
 /// How every displacement of one building is held.
 pub(super) struct Ties {
@@ -33,6 +36,21 @@ pub(super) fn is_held_by(support: Support, component: usize) -> bool {
     }
 }
 
+/// Whether supports hold a component of a node: below columns and floors on a foundation, only what it holds.
+pub(super) fn is_held(stick_model: &StickModel, node: usize, component: usize) -> bool {
+    let support = stick_model.nodes[node].support;
+    let Some(foundation) = &stick_model.foundation else {
+        return is_held_by(support, component);
+    };
+    let lever = foundation.levers.get(node).copied().flatten();
+    match component {
+        VERTICAL if node == foundation.node || lever == Some(0.0) => true,
+        // Floors of a shear building turn with their foundation.
+        ROTATION if support == Support::Guided => false,
+        _ => is_held_by(support, component),
+    }
+}
+
 impl Ties {
     pub(super) fn new(stick_model: &StickModel) -> Self {
         let mut union = Union::new(stick_model.nodes.len() * COMPONENTS);
@@ -52,6 +70,19 @@ impl Ties {
                 }
             }
         }
+        if let Some(foundation) = &stick_model.foundation {
+            for foot in &foundation.feet {
+                for component in [0, ROTATION] {
+                    union.join(place(*foot, component), place(foundation.node, component));
+                }
+            }
+            for (node, own) in stick_model.nodes.iter().enumerate() {
+                if own.support == Support::Guided {
+                    union.join(place(node, ROTATION), place(foundation.node, ROTATION));
+                }
+            }
+        }
+        let on_foundation = stick_model.foundation.is_some();
         let classes: Vec<usize> = (0..stick_model.nodes.len() * COMPONENTS)
             .map(|at| union.root(at))
             .collect();
@@ -75,7 +106,7 @@ impl Ties {
         for class in of_component {
             let component = class[0] % COMPONENTS;
             let nodes: Vec<usize> = class.iter().map(|at| at / COMPONENTS).collect();
-            let is_support = |node: &usize| is_held_by(stick_model.nodes[*node].support, component);
+            let is_support = |node: &usize| is_held(stick_model, *node, component);
             if nodes.iter().any(is_support) {
                 for node in nodes {
                     ties.constrained[node][component] = true;
@@ -88,10 +119,11 @@ impl Ties {
             let [first, others @ ..] = &nodes[..] else {
                 continue;
             };
-            let possible = leader[*first].is_none()
-                && others.iter().all(|node| {
-                    !is_leader[*node] && leader[*node].is_none_or(|known| known == *first)
-                });
+            let possible = on_foundation
+                || leader[*first].is_none()
+                    && others.iter().all(|node| {
+                        !is_leader[*node] && leader[*node].is_none_or(|known| known == *first)
+                    });
             if others.is_empty() || !possible {
                 continue;
             }
@@ -111,6 +143,11 @@ impl Ties {
             }
         }
         ties
+    }
+
+    /// The node whose displacement that of a node is equal to, for buildings on a foundation: it may be the node itself.
+    pub(super) fn followed_by(&self, node: usize, component: usize) -> usize {
+        self.classes[node * COMPONENTS + component] / COMPONENTS
     }
 
     /// Whether two displacements are equal by a constraint or a support.

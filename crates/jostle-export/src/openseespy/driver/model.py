@@ -1,0 +1,206 @@
+# ---------------------------------------------------------------------------------------------------------------
+# From here on every exported script is the same.
+
+import argparse
+import json
+import math
+import os
+import sys
+import tempfile
+import time
+
+try:
+    import openseespy.opensees as ops
+except (ImportError, RuntimeError) as problem:
+    sys.exit(f"OpenSeesPy cannot be loaded: {problem}\npip install openseespy; on Debian it needs libblas3 liblapack3 libgfortran5")
+
+# Members that keep their length, where no tie sees to it: EA = STIFF * 12 EI / l^2.
+STIFF = 1e4
+HALVINGS = 30  # of a step that does not converge, at most
+MOST_PARTS = 10_000  # of such a step
+SETTLED = 1e-10  # displacement in the last iteration [m]
+LONGEST = 1e4  # of a sine [s]: OpenSees integrates it to its end before the first step
+DIRECTIONS = {1: 1, 2: 2, 6: 3}
+IN_PLAN = bool(ARMS) or bool(JOINTS)  # nodes are floors seen from above: they move along x, across, and turn
+IN_SPACE = bool(JOINTS)  # columns and beams stand between the floors: x and y are the site, z is up
+TURN = 6 if IN_SPACE else 3  # rotation about the vertical axis, of floors in plan
+FIXED_ALONG = []  # nodes that are fixed along the row, which move with grounds that move apart
+NORMALS = {tag: (x, y) for tag, _, _, x, y, *_ in FACES}
+CORNERS = {}  # contacts that end where a corner leaves its edge
+for tag, *end in ENDS:
+    CORNERS.setdefault(tag, []).append(end)
+
+
+def build(axial):
+    """The model. axial: "ties" (members keep their length exactly) or "stiff" (almost, but without constraints)."""
+    ops.wipe()
+    if IN_SPACE:
+        build_in_space()
+        return
+    ops.model("basic", "-ndm", 2, "-ndf", 3)
+    where = {}
+    for tag, x, y, mass, inertia in NODES:
+        where[tag] = (x, y)
+        ops.node(tag, x, y)
+        if mass or inertia:
+            ops.mass(tag, mass, mass, inertia)
+    fixed = {tag: list(held) for tag, *held in SUPPORTS}
+    if axial == "ties":
+        for tag, direction in HELD:
+            fixed.setdefault(tag, [0, 0, 0])[direction - 1] = 1
+        for kept, tied, *directions in TIES:
+            ops.equalDOF(kept, tied, *directions)
+    for tag, held in fixed.items():
+        ops.fix(tag, *held)
+    FIXED_ALONG[:] = [tag for tag, held in fixed.items() if held[0]]
+    for kept, tied in ARMS:
+        ops.rigidLink("beam", kept, tied)
+    ops.geomTransf("Linear", 1)
+    stiffest = 0.0
+    for tag, first, last, ei, ea, ga in MEMBERS:
+        length = math.dist(where[first], where[last])
+        if ea is None:
+            ea = STIFF * 12.0 * ei / length**2
+        stiffest = max(stiffest, ea / length)
+        if ga is None:
+            ops.element("elasticBeamColumn", tag, first, last, ea, 1.0, ei, 1)
+        else:
+            ops.element("ElasticTimoshenkoBeam", tag, first, last, 1.0, 1.0, ea, ei, ga, 1)
+    for name, tag, *arguments in MATERIALS:
+        if name == "LimitState":
+            arguments = failing(tag, where, *arguments)
+        ops.uniaxialMaterial(name, tag, *arguments)
+    for tag, first, last, springs, damped in SPRINGS:
+        directions, materials = [pair[0] for pair in springs], [pair[1] for pair in springs]
+        extra = ["-doRayleigh", 1] if damped else []
+        ops.element("zeroLength", tag, first, last, "-mat", *materials, "-dir", *directions, *extra)
+    for tag, first, last, material, share, damped in LEVERED:
+        # Shear of a link: the difference of displacements across it, and its length times rotations.
+        extra = ["-doRayleigh"] if damped else []
+        ops.element("twoNodeLink", tag, first, last, "-mat", material, "-dir", 2, "-shearDist", share, *extra)
+    add_sliders()
+    if any(axial == "stiff" or not tied for *_, tied in RIGID):
+        rigid = len(MATERIALS) + 1
+        ops.uniaxialMaterial("Elastic", rigid, stiffest or 1e12)
+        for tag, first, last, direction, tied in RIGID:
+            if axial == "stiff" or not tied:
+                ops.element("zeroLength", tag, first, last, "-mat", rigid, "-dir", direction)
+    for tag, first, last, material in LEANING:
+        ops.element("zeroLength", tag, first, last, "-mat", material, "-dir", 1)
+    add_contacts()
+
+
+def failing(tag, where, *numbers):
+    """Arguments of LimitState: the falling branch is part of its backbone; no pinching, no other damage.
+
+    With degrade = 1, peaks of one direction count in the other. That needs a limit curve, of some column, which is never reached."""
+    *backbone, slope, residual = numbers
+    never = 1e12
+    element, foot, head = next(row[:3] for row in MEMBERS if where[row[1]][1] != where[row[2]][1])
+    ops.limitCurve("ThreePoint", tag, element, 0.0, never, 2.0, never, 3.0, never, -slope, residual, 2, 0, foot, head, 1, 2)
+    return [*backbone, 1.0, 1.0, 0.0, 0.0, 0.0, tag, 2, 1]
+
+
+def add_sliders():
+    """Bearings in plan: elastic up to a strength that bounds their force in every direction together."""
+    for number, (tag, ground, mat, stiffness, strength) in enumerate(SLIDERS, start=1):
+        ops.section("Bidirectional", number, stiffness, strength, 0.0, 0.0)
+        ops.element("zeroLengthSection", tag, ground, mat, number, "-doRayleigh", 0)
+
+
+def add_contacts():
+    """Contacts, links, and Rayleigh damping."""
+    for tag, left, right, material, *_ in CONTACTS:
+        if tag not in CORNERS:
+            ops.element("zeroLength", tag, left, right, "-mat", material, "-dir", 1, *orientation(tag))
+    for tag, left, right, material, *_ in LINKS:
+        ops.element("zeroLength", tag, left, right, "-mat", material, "-dir", 1)
+    for number, building in enumerate(BUILDINGS, start=1):
+        first, last = building["nodes"]
+        # On the initial stiffness of everything that is not a bare spring.
+        ops.region(number, "-node", *range(first, last + 1), "-rayleigh", building["alpha"], 0.0, building["beta"], 0.0)
+
+
+def build_in_space():
+    """Floors at their centres of mass, joints tied to them, columns and beams.
+
+    Nothing lets floors rise or tilt, so soft springs hold them there: fixed in these directions, they would break the constraints of
+    what is tied to them (Transformation). Springs of storeys join points at different heights; their length has no effect."""
+    ops.model("basic", "-ndm", 3, "-ndf", 6)
+    heights = dict(LEVELS)
+    heights.update({point: heights[floor] for floor, point in ARMS})
+    free = max(tag for tag, *_ in NODES + JOINTS + HINGED_ENDS) + 1
+    hold = len(MATERIALS) + 2
+    ops.uniaxialMaterial("Elastic", hold, 1e6)
+    for tag, x, y, mass, inertia in NODES:
+        ops.node(tag, x, y, heights.get(tag, 0.0))
+        if mass or inertia:
+            ops.mass(tag, mass, mass, 0.0, 0.0, 0.0, inertia)
+    places = {tag: (x, y) for tag, x, y, *_ in NODES}
+    for number, (floor, z) in enumerate(LEVELS):
+        ops.node(free + number, *places[floor], z)
+        ops.fix(free + number, 1, 1, 1, 1, 1, 1)
+        ops.element("zeroLength", 10_000_000 + number, free + number, floor, "-mat", hold, hold, hold, "-dir", 3, 4, 5)
+    where = {}
+    tied = {}
+    mats = {building["floors"][0] for building in BUILDINGS if building.get("has_mat")}
+    feet = []
+    for tag, x, y, z, floor in JOINTS:
+        where[tag] = (x, y, z)
+        ops.node(tag, x, y, z)
+        if floor is None:
+            ops.fix(tag, 1, 1, 1, 1, 1, 1)
+        else:
+            tied.setdefault(floor, []).append(tag)
+            if floor in mats:
+                feet.append(tag)
+    for tag, *_ in SUPPORTS:
+        ops.fix(tag, 1, 1, 1, 1, 1, 1)
+    floors = {tag: floor for tag, *_, floor in JOINTS}
+    for tag, joint, *_ in HINGED_ENDS:
+        where[tag] = where[joint]
+        ops.node(tag, *where[joint])
+        if floors[joint] is None:
+            ops.fix(tag, 1, 1, 0, 0, 0, 1)
+        else:
+            tied.setdefault(floors[joint], []).append(tag)
+    for floor, joints in tied.items():
+        ops.rigidDiaphragm(3, floor, *joints)
+    for kept, point in ARMS:
+        ops.rigidLink("beam", kept, point)
+    transforms = {}
+    for tag, first, last, bending, sideways, torsion, ea, ga, towards in COLUMNS_AND_BEAMS:
+        length = math.dist(where[first], where[last])
+        if ea is None:
+            ea = STIFF * 12.0 * max(bending, sideways) / length**2
+        if towards not in transforms:
+            transforms[towards] = len(transforms) + 1
+            ops.geomTransf("Linear", transforms[towards], *towards)
+        # The local axis z lies in the plane of bending, so that bending there turns the section about y.
+        if ga is None:
+            ops.element("elasticBeamColumn", tag, first, last, ea, 1.0, 1.0, torsion, bending, sideways, transforms[towards])
+        else:
+            along, across = ga
+            ops.element("ElasticTimoshenkoBeam", tag, first, last, 1.0, 1.0, ea, torsion, bending, sideways, across, along, transforms[towards])
+    for foot in feet:
+        # Held as by the ground, but free to move with the mat.
+        ops.fix(foot, 0, 0, 1, 1, 1, 0)
+    for name, tag, *arguments in MATERIALS:
+        ops.uniaxialMaterial(name, tag, *arguments)
+    for _, _, (x, y), springs in HINGED_ENDS:
+        for tag, first, last, direction, material in springs:
+            ops.element("zeroLength", tag, first, last, "-mat", material, "-dir", direction, "-orient", x, y, 0.0, -y, x, 0.0)
+    for tag, first, last, springs, damped in SPRINGS:
+        directions, materials = [pair[0] for pair in springs], [pair[1] for pair in springs]
+        extra = ["-doRayleigh", 1] if damped else []
+        ops.element("zeroLength", tag, first, last, "-mat", *materials, "-dir", *directions, *extra)
+    add_sliders()
+    add_contacts()
+
+
+def orientation(tag):
+    """Local axes of a contact in plan: along its normal, and along its face."""
+    if tag not in NORMALS:
+        return []
+    x, y = NORMALS[tag]
+    return ["-orient", x, y, 0.0, -y, x, 0.0]

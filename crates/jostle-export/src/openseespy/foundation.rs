@@ -1,0 +1,227 @@
+//! Buildings on soil: the foundation, what its rotation deforms, and springs of the soil, also between neighbours.
+//!
+//! A lever is a `twoNodeLink` with a shear spring: its deformation is the difference of displacements along it plus its length times
+//! rotations of its ends. Levers start at nodes that move and turn with the foundation, at the length that is wanted. So no
+//! constraint but equal displacements is needed, which the handler `Plain` takes back where a step fails.
+
+use std::fmt::Write;
+
+use jostle::structure::{Node, Spring, Support};
+use jostle::system::BuildingSystem;
+
+use super::script::{Script, python_bool, rounded};
+use super::soil::{Matrix, SoilSpring, springs_of};
+use super::ties::Ties;
+
+/// Stiffness of what holds the feet of columns on the foundation, in units of the rocking stiffness of the soil over the square of
+/// their distance from its middle \[–\].
+const STIFF: f64 = 1e7;
+/// Length of levers of the soil \[m\].
+const LEVER: f64 = 1.0;
+/// Nodes closer than this lie on one line \[m\].
+const SAME_LINE: f64 = 1e-9;
+
+/// How much of the rotations of both ends acts on a lever.
+#[derive(Clone, Copy)]
+enum Turning {
+    Both,
+    First,
+}
+
+impl Script<'_> {
+    /// A storey that deforms by u_i − u_{i−1} + hθ; P-Delta and what is left of it act on displacements alone.
+    pub(super) fn add_storey_on_foundation(
+        &mut self,
+        [first, last]: [usize; 2],
+        spring: &Spring,
+    ) -> Result<(), &'static str> {
+        // Deformation of a lever counts the other way.
+        let hysteresis = spring.hysteresis.as_ref().map(|own| own.mirrored());
+        for material in self.spring_materials(spring.stiffness, hysteresis.as_ref(), 0.0)? {
+            let ends = [first, last];
+            self.lever(ends, material, Turning::Both, spring.proportional_damping);
+        }
+        if spring.dashpot != 0.0 {
+            let material = self.materials.elastic(0.0, spring.dashpot);
+            self.spring(first, last, &[(1, material)], false);
+        }
+        Ok(())
+    }
+
+    fn lever(
+        &mut self,
+        [first, last]: [usize; 2],
+        material: usize,
+        turning: Turning,
+        damped: bool,
+    ) {
+        let tag = self.element();
+        let share = match turning {
+            Turning::Both => 0.5,
+            Turning::First => 1.0,
+        };
+        let _ = writeln!(
+            self.levered,
+            "    ({tag}, {first}, {last}, {material}, {share:?}, {}),",
+            python_bool(damped)
+        );
+    }
+
+    /// Feet on a foundation, and damping of motion relative to it.
+    pub(super) fn add_foundation(&mut self, index: usize, building: &BuildingSystem, ties: &Ties) {
+        let stick_model = &building.discretization.stick_model;
+        let Some(foundation) = &stick_model.foundation else {
+            return;
+        };
+        let nodes = &stick_model.nodes;
+        let base = nodes[foundation.node];
+        let base_tag = self.tag(index, foundation.node);
+        for &foot in &foundation.feet {
+            let lever = nodes[foot].x - base.x;
+            if lever.abs() <= SAME_LINE {
+                continue;
+            }
+            let stiffness = STIFF * foundation.stiffness[2] / (lever * lever);
+            let material = self.materials.elastic(stiffness, 0.0);
+            let ends = [base_tag, self.tag(index, foot)];
+            self.lever(ends, material, Turning::Both, false);
+            self.remark(
+                "Feet of columns are held on their foundation by springs 10⁷ times as stiff as the soil in rocking; all other \
+                 displacements that are equal are tied.",
+            );
+        }
+        let alpha = building.equations.alpha;
+        if alpha == 0.0 {
+            return;
+        }
+        let own = |node: usize| foundation.levers.get(node).copied().flatten();
+        for (number, node) in nodes.iter().enumerate() {
+            let of_mass = alpha * node.mass;
+            if of_mass == 0.0 || number == foundation.node || node.support == Support::Fixed {
+                continue;
+            }
+            let material = self.materials.elastic(0.0, of_mass);
+            let tag = self.tag(index, number);
+            if node.y > 0.0 {
+                let below = self.on_foundation(index, building, ties, [node.x, base.y]);
+                self.lever([below, tag], material, Turning::First, false);
+            }
+            // Floors of a shear building do not rise, and columns that keep their length rise with the foundation.
+            if node.support == Support::Free && own(number).is_none() {
+                if (node.x - base.x).abs() <= SAME_LINE {
+                    let ground = self.ground_point(index, [node.x, node.y]);
+                    self.spring(ground, tag, &[(2, material)], false);
+                } else {
+                    let beside = self.on_foundation(index, building, ties, [base.x, node.y]);
+                    self.lever([beside, tag], material, Turning::First, false);
+                }
+            }
+        }
+    }
+
+    /// Springs and dashpots of the soil, under every foundation and between them.
+    pub(super) fn add_soil(&mut self) {
+        let system = self.export.system;
+        let founded: Vec<(usize, [usize; 2])> = system
+            .buildings
+            .iter()
+            .enumerate()
+            .filter_map(|(index, own)| Some((index, own.foundation?.dofs)))
+            .collect();
+        if founded.is_empty() {
+            return;
+        }
+        self.springs.push_str("    # soil\n");
+        self.levered.push_str("    # soil\n");
+        let [stiffness, damping] = Matrix::of_soil(system);
+        let bases: Vec<(usize, Node)> = founded
+            .iter()
+            .filter_map(|(index, _)| {
+                let sticks = &system.buildings[*index].discretization.stick_model;
+                let own = sticks.foundation.as_ref()?;
+                Some((self.tag(*index, own.node), sticks.nodes[own.node]))
+            })
+            .collect();
+        for (spring, [stiffness, dashpot]) in springs_of(stiffness, damping, LEVER) {
+            let material = self.materials.elastic(stiffness, dashpot);
+            let ties =
+                |at: usize| Ties::new(&system.buildings[founded[at].0].discretization.stick_model);
+            let place = |at: usize, height: f64| [bases[at].1.x, bases[at].1.y + height];
+            match spring {
+                SoilSpring::Sway(at) | SoilSpring::Rocking(at) => {
+                    let direction = match spring {
+                        SoilSpring::Sway(_) => 1,
+                        _ => 6,
+                    };
+                    let ground = self.ground_point(founded[at].0, place(at, 0.0));
+                    self.spring(ground, bases[at].0, &[(direction, material)], false);
+                }
+                SoilSpring::Between([left, right], direction) => {
+                    let ends = [bases[left].0, bases[right].0];
+                    self.spring(ends[0], ends[1], &[(direction, material)], false);
+                }
+                SoilSpring::Lever(at, None) => {
+                    let ground = self.ground_point(founded[at].0, place(at, LEVER));
+                    self.lever([bases[at].0, ground], material, Turning::First, false);
+                }
+                SoilSpring::Lever(at, Some(other)) => {
+                    // The node that turns below, that of the neighbour above it.
+                    let beside = &system.buildings[founded[other].0];
+                    let shift = self.places[founded[at].0] - self.places[founded[other].0];
+                    let [x, y] = place(at, LEVER);
+                    let above =
+                        self.on_foundation(founded[other].0, beside, &ties(other), [x + shift, y]);
+                    self.lever([bases[at].0, above], material, Turning::First, false);
+                }
+            }
+        }
+    }
+
+    /// A node that moves and turns with a foundation, wherever it stands.
+    fn on_foundation(
+        &mut self,
+        index: usize,
+        building: &BuildingSystem,
+        ties: &Ties,
+        at: [f64; 2],
+    ) -> usize {
+        let stick_model = &building.discretization.stick_model;
+        let Some(foundation) = &stick_model.foundation else {
+            return self.ground_point(index, at);
+        };
+        let base = stick_model.nodes[foundation.node];
+        if [at[0] - base.x, at[1] - base.y]
+            .iter()
+            .all(|apart| apart.abs() <= SAME_LINE)
+        {
+            return self.tag(index, foundation.node);
+        }
+        let tag = self.plane_point(index, at);
+        let _ = writeln!(self.supports, "    ({tag}, 0, 1, 0),");
+        for component in [0, 2] {
+            let followed = self.tag(index, ties.followed_by(foundation.node, component));
+            let _ = writeln!(self.ties, "    ({followed}, {tag}, {}),", component + 1);
+        }
+        tag
+    }
+
+    /// A node that stands still, or moves with the ground of a building.
+    pub(super) fn ground_point(&mut self, index: usize, at: [f64; 2]) -> usize {
+        let tag = self.plane_point(index, at);
+        let _ = writeln!(self.supports, "    ({tag}, 1, 1, 1),");
+        tag
+    }
+
+    /// A node without mass of a building in one plane.
+    fn plane_point(&mut self, index: usize, [x, y]: [f64; 2]) -> usize {
+        let tag = self.tag(index, self.next_point[index]);
+        self.next_point[index] += 1;
+        let x = rounded(x + self.places[index]);
+        let _ = writeln!(
+            self.nodes,
+            "    ({tag}, {x:?}, {:?}, 0.0, 0.0),",
+            rounded(y)
+        );
+        tag
+    }
+}
