@@ -5,7 +5,7 @@ use std::process::{Command, Output};
 
 use jostle::System;
 use jostle_export::{Export, openseespy};
-use jostle_io::{Format, read_model_text};
+use jostle_io::{Format, Input, read_model_text};
 
 /// Hinges far stiffer than their members, under their own weight.
 const MODEL: &str = r#"
@@ -69,6 +69,11 @@ def nodeDisp(*arguments):
 
 nodeVel = nodeDisp
 
+def setNodeDisp(tag, direction, value, *_):
+    if "MOVED" in os.environ:
+        with open(os.environ["MOVED"], "a") as file:
+            file.write(f"{now!r} {tag} {direction} {value!r}\n")
+
 def testIter():
     return 1
 
@@ -85,8 +90,12 @@ def __getattr__(name):
 "#;
 
 /// Runs the script of the model; `None` where there is no Python.
-fn run(folder: &Path, longest: f64, [begin, end]: [f64; 2]) -> Option<Output> {
+fn run(folder: &Path, longest: f64, span: [f64; 2]) -> Option<Output> {
     let input = read_model_text("test", MODEL, Format::Toml, "".as_ref()).expect("a sound model");
+    run_model(folder, &input, longest, span)
+}
+
+fn run_model(folder: &Path, input: &Input, longest: f64, [begin, end]: [f64; 2]) -> Option<Output> {
     let system = System::assemble(&input.model).expect("sound");
     let exported = openseespy::export(&Export {
         model: &input.model,
@@ -101,6 +110,7 @@ fn run(folder: &Path, longest: f64, [begin, end]: [f64; 2]) -> Option<Output> {
     std::fs::write(package.join("opensees.py"), STAND_IN).expect("written");
     let mut command = Command::new("python3");
     command.arg(&script).env("PYTHONDONTWRITEBYTECODE", "1");
+    command.env("MOVED", folder.join("moved"));
     for (name, value) in [("LONGEST", longest), ("BEGIN", begin), ("END", end)] {
         command.env(name, value.to_string());
     }
@@ -149,4 +159,83 @@ fn a_script_that_stops_says_when_and_what_to_try() {
         complained.contains("--free") && complained.contains("--log"),
         "{complained}"
     );
+}
+
+/// Motions of every kind, delayed; one is turned round, and one ends before the run.
+const APART: &str = r#"
+title = "grounds"
+[motion]
+COMMON
+duration = "9 s"
+baseline = "as-recorded"
+[[building]]
+name = "A"
+kind = "shear"
+mass = 1e5
+stiffness = 1e8
+storey_height = 3.0
+[[building]]
+name = "B"
+kind = "shear"
+mass = 1e5
+stiffness = 1e8
+storey_height = 3.0
+motion = { record = "el-centro-1940-ns", scale = 0.5, reverse = true, arrival = "0.137 s" }
+[[building]]
+name = "C"
+kind = "shear"
+mass = 1e5
+stiffness = 1e8
+storey_height = 3.0
+motion = { kind = "ricker", amplitude = 2.0, period = 0.6, centre = 0.9, arrival = "0.21 s" }
+[[building]]
+name = "D"
+kind = "shear"
+mass = 1e5
+stiffness = 1e8
+storey_height = 3.0
+motion = { arrival = "0.313 s" }
+"#;
+
+/// Supports are moved before every step to where jostle has the ground at its end.
+#[test]
+fn supports_move_with_the_exact_integrals() {
+    for common in [
+        "record = \"el-centro-1940-ns\"\npga = \"0.3 g\"",
+        "kind = \"sine\"\namplitude = 2.0\nperiod = 0.6",
+    ] {
+        supports_move_with(&APART.replace("COMMON", common));
+    }
+}
+
+fn supports_move_with(text: &str) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let input = read_model_text("test", text, Format::Toml, "".as_ref()).expect("a sound model");
+    let Some(output) = run_model(folder.path(), &input, 1.0, [9e9, 9e9]) else {
+        return;
+    };
+    let (printed, complained) = told(&output);
+    assert!(output.status.success(), "{printed}\n{complained}");
+    let step = printed
+        .lines()
+        .find_map(|line| line.trim().strip_prefix("\"free_s\": "));
+    let step: f64 = step
+        .expect("a step")
+        .trim_end_matches(',')
+        .parse()
+        .expect("a number");
+    let motion = input.ground_motion().expect("a motion");
+    let paths: Vec<_> = (0..4).map(|index| motion.under(index)).collect();
+    let text = std::fs::read_to_string(folder.path().join("moved")).expect("supports moved");
+    let mut greatest = [0.0_f64; 4];
+    for line in text.lines() {
+        let words: Vec<&str> = line.split(' ').collect();
+        let number = |at: usize| words[at].parse::<f64>().expect("a number");
+        let (index, direction) = (number(1) as usize / 1000 - 1, words[2]);
+        assert_eq!(direction, "1");
+        let expected = paths[index].at(number(0) + step).displacement[0];
+        assert!((number(3) - expected).abs() < 1e-12, "{line}, {expected}");
+        greatest[index] = greatest[index].max(expected.abs());
+    }
+    assert!(greatest.iter().all(|moved| *moved > 1e-2), "{greatest:?}");
 }

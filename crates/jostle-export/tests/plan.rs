@@ -1,47 +1,12 @@
 //! Scripts of buildings in space, read back as tables. That OpenSees gives the same answers is shown in docs/validation.md.
 
-use jostle::linear::SparseSymmetric;
-use jostle::{ModelFault, System};
-use jostle_export::{Export, Exported, openseespy};
-use jostle_io::{Format, Input, read_model_text};
+mod script;
+
+use jostle::System;
+use script::{export, model, number, quadratic, table};
 
 const ELEMENTS: &str = include_str!("../../jostle-validation/data/opensees/plan_elements.toml");
 const CORNERS: &str = include_str!("../../jostle-validation/data/opensees/plan_corners.toml");
-
-fn model(text: &str) -> Input {
-    read_model_text("test", text, Format::Toml, "".as_ref()).expect("a sound model")
-}
-
-fn export(input: &Input) -> Result<Exported, Vec<ModelFault>> {
-    let system = System::assemble(&input.model).expect("a sound model");
-    openseespy::export(&Export {
-        model: &input.model,
-        system: &system,
-        motion: &input.ground_motion().expect("a motion"),
-    })
-}
-
-/// Rows of a table, cut at commas, without brackets.
-fn table(text: &str, name: &str) -> Vec<Vec<String>> {
-    let start = text
-        .find(&format!("\n{name} = ["))
-        .expect("the table is there");
-    text[start + 1..]
-        .lines()
-        .skip(1)
-        .take_while(|line| line.starts_with("    "))
-        .filter(|line| !line.trim_start().starts_with('#'))
-        .map(|line| {
-            let plain = line.replace(['(', ')'], "");
-            let row = plain.trim().trim_end_matches(',');
-            row.split(',').map(|word| word.trim().to_owned()).collect()
-        })
-        .collect()
-}
-
-fn number(text: &str) -> f64 {
-    text.parse().expect("a number")
-}
 
 /// Where a node moves when its floor, or itself, moves: the floor's node and the arm from it; `None` is fixed.
 fn carrier(text: &str, tag: &str) -> Option<(String, [f64; 2])> {
@@ -88,20 +53,6 @@ fn energy(text: &str, block: &str, damped: &str, floors: &[String], motion: &[[f
             let own = materials.iter().find(|row| row[1] == *pair[1]);
             let stiffness = number(&own.expect("a material")[2]);
             sum += stiffness * (b[component] - a[component]).powi(2);
-        }
-    }
-    sum
-}
-
-fn quadratic(matrix: &SparseSymmetric, values: &[f64]) -> f64 {
-    let mut sum = 0.0;
-    for (dof, value) in matrix.diagonal.iter().enumerate() {
-        sum += value * values[dof] * values[dof];
-    }
-    for (column, bounds) in matrix.starts.windows(2).enumerate() {
-        for place in bounds[0]..bounds[1] {
-            let row = matrix.rows[place] as usize;
-            sum += 2.0 * matrix.values[place] * values[row] * values[column];
         }
     }
     sum

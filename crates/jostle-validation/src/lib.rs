@@ -173,9 +173,10 @@ const FAMILIES: [(&str, &str, Make); 23] = [
         |_| paper::rows(),
     ),
     (
-        "Yielding frames, bearings and links in OpenSees",
-        "Hinges at every member end; bearings with stops, a moat wall and links of every law that is exported; most other features \
-         of a model, from model files with a tolerance of 10⁻⁴. \
+        "Yielding frames, bearings, links, soil and grounds in OpenSees",
+        "Hinges at every member end; bearings with stops, a moat wall and links of every law that is exported; foundations on soil, \
+         also beside each other; ground that differs; vertical shaking; most other features of a model, from model files with a \
+         tolerance of 10⁻⁴. \
          The reference is OpenSees on the exported scripts with steps of 0.5 ms, near contact 0.05 ms.",
         |_| yielding::rows(),
     ),

@@ -194,11 +194,23 @@ def envelopes(folder):
     if CONTACTS and not IN_PLAN:
         elements = [row[0] for row in CONTACTS]
         ops.recorder("EnvelopeElement", "-file", os.path.join(folder, "forces"), "-precision", 12, "-ele", *elements, "localForce")
-
-
     if LINKS:
         elements = [row[0] for row in LINKS]
         ops.recorder("EnvelopeElement", "-file", os.path.join(folder, "links"), "-precision", 12, "-ele", *elements, "localForce")
+    if VERTICAL:
+        tags = [tag for masses in masses_of_floors() for tag in masses]
+        ops.recorder("EnvelopeNode", "-file", os.path.join(folder, "vertical"), "-precision", 12, "-node", *tags, "-dof", 2, "disp")
+
+
+def masses_of_floors():
+    """Nodes with mass at the height of every floor that can move vertically, building by building."""
+    held = {tag for tag, *fixed in SUPPORTS if fixed[1]} | {tag for tag, direction in HELD if direction == 2}
+    height = {tag: y for tag, _, y, *_ in NODES}
+    for building in BUILDINGS:
+        first, last = building["nodes"]
+        own = [tag for tag, _, _, mass, _ in NODES if mass and first <= tag <= last and tag not in held]
+        for floor in building["floors"]:
+            yield [tag for tag in own if abs(height[tag] - height[floor]) < 1e-6]
 
 
 def read(folder, name):
@@ -210,8 +222,16 @@ def modes(args):
     """Natural periods, longest first [s]."""
     build("ties")
     prepare("ties")
-    values = ops.eigen("-genBandArpack", args.modes)
-    return [2.0 * math.pi / math.sqrt(value) for value in values]
+    try:
+        values = ops.eigen("-genBandArpack", args.modes)
+    except Exception:
+        # ARPACK makes more vectors than modes are asked for, twice as many or eight more, and stops where fewer masses move.
+        build("ties")
+        prepare("ties")
+        heavy = sum(1 for row in NODES for mass in (row[3], row[3], row[4]) if mass)
+        values = ops.eigen("-fullGenLapack", min(args.modes, heavy))
+    # Of displacements without mass LAPACK finds infinite ones.
+    return [2.0 * math.pi / math.sqrt(value) for value in values if 0.0 < value < 1e20]
 
 
 def analyse(args):
@@ -230,8 +250,10 @@ def analyse(args):
         forces = [-force for force in watch.force]
         if CONTACTS and not IN_PLAN:
             forces = read(folder, "forces")[0]
+        vertical = iter(read(folder, "vertical")[2] if VERTICAL else [])
         pulls = read(folder, "links")[2] if LINKS else []
     peaks_of_floors = iter(zip(high, low))
+    floors_of_masses = masses_of_floors()
     buildings = []
     for building in BUILDINGS:
         floors = []
@@ -240,6 +262,9 @@ def analyse(args):
             if GROUNDS:
                 left, right = peaks.of[tag, 1]
             floors.append({"floor": number, "displacement_max_m": right, "displacement_min_m": left})
+            if VERTICAL:
+                peak = max((next(vertical) for _ in next(floors_of_masses)), default=0.0)
+                floors[-1]["vertical_displacement_peak_m"] = peak
             if IN_PLAN:
                 for key in ("displacement_across", "rotation"):
                     unit = "rad" if key == "rotation" else "m"
