@@ -5,6 +5,7 @@ mod script;
 use std::collections::BTreeMap;
 
 use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
+use jostle::system::BuildingSystem;
 use jostle::{Hinges, System};
 use script::{export, model, number, quadratic, table};
 
@@ -50,7 +51,52 @@ struct Moved {
     supports: Vec<Vec<String>>,
 }
 
+fn some_motion(system: &System, seed: u32) -> Vec<f64> {
+    (0..system.len())
+        .map(|dof| (1.7 * f64::from(seed) + 2.3 * dof as f64).sin())
+        .collect()
+}
+
+/// Twice the rate at which dashpots and damping of masses take energy.
+fn power(building: &BuildingSystem, x: &[f64]) -> f64 {
+    let equations = &building.equations;
+    let own = &x[building.offset..building.offset + equations.len()];
+    let masses = equations.mass.iter().zip(own);
+    let of_masses: f64 = masses.map(|(mass, value)| mass * value * value).sum();
+    equations.alpha * of_masses + quadratic(&equations.dashpots, own)
+}
+
 impl Moved {
+    fn new(text: &str, system: &System, x: &[f64]) -> Self {
+        let mut own = BTreeMap::new();
+        for (index, building) in system.buildings.iter().enumerate() {
+            let sticks = &building.discretization.stick_model;
+            let base = sticks.foundation.as_ref().expect("on soil");
+            let equations = &building.equations;
+            let value = |dof: usize| x[building.offset + dof];
+            let turned = equations.rotation(base.node).map_or(0.0, value);
+            for node in 0..sticks.nodes.len() {
+                let tag = ((index + 1) * 1000 + node + 1).to_string();
+                let lever = base.levers.get(node).copied().flatten();
+                let rise = equations.vertical(node).map(value);
+                for (direction, moved) in [
+                    (1, equations.horizontal(node).map(value)),
+                    (2, rise.or(lever.map(|lever| lever * turned))),
+                    (3, equations.rotation(node).map(value)),
+                ] {
+                    if let Some(moved) = moved {
+                        own.insert((tag.clone(), direction), moved);
+                    }
+                }
+            }
+        }
+        Self {
+            own,
+            ties: table(text, "TIES"),
+            supports: table(text, "SUPPORTS"),
+        }
+    }
+
     fn at(&self, tag: &str, direction: usize) -> f64 {
         let mut supports = self.supports.iter();
         if supports.any(|row| row[0] == tag && row[direction] == "1") {
@@ -122,10 +168,18 @@ fn energies(text: &str, moved: &Moved) -> [f64; 3] {
     for row in table(text, "LEVERED") {
         // As twoNodeLink has it: y is a quarter turn from the line of the nodes, counter-clockwise.
         let ([x, y], [to_x, to_y]) = (place(&row[1]), place(&row[2]));
-        assert!((to_x - x).abs() < 1e-9 && to_y > y, "upwards: {row:?}");
+        let (length, upright) = ((to_x - x).hypot(to_y - y), to_y > y);
+        let across = |tag: &String| match upright {
+            true => -moved.at(tag, 1),
+            false => (to_x - x).signum() * moved.at(tag, 2),
+        };
+        assert!(upright && (to_x - x).abs() < 1e-9 || to_y == y, "{row:?}");
         let share = number(&row[4]);
-        let turned = share * moved.at(&row[1], 3) + (1.0 - share) * moved.at(&row[2], 3);
-        let strain = moved.at(&row[1], 1) - moved.at(&row[2], 1) - (to_y - y) * turned;
+        let mut turned = share * moved.at(&row[1], 3);
+        if share < 1.0 {
+            turned += (1.0 - share) * moved.at(&row[2], 3);
+        }
+        let strain = across(&row[2]) - across(&row[1]) - length * turned;
         add(&row[3], strain, &row[5]);
     }
     sums
@@ -140,33 +194,16 @@ fn springs_and_levers_have_the_energy_of_the_matrices() {
     // Damping of masses is that of dashpots.
     assert_eq!(text.matches("\"alpha\": 0.0, ").count(), 2);
     for seed in 0..4 {
-        let x: Vec<f64> = (0..system.len())
-            .map(|dof| (1.7 * f64::from(seed) + 2.3 * dof as f64).sin())
-            .collect();
-        let mut moved = Moved {
-            own: BTreeMap::new(),
-            ties: table(&text, "TIES"),
-            supports: table(&text, "SUPPORTS"),
-        };
+        let x = some_motion(&system, seed);
+        let moved = Moved::new(&text, &system, &x);
         let mut expected = [0.0; 3];
-        for (index, building) in system.buildings.iter().enumerate() {
-            let tag = |node: usize| ((index + 1) * 1000 + node + 1).to_string();
-            for (floor, node) in building.floors.iter().zip(&building.discretization.floors) {
-                moved.own.insert((tag(*node), 1), x[floor.dof]);
-            }
-            let base = building.foundation.expect("it has one");
-            let node = building.discretization.foot.expect("it has one");
-            for (dof, direction) in base.dofs.into_iter().zip([1, 3]) {
-                moved.own.insert((tag(node), direction), x[dof]);
-            }
+        for building in &system.buildings {
             let equations = &building.equations;
             let own = &x[building.offset..building.offset + equations.len()];
             let elastic = quadratic(&equations.stiffness, own);
             expected[0] += elastic + quadratic(&equations.undamped, own);
             expected[1] += elastic;
-            let masses = equations.mass.iter().zip(own);
-            let of_masses: f64 = masses.map(|(mass, value)| mass * value * value).sum();
-            expected[2] += equations.alpha * of_masses + quadratic(&equations.dashpots, own);
+            expected[2] += power(building, &x);
         }
         for link in &system.links[system.model_links().len()..] {
             let closing = link.ports.closing(&x);
@@ -180,6 +217,25 @@ fn springs_and_levers_have_the_energy_of_the_matrices() {
                 "{got} against {expected}"
             );
         }
+    }
+}
+
+/// Dashpots of a frame damp its motion relative to the foundation, in both directions, and the soil that of the foundation.
+#[test]
+fn dashpots_of_a_frame_have_the_power_of_the_matrix() {
+    let elastic = FRAME.lines().filter(|line| !line.starts_with("hinges"));
+    let input = model(&elastic.collect::<Vec<_>>().join("\n"));
+    let text = export(&input).expect("it can be exported").text;
+    let system = System::assemble(&input.model).expect("sound");
+    for seed in 0..4 {
+        let x = some_motion(&system, seed);
+        let buildings = system.buildings.iter();
+        let expected: f64 = buildings.map(|building| power(building, &x)).sum();
+        let [.., got] = energies(&text, &Moved::new(&text, &system, &x));
+        assert!(
+            (got / expected - 1.0).abs() < 1e-9,
+            "{got} against {expected}"
+        );
     }
 }
 
