@@ -511,7 +511,11 @@ fn ports_inside(system: &System, link: &Link) -> Vec<Result<PortPair, String>> {
                 .iter()
                 .rposition(|node| node.y == 0.0 && node.support != Support::Fixed),
         };
-        node.map(|node| system.port(building, node)).transpose()
+        let port = |node| {
+            let port = system.port(building, node);
+            port.map(|port| relative_to_foundation(own, port))
+        };
+        node.map(port).transpose()
     };
     let mut found: Vec<_> = pairs
         .iter()
@@ -523,6 +527,20 @@ fn ports_inside(system: &System, link: &Link) -> Vec<Result<PortPair, String>> {
         height(a).total_cmp(&height(b))
     });
     found
+}
+
+/// The same end of a link inside a building, with what its foundation turns taken out: u + yθ (theory, Eq. B22). A building that
+/// rocks as a rigid body does not deform what stands between its floors.
+fn relative_to_foundation(building: &BuildingSystem, port: Port) -> Port {
+    let turned = building.foundation.and_then(|foundation| {
+        let mut entries = port.row.entries().to_vec();
+        entries.push((foundation.dofs[1], port.height));
+        DofRow::new(&entries).filter(|_| port.height != 0.0)
+    });
+    Port {
+        row: turned.unwrap_or(port.row),
+        ..port
+    }
 }
 
 /// What gravity alone closes \[m\].

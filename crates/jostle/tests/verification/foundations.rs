@@ -8,8 +8,9 @@ use jostle::stiffness::DirectStiffness;
 use jostle::structure::solve_once;
 use jostle::system::BuildingSystem;
 use jostle::{
-    Axial, Base, Building, Column, Damping, Foundation, Gap, Given, HalfSpace, Hinges, LawKind,
-    Model, RiccatiSweep, Shear, Soil, SoilCoupling, Solver, Structure, System,
+    Axial, Base, Building, Column, Damping, FloorPairs, Foundation, Gap, Given, HalfSpace, Hinges,
+    LawKind, Level, Link, LinkLaw, Model, RiccatiSweep, Shear, Soil, SoilCoupling, Solver,
+    Structure, System,
 };
 
 use crate::monolith::monolith;
@@ -483,6 +484,58 @@ fn condensed_equals_monolithic_on_soil() {
 }
 
 /// What cannot stand on a foundation, with the field at fault.
+/// Springs and dashpots between floors of a building on soil are the same as a stiffer storey with that damping: the building that rocks
+/// as a rigid body does not deform them.
+#[test]
+fn links_between_floors_on_soil_are_part_of_their_storeys() {
+    const BETA: f64 = 1.2e-3;
+    let building = |stiffness: Vec<f64>| {
+        let Building {
+            structure: Structure::Shear(shear),
+            ..
+        } = three_storeys()
+        else {
+            panic!("it is a shear building");
+        };
+        Building {
+            structure: Structure::Shear(Shear { stiffness, ..shear }),
+            damping: Damping::Rayleigh {
+                alpha: 0.0,
+                beta: BETA,
+            },
+            ..three_storeys()
+        }
+    };
+    let soil = SoilCoupling::Given {
+        stiffness: vec![vec![9e8, -2e8], vec![-2e8, 1.1e10]],
+        damping: vec![vec![2e7, 0.0], vec![0.0, 9e7]],
+    };
+    let stiff = on_soil(
+        alone(building(vec![90e6, 95e6, 50e6])),
+        embedded(),
+        soil.clone(),
+    );
+    let mut linked = on_soil(alone(building(vec![60e6, 70e6, 50e6])), embedded(), soil);
+    for (pair, stiffness) in [([0, 1], 30e6), ([2, 1], 25e6)] {
+        linked.links.push(Link {
+            between: [Some(0); 2],
+            floors: FloorPairs::Listed(vec![pair.map(Level::Floor)]),
+            level_tolerance: 1e-3,
+            stiffness,
+            damping: BETA * stiffness,
+            law: LinkLaw::Linear,
+        });
+    }
+    let (motion, plan) = (shaking(4.0), steps(1e-3, 1));
+    let [expected, found] = [&stiff, &linked].map(|model| run(&assembled(model), &motion, &plan));
+    for floor in 1..=3 {
+        let of = |outcome| column(outcome, Column::Displacement { building: 0, floor });
+        assert!(difference(&of(&found), &of(&expected)) < 1e-9);
+    }
+    let rocking = [&found, &expected].map(|outcome| outcome.foundations[0].rocking[0].value);
+    assert!((rocking[0] / rocking[1] - 1.0).abs() < 1e-9 && rocking[1] > 1e-4);
+}
+
 #[test]
 fn unsound_foundations_are_refused() {
     let good = || {
