@@ -2,11 +2,11 @@
 
 use std::fmt::Write;
 
-use jostle::ModelFault;
 use jostle::interface::Port;
 use jostle::structure::Support;
+use jostle::{LinkLaw, ModelFault};
 
-use super::script::{Script, rounded};
+use super::script::{Script, python_bool, rounded};
 
 /// Heights closer than this are the same \[m\].
 const SAME_LEVEL: f64 = 1e-3;
@@ -110,8 +110,15 @@ impl Script<'_> {
             let path = format!("link[{}]", link.link);
             let ports = link.ports.0;
             let own = ports.iter().flatten().map(|port| port.building).next();
+            let on_soil = match own.map(|own| (own, &system.buildings[own])) {
+                Some((own, building)) if link.inside => {
+                    self.ends_on_foundation(own, building, link)
+                }
+                _ => None,
+            };
             // Both ends of a link inside a building stand on the same face.
             let end = |side: usize| match ports[side] {
+                _ if on_soil.is_some() => on_soil.map(|own| own.ends[side]),
                 Some(port) => self.face(port, side == 0 || link.inside),
                 None => self.ground(own?),
             };
@@ -122,7 +129,15 @@ impl Script<'_> {
                 });
                 continue;
             };
-            let (material, remark) = match self.materials.link(link) {
+            let turned = on_soil.is_some_and(|own| own.turned);
+            if turned && matches!(link.law, LinkLaw::Stopper { .. }) && link.damping != 0.0 {
+                faults.push(ModelFault {
+                    path: format!("{path}.damping"),
+                    problem: "of a stopper inside a building on soil is not exported: ViscoelasticGap acts in one direction only; leave it out to compare".to_owned(),
+                });
+                continue;
+            }
+            let (material, remark) = match self.materials.link(link, turned) {
                 Ok(found) => found,
                 Err(rule) => {
                     faults.push(ModelFault {
@@ -144,11 +159,12 @@ impl Script<'_> {
             let [low, high] = link.ports.floors();
             let _ = writeln!(
                 self.links,
-                "    ({tag}, {a}, {b}, {material}, {}, ({}, {}), {:?}),",
+                "    ({tag}, {a}, {b}, {material}, {}, ({}, {}), {:?}, {}),",
                 link.link,
                 floor(low),
                 floor(high),
                 rounded(link.height),
+                python_bool(on_soil.is_some()),
             );
         }
     }

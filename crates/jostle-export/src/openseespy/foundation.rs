@@ -6,6 +6,7 @@
 
 use std::fmt::Write;
 
+use jostle::interface::LinkElement;
 use jostle::structure::{Node, Spring, Support};
 use jostle::system::BuildingSystem;
 
@@ -26,6 +27,15 @@ const SAME_LINE: f64 = 1e-9;
 enum Turning {
     Both,
     First,
+}
+
+/// The ends of a link that a foundation turns: a `twoNodeLink` upwards.
+#[derive(Clone, Copy)]
+pub(super) struct TurningEnds {
+    /// Nodes of the first and of the second floor.
+    pub(super) ends: [usize; 2],
+    /// Whether its strain is its shortening, which is so where the first floor is the lower one.
+    pub(super) turned: bool,
 }
 
 impl Script<'_> {
@@ -177,6 +187,39 @@ impl Script<'_> {
         }
     }
 
+    /// The ends of a link between floors of a building on a foundation; `None` where it stands on none.
+    pub(super) fn ends_on_foundation(
+        &mut self,
+        index: usize,
+        building: &BuildingSystem,
+        link: &LinkElement,
+    ) -> Option<TurningEnds> {
+        let stick_model = &building.discretization.stick_model;
+        let foundation = stick_model.foundation.as_ref()?;
+        let ties = Ties::new(stick_model);
+        let heights = link
+            .ports
+            .0
+            .map(|port| port.map_or(0.0, |port| port.height));
+        let ends = [0, 1].map(|side| {
+            let floor = link.ports.0[side].and_then(|port| port.floor);
+            let node = match floor {
+                Some(floor) => building.discretization.floors[floor - 1],
+                None => foundation.node,
+            };
+            let base = foundation.node;
+            if ties.followed_by(node, 2) == ties.followed_by(base, 2) {
+                return self.tag(index, node);
+            }
+            let followed = [ties.followed_by(node, 0), ties.followed_by(base, 2)];
+            self.following(index, followed, [stick_model.nodes[base].x, heights[side]])
+        });
+        Some(TurningEnds {
+            ends,
+            turned: heights[1] > heights[0],
+        })
+    }
+
     /// A node that moves and turns with a foundation, wherever it stands.
     fn on_foundation(
         &mut self,
@@ -196,11 +239,17 @@ impl Script<'_> {
         {
             return self.tag(index, foundation.node);
         }
+        let followed = [0, 2].map(|component| ties.followed_by(foundation.node, component));
+        self.following(index, followed, at)
+    }
+
+    /// A node that moves along x with one node, turns with another, and does not rise.
+    fn following(&mut self, index: usize, followed: [usize; 2], at: [f64; 2]) -> usize {
         let tag = self.plane_point(index, at);
         let _ = writeln!(self.supports, "    ({tag}, 0, 1, 0),");
-        for component in [0, 2] {
-            let followed = self.tag(index, ties.followed_by(foundation.node, component));
-            let _ = writeln!(self.ties, "    ({followed}, {tag}, {}),", component + 1);
+        for (node, component) in followed.into_iter().zip([1, 3]) {
+            let followed = self.tag(index, node);
+            let _ = writeln!(self.ties, "    ({followed}, {tag}, {component}),");
         }
         tag
     }

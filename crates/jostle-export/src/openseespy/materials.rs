@@ -119,17 +119,20 @@ impl Materials {
         self.add("ElasticPPGap", vec![stiffness, sign * NEVER, at])
     }
 
-    /// The law of a link, strain being u_right − u_left and so its lengthening, and what is different about it.
+    /// The law of a link, strain being u_right − u_left and so its lengthening, or its shortening if it is turned; and what is different
+    /// about it.
     ///
     /// # Errors
     /// The name of a rule that OpenSees does not have.
     pub(super) fn link(
         &mut self,
         link: &LinkElement,
+        turned: bool,
     ) -> Result<(usize, Option<&'static str>), &'static str> {
         const IN_SERIES: &str = "ViscousDamper integrates spring and dashpot in series within each step, at constant rate of \
              deformation; jostle takes the mean force of the step.";
         let (stiffness, damping) = (link.stiffness, link.damping);
+        let longer = if turned { -1.0 } else { 1.0 };
         Ok(match &link.law {
             LinkLaw::Linear => (self.elastic(stiffness, damping), None),
             LinkLaw::Viscous { exponent } if stiffness == 0.0 => {
@@ -153,9 +156,12 @@ impl Materials {
                     None,
                 )
             }
-            LinkLaw::Yielding(hysteresis) => (self.yielding(&hysteresis.mirrored())?, None),
-            LinkLaw::Cable { slack } => (self.gap(stiffness, *slack, 1.0), None),
-            LinkLaw::Stopper { gap } if damping == 0.0 => (self.gap(stiffness, *gap, -1.0), None),
+            LinkLaw::Yielding(shortened) if turned => (self.yielding(shortened)?, None),
+            LinkLaw::Yielding(shortened) => (self.yielding(&shortened.mirrored())?, None),
+            LinkLaw::Cable { slack } => (self.gap(stiffness, *slack, longer), None),
+            LinkLaw::Stopper { gap } if damping == 0.0 => {
+                (self.gap(stiffness, *gap, -longer), None)
+            }
             LinkLaw::Stopper { gap } => (
                 self.add(
                     "ViscoelasticGap",

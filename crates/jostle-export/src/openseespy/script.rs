@@ -63,8 +63,11 @@ impl<'a> Script<'a> {
                     _ if in_plan => {
                         5 * building.floors.len() + 2 * (export.system.contacts.len() + bearings)
                     }
-                    // Two beside every mass, and those of the soil.
-                    Some(_) => 2 * nodes + 4 * export.system.buildings.len() + 2,
+                    // Two beside every mass and of every link, and those of the soil.
+                    Some(_) => {
+                        2 * (nodes + export.system.links.len() + 2 * export.system.buildings.len())
+                            + 2
+                    }
                     // The ground.
                     None => 1,
                 };

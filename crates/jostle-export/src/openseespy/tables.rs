@@ -144,7 +144,7 @@ impl Script<'_> {
         table(
             out,
             "LINKS",
-            "element, left node, right node, material, number of the link, floors, height [m]",
+            "element, left node, right node, material, number of the link, floors, height [m], whether it stands on a foundation that turns",
             &self.links,
         )?;
         table(

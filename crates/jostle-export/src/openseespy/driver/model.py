@@ -113,8 +113,13 @@ def add_contacts():
     for tag, left, right, material, *_ in CONTACTS:
         if tag not in CORNERS:
             ops.element("zeroLength", tag, left, right, "-mat", material, "-dir", 1, *orientation(tag))
-    for tag, left, right, material, *_ in LINKS:
-        ops.element("zeroLength", tag, left, right, "-mat", material, "-dir", 1)
+    heights = {tag: y for tag, _, y, *_ in NODES}
+    for tag, left, right, material, *_, turning in LINKS:
+        if turning:
+            lower, upper = sorted((left, right), key=heights.get)
+            ops.element("twoNodeLink", tag, lower, upper, "-mat", material, "-dir", 2)
+        else:
+            ops.element("zeroLength", tag, left, right, "-mat", material, "-dir", 1)
     for number, building in enumerate(BUILDINGS, start=1):
         first, last = building["nodes"]
         # On the initial stiffness of everything that is not a bare spring.

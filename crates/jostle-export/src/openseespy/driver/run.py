@@ -186,6 +186,10 @@ def march(args, duration):
     return watch, run, peaks, complete, time.process_time() - cpu, time.perf_counter() - wall
 
 
+# What is recorded of links: file, response, and whether they stand on a foundation that turns.
+LINK_FORCES = (("links", "localForce", False), ("turning links", "basicForce", True))
+
+
 def envelopes(folder):
     """Greatest displacements of floors and forces of contacts, kept by OpenSees itself."""
     floors = [tag for building in BUILDINGS for tag in building["floors"]]
@@ -194,9 +198,10 @@ def envelopes(folder):
     if CONTACTS and not IN_PLAN:
         elements = [row[0] for row in CONTACTS]
         ops.recorder("EnvelopeElement", "-file", os.path.join(folder, "forces"), "-precision", 12, "-ele", *elements, "localForce")
-    if LINKS:
-        elements = [row[0] for row in LINKS]
-        ops.recorder("EnvelopeElement", "-file", os.path.join(folder, "links"), "-precision", 12, "-ele", *elements, "localForce")
+    for name, force, turning in LINK_FORCES:
+        elements = [row[0] for row in LINKS if row[-1] == turning]
+        if elements:
+            ops.recorder("EnvelopeElement", "-file", os.path.join(folder, name), "-precision", 12, "-ele", *elements, force)
     if VERTICAL:
         tags = [tag for masses in masses_of_floors() for tag in masses]
         ops.recorder("EnvelopeNode", "-file", os.path.join(folder, "vertical"), "-precision", 12, "-node", *tags, "-dof", 2, "disp")
@@ -251,7 +256,10 @@ def analyse(args):
         if CONTACTS and not IN_PLAN:
             forces = read(folder, "forces")[0]
         vertical = iter(read(folder, "vertical")[2] if VERTICAL else [])
-        pulls = read(folder, "links")[2] if LINKS else []
+        pulls = {}
+        for name, _, turning in LINK_FORCES:
+            elements = [row[0] for row in LINKS if row[-1] == turning]
+            pulls.update(zip(elements, read(folder, name)[2] if elements else []))
     peaks_of_floors = iter(zip(high, low))
     floors_of_masses = masses_of_floors()
     buildings = []
@@ -303,8 +311,8 @@ def analyse(args):
             "first_impact_s": min(times, default=None),
         })
     links = []
-    for (_, _, _, _, number, floors, height), force in zip(LINKS, pulls):
-        links.append({"link": number, "floors": list(floors), "height_m": height, "peak_force_n": force})
+    for tag, _, _, _, number, floors, height, _ in LINKS:
+        links.append({"link": number, "floors": list(floors), "height_m": height, "peak_force_n": pulls[tag]})
     firsts = [contact["first_impact_s"] for contact in contacts if contact["first_impact_s"] is not None]
     return {
         "title": TITLE,
