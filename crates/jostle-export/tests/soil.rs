@@ -239,6 +239,47 @@ fn dashpots_of_a_frame_have_the_power_of_the_matrix() {
     }
 }
 
+const LINKS: &str = include_str!("../../jostle-validation/data/opensees/soil_links.toml");
+
+/// Links inside a building join points at the heights of their floors, which turn with the foundation; a cable acts where the distance
+/// grows, whichever floor comes first.
+#[test]
+fn links_inside_turn_with_the_foundation() {
+    let input = model(LINKS);
+    let text = export(&input).expect("it can be exported").text;
+    let system = System::assemble(&input.model).expect("sound");
+    let x = some_motion(&system, 1);
+    let moved = Moved::new(&text, &system, &x);
+    let (links, nodes) = (table(&text, "LINKS"), table(&text, "NODES"));
+    let materials = table(&text, "MATERIALS");
+    let height = |tag: &String| {
+        let mut rows = nodes.iter();
+        number(&rows.find(|row| row[0] == *tag).expect("a node")[2])
+    };
+    assert_eq!(links.len(), system.model_links().len());
+    let mut cables = Vec::new();
+    for (row, link) in links.iter().zip(system.model_links()) {
+        assert_eq!(row[row.len() - 1], "True");
+        let mut ends = [&row[1], &row[2]];
+        ends.sort_by(|a, b| height(a).total_cmp(&height(b)));
+        let [lower, upper] = ends;
+        // As twoNodeLink has it, half of its length turned by either end.
+        let turned = 0.5 * (moved.at(lower, 3) + moved.at(upper, 3));
+        let strain =
+            moved.at(lower, 1) - moved.at(upper, 1) - (height(upper) - height(lower)) * turned;
+        let shortening = link.ports.closing(&x);
+        let sign = if lower == &row[1] { 1.0 } else { -1.0 };
+        assert!((strain - sign * shortening).abs() < 1e-12, "{row:?}");
+        let mut all = materials.iter();
+        let material = all.find(|own| own[1] == row[3]).expect("a material");
+        if material[0] == "\"ElasticPPGap\"" {
+            cables.push((sign, number(&material[4])));
+        }
+    }
+    // Shortening is negative where a cable pulls.
+    assert_eq!(cables, [(-1.0, 3e-3), (1.0, -4e-3)]);
+}
+
 const FRAME: &str = include_str!("../../jostle-validation/data/opensees/soil.toml");
 
 /// Feet follow the sway and the rotation of the foundation, and stand on springs at their distance from its middle; columns rise with

@@ -21,7 +21,7 @@ macro_rules! case {
     };
 }
 
-const CASES: [(&str, &str, &str, f64); 9] = [
+const CASES: [(&str, &str, &str, f64); 10] = [
     // 1.3·10⁻³ when quartered: of second order, so that a fifteenth of it is left.
     case!("inelastic", 1e-4),
     // When halved; its peak-oriented springs overshoot corners, which is of first order.
@@ -30,9 +30,10 @@ const CASES: [(&str, &str, &str, f64); 9] = [
     case!("isolated", 5e-5),
     // When halved; LimitState overshoots corners of its cycles, which is of first order.
     case!("failing", 9e-4),
-    // When halved: 1.1·10⁻³ of the force of a light blow; of second order, as in the four below.
+    // When halved: 1.1·10⁻³ of the force of a light blow; of second order, as in the five below.
     case!("soil", 4e-4),
     case!("soil_grounds", 1e-4),
+    case!("soil_links", 1e-4),
     case!("delayed", 1e-4),
     case!("grounds", 4e-4),
     case!("upwards", 5e-5),
