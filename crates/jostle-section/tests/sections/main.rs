@@ -1,5 +1,6 @@
 //! Sections against published formulas, closed forms and another program.
 
+mod capacity_by_hand;
 mod closed_forms;
 mod curves;
 mod published_values;
