@@ -21,7 +21,7 @@ const LAW: ContactLaw = ContactLaw {
     restitution_is: RestitutionIs::Input,
 };
 
-fn shaking(name: &str, rate: f64, scale: f64) -> GroundMotion {
+pub(crate) fn shaking(name: &str, rate: f64, scale: f64) -> GroundMotion {
     let at = |i: u32| {
         let t = 0.02 * f64::from(i);
         let slow = 2.5 * (rate * t).sin() * (-0.1 * t).exp();
@@ -30,7 +30,11 @@ fn shaking(name: &str, rate: f64, scale: f64) -> GroundMotion {
     GroundMotion::sampled(name, 0.02, (0..=300).map(at).collect())
 }
 
-fn from(mut motion: GroundMotion, angle: f64, across: Option<GroundMotion>) -> GroundMotion {
+pub(crate) fn from(
+    mut motion: GroundMotion,
+    angle: f64,
+    across: Option<GroundMotion>,
+) -> GroundMotion {
     motion.bearing = Some(Box::new(Bearing { angle, across }));
     motion
 }
@@ -105,7 +109,7 @@ fn model(building: Building, step: f64) -> Model {
     }
 }
 
-fn run(model: &Model, motion: &GroundMotion) -> (System, Outcome) {
+pub(crate) fn run(model: &Model, motion: &GroundMotion) -> (System, Outcome) {
     let system = System::assemble(model).unwrap_or_else(|faults| panic!("{faults:?}"));
     let plan = Plan::choose(&system, motion, &model.analysis).unwrap_or_else(|f| panic!("{f:?}"));
     let settings = Settings {
@@ -123,7 +127,7 @@ fn run(model: &Model, motion: &GroundMotion) -> (System, Outcome) {
     (system, outcome)
 }
 
-fn lead_rubber() -> Isolator {
+pub(crate) fn lead_rubber() -> Isolator {
     Isolator::LeadRubber {
         stiffness: 3e7,
         yield_force: 1.2e5,
@@ -131,7 +135,7 @@ fn lead_rubber() -> Isolator {
     }
 }
 
-fn pendulum() -> Isolator {
+pub(crate) fn pendulum() -> Isolator {
     Isolator::Pendulum {
         radius: 1.5,
         friction: SpeedFriction::constant(0.05),
@@ -140,7 +144,7 @@ fn pendulum() -> Isolator {
 }
 
 /// Friction that doubles with the speed.
-fn fast_pendulum() -> Isolator {
+pub(crate) fn fast_pendulum() -> Isolator {
     Isolator::Pendulum {
         radius: 1.5,
         friction: SpeedFriction {
@@ -278,10 +282,10 @@ fn on_a_line_bearings_are_those_of_one_plane() {
 }
 
 /// The four bearings of the eccentric block, on the site.
-const PLACES: [PlanPoint; 4] = [[1.0, 1.0], [11.0, 0.5], [10.0, 8.0], [0.5, 7.0]];
+pub(crate) const PLACES: [PlanPoint; 4] = [[1.0, 1.0], [11.0, 0.5], [10.0, 8.0], [0.5, 7.0]];
 
 /// One floor with a mass centre beside the middle, on a mat with four bearings.
-fn eccentric_block(isolator: Isolator, step: f64) -> Model {
+pub(crate) fn eccentric_block(isolator: Isolator, step: f64) -> Model {
     let plan = rectangle(0.0, 0.0, 12.0, 9.0);
     let mut own = tiers(1, [2.5e5, 1.5e8], &plan, [1.2, -0.7]);
     own.floors[0].centre = [7.0, 4.0];
@@ -300,7 +304,7 @@ fn eccentric_block(isolator: Isolator, step: f64) -> Model {
 /// Motion of the eccentric block at its end and its greatest values, from its own matrices by the classical method of Runge and
 /// Kutta, with the rate equation of the sliders: ḟ = k u̇ within the circle, ḟ = k (u̇ − (f̂·u̇) f̂) + Q̇ f̂ on it, Q being the strength at
 /// the speed |u̇|.
-struct ByRates {
+pub(crate) struct ByRates {
     mass: [f64; 6],
     stiffness: [[f64; 6]; 6],
     damping: [[f64; 6]; 6],
@@ -311,7 +315,7 @@ struct ByRates {
 type Motion6 = [f64; 6];
 
 impl ByRates {
-    fn new(model: &Model) -> Self {
+    pub(crate) fn new(model: &Model) -> Self {
         let Structure::Tiers(tiers) = &model.buildings[0].structure else {
             panic!("it has a plan");
         };
@@ -402,17 +406,17 @@ impl ByRates {
         }
     }
 
-    fn bearing(at: PlanPoint, motion: &[f64]) -> PlanPoint {
+    pub(crate) fn bearing(at: PlanPoint, motion: &[f64]) -> PlanPoint {
         [
             motion[0] - (at[1] - 4.5) * motion[2],
             motion[1] + (at[0] - 6.0) * motion[2],
         ]
     }
 
-    /// Rates of displacements, velocities and forces.
-    fn rates(&self, state: &[f64; 20], ground: [f64; 2]) -> [f64; 20] {
+    /// Rates of displacements, velocities and forces, and the power that slides away.
+    fn rates(&self, state: &[f64; 21], ground: [f64; 2]) -> [f64; 21] {
         let (u, v) = (&state[..6], &state[6..12]);
-        let mut rates = [0.0; 20];
+        let mut rates = [0.0; 21];
         rates[..6].copy_from_slice(v);
         let mut load = [0.0; 6];
         for i in 0..6 {
@@ -446,6 +450,7 @@ impl ByRates {
             let share = if slides { slip / held } else { 0.0 };
             for axis in 0..2 {
                 rates[12 + 2 * index + axis] = k * (moved[axis] - share * f[axis]);
+                rates[20] += f[axis] * share * f[axis];
             }
         }
         rates
@@ -458,12 +463,21 @@ impl ByRates {
         [fast - missing, rate * missing]
     }
 
-    /// State at the end, and greatest stroke of a bearing.
-    fn run(&self, motion: &GroundMotion, duration: f64, step: f64) -> ([f64; 20], f64) {
-        let mut state = [0.0; 20];
+    /// Energy stored in storeys, rubber or pendulums, and in the stiffness of sliders.
+    pub(crate) fn stored(&self, state: &[f64; 21]) -> f64 {
+        let u = &state[..6];
+        let pairs = (0..6).flat_map(|i| (0..6).map(move |j| (i, j)));
+        let elastic: f64 = pairs.map(|(i, j)| u[i] * self.stiffness[i][j] * u[j]).sum();
+        let sliders: f64 = state[12..20].iter().map(|force| force * force).sum();
+        0.5 * elastic + 0.5 * sliders / self.slider[0]
+    }
+
+    /// State at the end with the energy dissipated by sliding, and greatest stroke of a bearing.
+    pub(crate) fn run(&self, motion: &GroundMotion, duration: f64, step: f64) -> ([f64; 21], f64) {
+        let mut state = [0.0; 21];
         let steps = (duration / step).round() as usize;
         let mut stroke = 0.0_f64;
-        let moved = |state: &[f64; 20], rates: &[f64; 20], by: f64| -> [f64; 20] {
+        let moved = |state: &[f64; 21], rates: &[f64; 21], by: f64| -> [f64; 21] {
             std::array::from_fn(|i| state[i] + by * rates[i])
         };
         for count in 0..steps {
@@ -617,7 +631,7 @@ fn before_walls(isolation: Isolation, angle: f64) -> Model {
     model
 }
 
-fn two_components(angle: f64) -> GroundMotion {
+pub(crate) fn two_components(angle: f64) -> GroundMotion {
     let across = shaking("across", 5.3, 1.0);
     from(shaking("first", 4.0, 1.3), angle, Some(across))
 }

@@ -19,6 +19,7 @@ mod grounds_in_plan;
 mod harmonic_pounding;
 mod isolated_frames_in_plan;
 mod isolation;
+mod isolation_energy;
 mod isolation_in_plan;
 mod linked_modal_stepping;
 mod links_and_walls;
