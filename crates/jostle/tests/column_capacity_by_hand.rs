@@ -88,7 +88,13 @@ fn capacity(line: usize) -> MemberCapacity {
     }
 }
 
-fn ratios(solver: Solver) -> Vec<RatioSummary> {
+/// Ratios of both columns of building A, steps being given or chosen.
+fn ratios(
+    solver: Solver,
+    motion: &GroundMotion,
+    step: Option<f64>,
+    capacities: [MemberCapacity; 2],
+) -> Vec<RatioSummary> {
     let law = ContactLaw {
         kind: LawKind::Hertz,
         stiffness: 1e9,
@@ -96,7 +102,7 @@ fn ratios(solver: Solver) -> Vec<RatioSummary> {
         restitution_is: RestitutionIs::Realised,
     };
     let mut members = MemberRequest::all();
-    members.capacities = vec![capacity(1), capacity(2)];
+    members.capacities = capacities.to_vec();
     let model = Model {
         title: "Portal".to_owned(),
         buildings: vec![portal("A"), portal("B")],
@@ -107,24 +113,19 @@ fn ratios(solver: Solver) -> Vec<RatioSummary> {
         analysis: Analysis {
             members,
             solver: Some(solver),
+            step,
             ..Analysis::default()
         },
     };
     let system = System::assemble(&model).expect("sound");
-    let wave = (0..=200).map(|i| {
-        let t = 0.1 * f64::from(i);
-        let greatest = LOBES[usize::from(t > LASTS)];
-        0.5 * greatest * (1.0 - (2.0 * PI * t / LASTS).cos())
-    });
-    let motion = GroundMotion::sampled("slow", 0.1, wave.collect());
-    let plan = Plan::choose(&system, &motion, &model.analysis).expect("planned");
-    let outcome = simulate(&system, &motion, &plan, Settings::default(), |_| {
+    let plan = Plan::choose(&system, motion, &model.analysis).expect("planned");
+    let outcome = simulate(&system, motion, &plan, Settings::default(), |_| {
         ControlFlow::Continue(())
     });
     let summary = Summary::new(&jostle::Run {
         model: &model,
         system: &system,
-        motion: &motion,
+        motion,
         plan: &plan,
         outcome: &outcome,
         without_contact: None,
@@ -137,22 +138,36 @@ fn ratios(solver: Solver) -> Vec<RatioSummary> {
         .collect()
 }
 
-/// Kleinlogel's frame under a force *P* at its beam: with k = (EI_b/L)/(EI_c/h), moment *P h*/2 · (3k + 1)/(6k + 1) at the feet,
-/// axial forces ± 3 *P h k*/(*L* (6k + 1)), shear *P*/2. The motion is a hundred times slower than the frame.
+/// EI_b/L over EI_c/h.
+const K: f64 = BEAM / SPAN / (COLUMN / HEIGHT);
+
+/// Kleinlogel's frame under a force *P* to the right at its beam: moment *P h*/2 · (3k + 1)/(6k + 1) at the feet, shear *P*/2,
+/// axial forces ± 3 *P h k*/(*L* (6k + 1)), which press the right column (`side` 1).
+fn under_force(force: f64, side: f64) -> [f64; 3] {
+    let moment = (0.5 * force * HEIGHT * (3.0 * K + 1.0) / (6.0 * K + 1.0)).abs();
+    let pressed = side * 3.0 * force * HEIGHT * K / (SPAN * (6.0 * K + 1.0));
+    [moment, (0.5 * force).abs(), CARRIED + pressed]
+}
+
+fn slow() -> GroundMotion {
+    let wave = (0..=200).map(|i| {
+        let t = 0.1 * f64::from(i);
+        let greatest = LOBES[usize::from(t > LASTS)];
+        0.5 * greatest * (1.0 - (2.0 * PI * t / LASTS).cos())
+    });
+    GroundMotion::sampled("slow", 0.1, wave.collect())
+}
+
+/// The motion is a hundred times slower than the frame.
 fn compare(solver: Solver) {
-    let k = BEAM / SPAN / (COLUMN / HEIGHT);
     let at = |acceleration: f64, side: f64| {
-        let force = -MASS * acceleration;
-        let moment = (0.5 * force * HEIGHT * (3.0 * k + 1.0) / (6.0 * k + 1.0)).abs();
-        // A force to the right presses the right column.
-        let pressed = side * 3.0 * force * HEIGHT * k / (SPAN * (6.0 * k + 1.0));
-        let compression = CARRIED + pressed;
+        let [moment, shear, compression] = under_force(-MASS * acceleration, side);
         [
             moment / moment_capacity(compression),
-            (0.5 * force).abs() / shear_capacity(compression),
+            shear / shear_capacity(compression),
         ]
     };
-    let found = ratios(solver);
+    let found = ratios(solver, &slow(), None, [1, 2].map(capacity));
     assert_eq!(found.len(), 2);
     for (ratio, side) in found.iter().zip([-1.0, 1.0]) {
         let greatest = |kind: usize| {
@@ -178,4 +193,116 @@ fn direct_runs_take_the_axial_force_of_the_instant() {
 #[test]
 fn modal_runs_take_the_axial_force_of_the_instant() {
     compare(Solver::Modal);
+}
+
+/// A column may lose its strength as its compression grows, while shear and moment stay far below their greatest values so far:
+/// the second lobe is weaker than the first one, but presses the other column over the edge.
+#[test]
+fn modal_runs_follow_the_compression_alone() {
+    const EDGE: f64 = 3e5;
+    let strength = |compression: f64| if compression < EDGE { 3e5 } else { 1e4 };
+    let found = ratios(
+        Solver::Modal,
+        &slow(),
+        None,
+        [1, 2].map(|line| {
+            let mut own = capacity(line);
+            let points = [-4e5, EDGE - 1.0, EDGE + 1.0, 1e6];
+            let points = points.map(|compression| [compression, strength(compression)]);
+            own.rules[0].shear = Some(ShearCapacity {
+                steady: CapacityLine::new(points.to_vec()),
+                degrading: CapacityLine::default(),
+                by_ductility: CapacityLine::default(),
+                limit: f64::INFINITY,
+            });
+            let even = CapacityLine::new(vec![[-4e5, 3e5], [1e6, 3e5]]);
+            own.rules[0].bending = [even.clone(), even];
+            own
+        }),
+    );
+    // The strong lobe lifts the left column and presses the right one, or the other way round; the weak one the other.
+    for (ratio, side) in found.iter().zip([-1.0, 1.0]) {
+        let by_lobe = LOBES.map(|acceleration| {
+            let [_, shear, compression] = under_force(-MASS * acceleration, side);
+            assert!((compression - EDGE).abs() > 5e3);
+            (compression > EDGE, shear)
+        });
+        let (_, due) = *by_lobe.iter().find(|(over, _)| *over).expect("one of them");
+        let found = ratio.shear.expect("given");
+        let off = (found / (due / 1e4) - 1.0).abs();
+        assert!(off < 2e-3, "{found} instead of {}", due / 1e4);
+    }
+}
+
+/// The ground starts with a constant acceleration: the force in the frame rises to nearly twice *m a*, with the damped period of
+/// its stiffness 12 EI_c (6k + 1)/(h³ (3k + 2)), and swings about *m a*. The peak lies in the middle of a step: what counts
+/// are four instants in each.
+#[test]
+fn modal_runs_look_within_their_steps() {
+    const RATIO: f64 = 0.05;
+    let stiffness = 12.0 * COLUMN * (6.0 * K + 1.0) / (HEIGHT.powi(3) * (3.0 * K + 2.0));
+    let natural = (stiffness / MASS).sqrt();
+    let damped = natural * (1.0 - RATIO * RATIO).sqrt();
+    // The peak after half a period is in the middle of the eleventh step.
+    let step = PI / damped / 10.5;
+    let force = |acceleration: f64, t: f64| {
+        let sine = RATIO / (1.0 - RATIO * RATIO).sqrt() * (damped * t).sin();
+        let swing = (-RATIO * natural * t).exp() * ((damped * t).cos() + sine);
+        -MASS * acceleration * (1.0 - swing)
+    };
+    let motion = |acceleration: f64| GroundMotion::sampled("sudden", step, vec![acceleration; 41]);
+    let quarters = || (1..=160_u32).map(|quarter| (quarter, 0.25 * step * f64::from(quarter)));
+    // Below the capacity: the greatest ratio in bending, and its instant.
+    let acceleration = 2.4;
+    let found = ratios(
+        Solver::Modal,
+        &motion(acceleration),
+        Some(step),
+        [1, 2].map(capacity),
+    );
+    for (ratio, side) in found.iter().zip([-1.0, 1.0]) {
+        let at = |t: f64| {
+            let [moment, _, compression] = under_force(force(acceleration, t), side);
+            moment / moment_capacity(compression)
+        };
+        let greatest = |every: u32| {
+            let instants = quarters().filter(|(quarter, _)| quarter % every == 0);
+            let all = instants.map(|(_, t)| (t, at(t)));
+            all.fold(
+                (0.0, 0.0),
+                |best, own| if own.1 > best.1 { own } else { best },
+            )
+        };
+        let ((time, due), (_, at_ends)) = (greatest(1), greatest(4));
+        assert!(
+            at_ends < 0.996 * due && due < 1.0,
+            "{at_ends} and {due} prove nothing"
+        );
+        let off = (ratio.bending / due - 1.0).abs();
+        assert!(off < 1e-4, "{} instead of {due}", ratio.bending);
+        let found = ratio.bending_at.at_s;
+        assert!((found - time).abs() < 1e-9, "{found} instead of {time}");
+        let due = under_force(force(acceleration, time), side)[2];
+        let found = ratio.bending_at.compression_n;
+        assert!((found / due - 1.0).abs() < 1e-3, "{found} instead of {due}");
+    }
+    // Beyond it: the first instant in shear.
+    let acceleration = 10.0;
+    let found = ratios(
+        Solver::Modal,
+        &motion(acceleration),
+        Some(step),
+        [1, 2].map(capacity),
+    );
+    for (ratio, side) in found.iter().zip([-1.0, 1.0]) {
+        let exceeds = |(_, t): &(u32, f64)| {
+            let [_, shear, compression] = under_force(force(acceleration, *t), side);
+            shear > shear_capacity(compression)
+        };
+        let (quarter, due) = quarters().find(exceeds).expect("it does");
+        assert!(quarter % 4 != 0, "the end of a step would prove nothing");
+        let shear_at = ratio.shear_at.as_ref().expect("given");
+        let found = shear_at.exceeded_s.expect("it does");
+        assert!((found - due).abs() < 1e-9, "{found} instead of {due}");
+    }
 }

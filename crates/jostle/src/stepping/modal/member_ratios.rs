@@ -255,9 +255,9 @@ impl NullaryFnOnce for FollowSections<'_> {
             if instant.smooth && ends.step > 0.0 && !pushed {
                 let curves = section.forms.each_ref().map(|form| form.curve(ends));
                 for part in 1..PARTS {
-                    let at = ends.step * part as f64 / PARTS as f64;
-                    let time = instant.time - ends.step + at;
-                    take(time, curves.each_ref().map(|curve| curve.value(at)));
+                    let share = part as f64 / PARTS as f64;
+                    let time = instant.time - (1.0 - share) * ends.step;
+                    take(time, curves.each_ref().map(|curve| curve.value(share)));
                 }
             }
             take(instant.time, forces);
