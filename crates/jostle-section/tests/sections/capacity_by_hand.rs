@@ -16,11 +16,13 @@ const STEEL_MODULUS: f64 = 200e9;
 const CRUSHED: f64 = 0.0033;
 const STRETCHED: f64 = 0.01;
 
-/// A section: width, depth, and depth and area of every layer of bars \[m, m²\].
+/// A section: width, depth, depth and area of every layer of bars, and the modulus of the bars after yield over that before
+/// \[m, m², –\].
 struct ByHand {
     width: f64,
     depth: f64,
     layers: Vec<[f64; 2]>,
+    hardening: f64,
 }
 
 /// Area of some bars \[m², mm\].
@@ -39,6 +41,7 @@ fn column() -> ByHand {
             [0.32, bars(2, 20.0)],
             [0.46, bars(4, 20.0)],
         ],
+        hardening: 0.0,
     }
 }
 
@@ -53,6 +56,7 @@ fn uneven() -> ByHand {
             [0.388, bars(2, 12.0)],
             [0.5575, bars(4, 25.0)],
         ],
+        hardening: 0.0,
     }
 }
 
@@ -90,8 +94,9 @@ fn concrete(strain: f64) -> f64 {
     CONCRETE * n * x / (n - 1.0 + x.powf(n))
 }
 
-fn steel(strain: f64) -> f64 {
-    (STEEL_MODULUS * strain).clamp(-STEEL, STEEL)
+fn steel(strain: f64, hardening: f64) -> f64 {
+    let elastic = (STEEL_MODULUS * strain).clamp(-STEEL, STEEL);
+    elastic + hardening * (STEEL_MODULUS * strain - elastic)
 }
 
 impl ByHand {
@@ -110,34 +115,36 @@ impl ByHand {
             moment += own * (0.5 * self.depth - depth);
         }
         for [depth, area] in &self.layers {
-            let own = (steel(strain(*depth)) - concrete(strain(*depth))) * area;
+            let own = (steel(strain(*depth), self.hardening) - concrete(strain(*depth))) * area;
             force += own;
             moment += own * (0.5 * self.depth - depth);
         }
         [force, moment]
     }
 
-    /// Greatest moment under a compression: for every strain of the top, that of the lowest layer by bisection.
+    /// Greatest moment under a compression: for every strain of the top, that of the lowest layer by bisection; and with the
+    /// lowest layer at its limit, that of the top.
     fn greatest(&self, compression: f64) -> f64 {
-        let steps = 400;
-        let mut greatest = f64::NEG_INFINITY;
-        for step in 0..=steps {
-            let top = -STRETCHED + (CRUSHED + STRETCHED) * f64::from(step) / f64::from(steps);
-            let (mut low, mut high) = (-STRETCHED, top);
-            if self.forces(top, low)[0] > compression || self.forces(top, high)[0] < compression {
-                continue;
+        let between = |state: &dyn Fn(f64) -> [f64; 2], mut low: f64, mut high: f64| {
+            if state(low)[0] > compression || state(high)[0] < compression {
+                return f64::NEG_INFINITY;
             }
             for _ in 0..50 {
                 let middle = 0.5 * (low + high);
-                if self.forces(top, middle)[0] > compression {
+                if state(middle)[0] > compression {
                     high = middle;
                 } else {
                     low = middle;
                 }
             }
-            greatest = greatest.max(self.forces(top, low)[1]);
-        }
-        greatest
+            state(low)[1]
+        };
+        let steps = 400;
+        let tops = (0..=steps)
+            .map(|step| -STRETCHED + (CRUSHED + STRETCHED) * f64::from(step) / f64::from(steps));
+        let all = tops.map(|top| between(&|lowest| self.forces(top, lowest), -STRETCHED, top));
+        let limit = between(&|top| self.forces(top, -STRETCHED), -STRETCHED, CRUSHED);
+        all.fold(limit, f64::max)
     }
 
     /// Greatest compression of all states that press the top most: not that of one strain everywhere where bars are uneven,
@@ -195,6 +202,45 @@ fn moments_are_in_equilibrium_in_tension_and_in_compression() {
             }
         }
     }
+}
+
+/// Bars that harden need the limit of their strain: 0.01 in the outermost layer, not at the face.
+#[test]
+fn bars_that_harden_are_stretched_to_their_limit() {
+    let hardening = 0.05;
+    let [_, mut section] = described(StrengthLevel::Characteristic);
+    section.steel.hardening = hardening;
+    let own = ByHand {
+        hardening,
+        ..uneven()
+    };
+    let [positive, negative] = Interaction::of_both_signs(&section);
+    for (curve, own) in [(positive, &own), (negative, &own.upside_down())] {
+        let most = curve
+            .points
+            .iter()
+            .fold(0.0_f64, |most, own| most.max(own[1]));
+        let all = own.steel_area() * -steel(-STRETCHED, hardening);
+        close(curve.range()[0], -all, 1e-9, "all bars at their limit");
+        for load in [-0.8 * all, -0.5 * all, -0.2 * all, 0.0] {
+            let (found, due) = (curve.moment(load), own.greatest(load).max(0.0));
+            assert!(
+                (found - due).abs() < 1e-3 * most,
+                "{found} instead of {due} at {load}"
+            );
+        }
+    }
+}
+
+/// Neither ties nor the tensile strength of the concrete count.
+#[test]
+fn ties_and_concrete_in_tension_are_left_out() {
+    let [_, section] = described(StrengthLevel::Characteristic);
+    let mut other = section.clone();
+    other.ties = jostle_section::Ties::parse("d10 @ 100 mm").ok();
+    assert!(other.ties.is_some() && section.concrete.tensile_strength > 0.0);
+    other.concrete.tensile_strength = 0.0;
+    assert_eq!(Interaction::new(&section), Interaction::new(&other));
 }
 
 /// The lowest layer just yields as the top is crushed: all stresses of bars follow from the straight line of strains, and the
@@ -312,5 +358,34 @@ fn members_get_the_moments_of_their_section_by_rule() {
         // The bottom has more than three times the steel of the top.
         let [bottom, top] = surface.map(|curve| curve.moment(0.0));
         assert!(bottom > 2.0 * top, "{bottom} and {top}");
+    }
+}
+
+/// Beyond the compression that crushes the whole section, or the tension of all bars, no moment is small enough: the ratio is at
+/// least that of the axial forces, also where the section carries a moment at that end because its bars are uneven.
+#[test]
+fn beyond_the_axial_strength_every_moment_is_too_much() {
+    for section in described(StrengthLevel::Characteristic) {
+        let rated = RatedMember {
+            section: &section,
+            member: Member::Column,
+            clear_length: 2.7,
+            level: StrengthLevel::Characteristic,
+        };
+        let capacities = rated.capacities(&[ShearRule::En1998]);
+        let surfaces = Interaction::of_both_signs(&section);
+        for (surface, sign) in surfaces.iter().zip([1.0, -1.0]) {
+            for end in surface.range() {
+                for beyond in [1.001, 1.3, 4.0] {
+                    for moment in [1e-6, 1e3, 5e4, 4e5] {
+                        let found = capacities[0].bending_ratio(beyond * end, sign * moment);
+                        assert!(
+                            found >= beyond * (1.0 - 1e-9) && found.is_finite(),
+                            "{found} under {beyond} · {end} N and {moment} N·m"
+                        );
+                    }
+                }
+            }
+        }
     }
 }

@@ -3,5 +3,6 @@
 mod capacity_by_hand;
 mod closed_forms;
 mod curves;
+mod places_of_bars;
 mod published_values;
 mod support;

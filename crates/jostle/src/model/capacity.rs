@@ -42,6 +42,28 @@ impl CapacityLine {
         inside.fold(ends, |least, [_, value]| least.min(*value))
     }
 
+    /// Whether a range of abscissas, in rising order, goes beyond its ends; never where there is one point only.
+    pub(crate) fn is_left_by(&self, [low, high]: [f64; 2]) -> bool {
+        match self.points[..] {
+            [[first, _], .., [last, _]] => low < first || last < high,
+            _ => false,
+        }
+    }
+
+    /// Abscissa over that of the end beyond which it is, seen from zero; 0 within the ends, and where there is one point only.
+    fn beyond(&self, abscissa: f64) -> f64 {
+        let [[low, _], .., [high, _]] = self.points[..] else {
+            return 0.0;
+        };
+        if abscissa > high && high > 0.0 {
+            abscissa / high
+        } else if abscissa < low && low < 0.0 {
+            abscissa / low
+        } else {
+            0.0
+        }
+    }
+
     /// Factor by which a point beyond the line, seen from the origin, is farther away than the line; `None` if the ray
     /// does not meet it.
     fn overshoot(&self, abscissa: f64, value: f64) -> Option<f64> {
@@ -103,7 +125,8 @@ pub struct RuleCapacity {
     /// In shear; `None` where the rule has none.
     pub shear: Option<ShearCapacity>,
     /// Moment that stretches the bottom of a beam or the right face of a column, then that of the other sign, both ≥ 0,
-    /// against the compression \[N·m, N\].
+    /// against the compression \[N·m, N\]. A line of several points ends at the greatest tension and compression; one point
+    /// holds for every axial force.
     pub bending: [CapacityLine; 2],
 }
 
@@ -155,19 +178,22 @@ impl RuleCapacity {
     ///
     /// Within the capacity this is the moment over the moment capacity under this compression. Beyond it, where that may
     /// be next to nothing, it is not more than the factor by which compression and moment together exceed the surface
-    /// of both.
+    /// of both. Beyond the greatest compression or tension, at the ends of the line, it is at least that force over the
+    /// end, however small the moment: uneven bars give a section a moment capacity at its ends.
     #[must_use]
     pub fn bending_ratio(&self, compression: f64, moment: f64) -> f64 {
         let ratio = moment.abs() / self.bending_at(compression, moment);
-        if ratio <= 1.0 {
-            return ratio;
-        }
         let line = &self.bending[usize::from(moment < 0.0)];
+        let axial = line.beyond(compression);
+        if ratio <= 1.0 {
+            return ratio.max(axial);
+        }
         let together = line.overshoot(compression, moment.abs());
-        match together {
+        let ratio = match together {
             Some(together) if ratio.is_nan() || together < ratio => together,
             _ => ratio,
-        }
+        };
+        ratio.max(axial)
     }
 }
 
@@ -209,6 +235,25 @@ mod tests {
         // In tension beyond −1 N: M = λ 2 (1 + N/λ) gives λ = M/2 − N.
         assert!((rule.bending_ratio(-2.0, 0.5) - 2.25).abs() < 1e-14);
         assert!((rule.bending_ratio(6.0, 0.0) - 2.0).abs() < 1e-14);
+    }
+
+    /// A section with uneven bars carries a moment at its ends: −2 N with 0.5 N·m, 4 N with 1 N·m.
+    #[test]
+    fn beyond_the_axial_strength_every_moment_is_too_much() {
+        let line = CapacityLine::new(vec![[-2.0, 0.5], [0.0, 3.0], [4.0, 1.0]]);
+        let even = CapacityLine::new(vec![[0.0, 3.0]]);
+        let rule = RuleCapacity {
+            rule: "test",
+            shear: None,
+            bending: [line, even],
+        };
+        let ratios = [[4.0, 0.5], [6.0, 0.0], [6.0, 0.5], [-5.0, 0.1]]
+            .map(|[n, m]| rule.bending_ratio(n, m));
+        assert_eq!(ratios, [0.5, 1.5, 1.5, 2.5]);
+        // The ray through (5, 4) leaves at M = 0.8 N = 3 − 0.5 N, before the end.
+        assert!((rule.bending_ratio(5.0, 4.0) - 5.0 / (3.0 / 1.3)).abs() < 1e-14);
+        // One point has no ends.
+        assert_eq!(rule.bending_ratio(6.0, -1.5), 0.5);
     }
 
     #[test]
