@@ -309,3 +309,41 @@ fn shear_of_joints_follows_from_their_beams_and_columns() {
         assert!(exceeded > 2, "only {exceeded}: the test is too weak");
     }
 }
+
+/// Members and joints rated together: the worst instant of a building is that of its members alone, however weak its joints are.
+#[test]
+fn joints_do_not_choose_the_worst_instant() {
+    for solver in [Solver::Riccati, Solver::Modal] {
+        let mut model = pair();
+        let members = model.analysis.members.histories.iter();
+        let even = |value: f64| CapacityLine::new(vec![[0.0, value]]);
+        model.analysis.members.capacities = members
+            .map(|member| MemberCapacity {
+                member: member.clone(),
+                compression_at_rest: 0.0,
+                follows_axial: false,
+                axial_failure_drift: CapacityLine::default(),
+                rotations: Vec::new(),
+                rules: vec![RuleCapacity {
+                    rule: "first",
+                    shear: None,
+                    bending: [even(5e6), even(5e6)],
+                }],
+            })
+            .collect();
+        let (_, outcome, summary) = run(&model, solver);
+        for (building, worst) in summary.buildings.iter().zip(&outcome.worst_instants) {
+            let of_joints = building
+                .joints
+                .iter()
+                .filter_map(|joint| joint.ratio.as_ref());
+            let of_members = building.members.iter().filter_map(|own| own.ratio.as_ref());
+            let joint = of_joints.map(|own| own.shear).fold(0.0, f64::max);
+            let member = of_members.map(|own| own.bending).fold(0.0, f64::max);
+            assert!(joint > 2.0 * member && member > 0.0, "{joint} and {member}");
+            assert_eq!(worst.ratio, member, "{solver:?}");
+            let at = building.capacity.as_ref().expect("rated").worst.at_s;
+            assert!(worst.time >= at && worst.time - at < 0.02, "{solver:?}");
+        }
+    }
+}

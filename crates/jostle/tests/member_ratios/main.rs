@@ -2,5 +2,7 @@
 //! and in which impact they were greatest.
 
 mod against_histories;
+mod ductility;
+mod envelopes;
 mod places;
 mod support;

@@ -11,7 +11,7 @@ use jostle::{FloorPairs, Gap, Level, Model, Outcome, Solver, System};
 use crate::support::{building, capacities, model, run};
 
 /// Between points and level beyond them, written another way than in jostle.
-pub(crate) fn interpolate(line: &CapacityLine, x: f64) -> f64 {
+fn interpolate(line: &CapacityLine, x: f64) -> f64 {
     let points = line.points();
     let mut value = points[0][1];
     for ends in points.windows(2) {
@@ -23,11 +23,11 @@ pub(crate) fn interpolate(line: &CapacityLine, x: f64) -> f64 {
 
 /// All recorded forces of a member: instant, section, axial force, shear and moment.
 #[derive(Default)]
-struct Recorded(Vec<(f64, &'static str, [f64; 3])>);
+pub(crate) struct Recorded(pub(crate) Vec<(f64, &'static str, [f64; 3])>);
 
 impl Recorded {
     /// Of all members, by name.
-    fn all(system: &System, outcome: &Outcome) -> BTreeMap<String, Self> {
+    pub(crate) fn all(system: &System, outcome: &Outcome) -> BTreeMap<String, Self> {
         let history = outcome.member_history.as_ref().expect("asked for");
         let sections: Vec<(usize, &'static str)> = history
             .members()
@@ -339,6 +339,65 @@ fn ratios_name_their_section_their_instant_and_the_impact() {
         seen.own,
         seen.several
     );
+}
+
+/// The first rule governs, although the other one gives greater ratios; and shear alone is enough.
+#[test]
+fn the_first_rule_governs_and_either_kind_counts() {
+    let mut model = model();
+    for own in &mut model.analysis.members.capacities {
+        own.rules.reverse();
+        for rule in &mut own.rules {
+            let strength = if rule.rule == "second" { 0.7 } else { 0.5 };
+            if let Some(shear) = &mut rule.shear {
+                shear.limit *= 0.5 * strength;
+            }
+            rule.bending = rule.bending.each_ref().map(|line| {
+                let points = line.points().iter();
+                CapacityLine::new(points.map(|[n, m]| [*n, 4.0 * m]).collect())
+            });
+        }
+    }
+    let (_, _, summary) = run(&model, Solver::Riccati);
+    let members = || summary.buildings.iter().flat_map(|own| &own.members);
+    let by_shear_alone = members()
+        .filter_map(|own| own.ratio.as_ref())
+        .filter(|own| own.bending < 1.0 && own.shear.is_some_and(|shear| shear > 1.0));
+    assert!(by_shear_alone.count() > 2);
+    assert!(
+        members()
+            .all(|own| own.other_ratios[0].shear > own.ratio.as_ref().and_then(|own| own.shear))
+    );
+    check(&model);
+}
+
+/// Forces of the worst instant are those recorded at the end of its step, also where modes give them.
+#[test]
+fn modal_runs_keep_the_forces_of_the_worst_step() {
+    let (system, outcome, summary) = run(&model(), Solver::Modal);
+    let histories = Recorded::all(&system, &outcome);
+    for (index, building) in summary.buildings.iter().enumerate() {
+        let worst = &outcome.worst_instants[index];
+        let times = outcome.member_history.as_ref().expect("asked for").times();
+        let end = times.iter().copied().find(|time| *time >= worst.time);
+        assert_eq!(end, Some(worst.time));
+        for member in &building.members {
+            let recorded = histories[&member.name].0.iter();
+            let then = recorded.filter(|(time, ..)| *time == worst.time);
+            let most = |kind: usize| {
+                let all = histories[&member.name].0.iter();
+                all.fold(0.0_f64, |most, (.., forces)| most.max(forces[kind].abs()))
+            };
+            for (own, (_, at, due)) in member.at_worst.iter().zip(then) {
+                assert_eq!(own.at, *at);
+                let found = [own.axial_n, own.shear_n, own.moment_n_m];
+                for kind in 0..3 {
+                    let off = (found[kind] - due[kind]).abs();
+                    assert!(off <= 1e-9 * most(kind), "{} {at}: {off}", member.name);
+                }
+            }
+        }
+    }
 }
 
 /// Three buildings: the impacts of the others do not count for one of them.

@@ -140,12 +140,17 @@ pub(crate) fn model() -> Model {
 }
 
 pub(crate) fn run(model: &Model, solver: Solver) -> (System, Outcome, Summary) {
+    run_until(model, solver, 2.0)
+}
+
+pub(crate) fn run_until(model: &Model, solver: Solver, until: f64) -> (System, Outcome, Summary) {
     let system = System::assemble(model).expect("sound");
     let wave = (0..=200).map(|i| {
         let t = 0.01 * f64::from(i);
         4.0 * (7.0 * t).sin() + 2.0 * (23.0 * t).cos()
     });
-    let motion = GroundMotion::sampled("two sines", 0.01, wave.collect());
+    let mut motion = GroundMotion::sampled("two sines", 0.01, wave.collect());
+    motion.duration = until;
     let analysis = Analysis {
         solver: Some(solver),
         ..model.analysis.clone()

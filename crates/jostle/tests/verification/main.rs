@@ -11,6 +11,7 @@ mod energy_balances;
 mod extremes_are_survived;
 mod face_points;
 mod forces_never_pull;
+mod foundation_forces;
 mod foundations;
 mod friction_limit;
 mod given_structures;
