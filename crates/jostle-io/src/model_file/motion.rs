@@ -32,7 +32,15 @@ pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>, base: &Path) -> O
         .get(&view, "duration")
         .and_then(|field| duration(reader, &field));
     let source = if view.has("record") || view.has("kind") {
-        source(reader, &view, base)
+        let source = source(reader, &view, base);
+        if matches!(source, Some(MotionSource::Sine { .. })) && !view.has("duration") {
+            reader.missing(
+                &view,
+                "duration",
+                "say how long the sine lasts: duration = \"8 s\"",
+            );
+        }
+        source
     } else {
         reader.missing(
             &view,
@@ -320,13 +328,6 @@ fn read_wave(reader: &mut Reader<'_>, view: &View<'_>, wave: &Field<'_>) -> Opti
         _ => {
             if let Some(field) = centre {
                 *reader.bad(&field, "does not go with a sine") = Some("remove centre".into());
-            }
-            if !view.has("duration") {
-                reader.missing(
-                    view,
-                    "duration",
-                    "say how long the sine lasts: duration = \"8 s\"",
-                );
             }
             Some(MotionSource::Sine {
                 amplitude: amplitude?.1,

@@ -144,7 +144,8 @@ impl GroundsSpec {
             source: source.clone(),
             scaling: own.scaling.clone(),
             reverse: own.reverse,
-            duration: None,
+            // A sine lasts as long as the common motion, a record as long as it is.
+            duration: matches!(source, MotionSource::Sine { .. }).then_some(common.duration),
             bearing: None,
             grounds: Some(Box::new(Self {
                 baseline: self.baseline,

@@ -42,6 +42,28 @@ fn refused(motion: &str, a: &str, b: &str, rest: &str) -> String {
     error.to_string()
 }
 
+/// A sine of its own needs no duration, and acts to the end of the common motion, as does a share of a common sine.
+#[test]
+fn sines_of_single_buildings_last_as_long_as_the_motion() {
+    let own = "motion = { kind = \"sine\", amplitude = \"2 m/s2\", period = \"0.2 s\" }";
+    let input = read(EL_CENTRO, own, "", "").expect("sound");
+    let motion = input.ground_motion().expect("a motion");
+    let common = motion.duration;
+    for t in [0.05, 1.05, 10.05, common - 0.15] {
+        let expected = 2.0 * (10.0 * std::f64::consts::PI * t).sin();
+        let found = motion.under(0).at(t).acceleration[0];
+        assert!((found - expected).abs() < 1e-9, "{t}: {found}, {expected}");
+    }
+    let sine = "kind = \"sine\"\namplitude = \"2 m/s2\"\nperiod = \"0.2 s\"";
+    let long = format!("{sine}\nduration = \"30 s\"");
+    let input = read(&long, "motion = { scale = 0.5 }", "", "").expect("sound");
+    let motion = input.ground_motion().expect("a motion");
+    let late = motion.under(0).at(25.05).acceleration[0];
+    assert!((late - 1.0).abs() < 1e-9, "{late}");
+    let unlimited = refused(sine, "", "", "");
+    assert!(unlimited.contains("how long the sine lasts"), "{unlimited}");
+}
+
 #[test]
 fn arrivals_follow_from_positions_and_velocity() {
     let passing = format!("{EL_CENTRO}\napparent_velocity = \"600 m/s\"");
