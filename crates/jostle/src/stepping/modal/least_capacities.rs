@@ -189,7 +189,7 @@ mod tests {
             known.bending.ratio = 0.8 - 0.1 * index as f64;
         }
         let (mut passed, mut followed) = (0, 0);
-        for step in 0..20_000 {
+        for step in 0..30_000 {
             let part = |factor: f64| (f64::from(step) * factor).sin();
             let compression = 1.8e6 * part(0.137) + 6e5;
             let forces = [1.6e5 * part(0.731), 1.0e5 * part(1.177)];
