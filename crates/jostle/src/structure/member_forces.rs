@@ -568,8 +568,10 @@ impl<'a> Cuts<'a> {
                 continue;
             }
             for (part, dof, value) in &self.rows[index][Y] {
-                if *part != Part::Dashpot {
-                    form.displacement.push((*dof, -value));
+                match part {
+                    // Among them those that keep the damping of masses relative to a foundation.
+                    Part::Dashpot => form.velocity.push((*dof, -value)),
+                    Part::Elastic | Part::Undamped => form.displacement.push((*dof, -value)),
                 }
             }
             let [(place, share)] = stick_model.carried((index, Y))[..] else {
