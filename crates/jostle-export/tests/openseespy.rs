@@ -1,22 +1,10 @@
 //! Scripts for OpenSeesPy, read back as tables. That OpenSees gives the same answers is shown in docs/validation.md.
 
+mod script;
+
 use jostle::System;
-use jostle_export::{Export, Exported, openseespy};
-use jostle_io::{Format, Input, builtin_model, read_model_text};
-
-fn export(input: &Input) -> Result<Exported, Vec<jostle::ModelFault>> {
-    let system = System::assemble(&input.model).expect("a sound model");
-    let motion = input.ground_motion().expect("a motion");
-    openseespy::export(&Export {
-        model: &input.model,
-        system: &system,
-        motion: &motion,
-    })
-}
-
-fn model(text: &str) -> Input {
-    read_model_text("test", text, Format::Toml, "".as_ref()).expect("a sound model")
-}
+use jostle_io::{Input, builtin_model};
+use script::{export, model, number};
 
 /// Rows of a table, cut at commas.
 fn table<'a>(text: &'a str, name: &str) -> Vec<Vec<&'a str>> {
@@ -33,10 +21,6 @@ fn table<'a>(text: &'a str, name: &str) -> Vec<Vec<&'a str>> {
             row.split(", ").collect()
         })
         .collect()
-}
-
-fn number(text: &str) -> f64 {
-    text.parse().expect("a number")
 }
 
 /// Displacements that the supports, the held ones and the ties leave.

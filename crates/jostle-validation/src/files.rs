@@ -7,6 +7,19 @@ use jostle_io::{Format, Input, read_model_text};
 
 use crate::structures::uniform;
 
+/// A case compared with OpenSees: its name, the model, what OpenSees made of it, and what it may be off.
+macro_rules! case {
+    ($name:literal, $error:literal) => {
+        (
+            $name,
+            include_str!(concat!("../data/opensees/", $name, ".toml")),
+            include_str!(concat!("../data/opensees/", $name, ".json")),
+            $error,
+        )
+    };
+}
+pub(crate) use case;
+
 /// Reads a model.
 pub(crate) fn model(text: &str) -> Input {
     match read_model_text("validation case", text, Format::Toml, "".as_ref()) {

@@ -6,20 +6,8 @@ use jostle_io::Input;
 use serde_json::Value;
 
 use crate::data::{at, document, list, number};
-use crate::files::{model, run_model};
+use crate::files::{case, model, run_model};
 use crate::row::Row;
-
-/// A case: its name, the model, what OpenSees made of it, and what it may be off.
-macro_rules! case {
-    ($name:literal, $error:literal) => {
-        (
-            $name,
-            include_str!(concat!("../data/opensees/", $name, ".toml")),
-            include_str!(concat!("../data/opensees/", $name, ".json")),
-            $error,
-        )
-    };
-}
 
 const CASES: [(&str, &str, &str, f64); 10] = [
     // 1.3·10⁻³ when quartered: of second order, so that a fifteenth of it is left.

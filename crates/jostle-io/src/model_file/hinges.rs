@@ -567,6 +567,30 @@ fn spring_of(
     Hysteresis::new(rule, backbone).map_err(first)
 }
 
+/// Corners of a rule, of which bilinear ones have no cracking point and elastic ones none at all; `None` where a number that it needs is
+/// missing. `numbers`: cracking, yielding, and the slopes after both relative to the initial one.
+fn corners_of(rule: HysteresisRule, numbers: [Option<f64>; 4]) -> Option<Corners> {
+    let [cracking, yielding, post_cracking, post_yield] = numbers;
+    Some(match rule {
+        HysteresisRule::Elastic => Corners::bilinear(1.0, 1.0),
+        HysteresisRule::Bilinear => Corners::bilinear(yielding?, post_yield?),
+        HysteresisRule::Normal
+        | HysteresisRule::PeakOriented
+        | HysteresisRule::Takeda { .. }
+        | HysteresisRule::DegradingTrilinear
+        | HysteresisRule::Pinched(_)
+        | HysteresisRule::Sliding { .. }
+        | HysteresisRule::Stop { .. }
+        | HysteresisRule::Failing(_)
+        | HysteresisRule::InPlan { .. } => Corners {
+            cracking: cracking?,
+            yielding: yielding?,
+            post_cracking: post_cracking?,
+            post_yield: post_yield?,
+        },
+    })
+}
+
 /// Yielding of a base spring, equal on both sides; `keys` are those of the table and of its initial stiffness.
 pub(super) fn read_base(
     reader: &mut Reader<'_>,
@@ -625,24 +649,7 @@ pub(super) fn read_spring(
     let post_cracking = number("post_cracking", Dimension::Dimensionless, "0.3");
     let post_yield = number("post_yield", Dimension::Dimensionless, "0.02");
     let rule = rule?;
-    let corners = match rule {
-        HysteresisRule::Elastic => Corners::bilinear(1.0, 1.0),
-        HysteresisRule::Bilinear => Corners::bilinear(yielding?, post_yield?),
-        HysteresisRule::Normal
-        | HysteresisRule::PeakOriented
-        | HysteresisRule::Takeda { .. }
-        | HysteresisRule::DegradingTrilinear
-        | HysteresisRule::Pinched(_)
-        | HysteresisRule::Sliding { .. }
-        | HysteresisRule::Stop { .. }
-        | HysteresisRule::Failing(_)
-        | HysteresisRule::InPlan { .. } => Corners {
-            cracking: cracking?,
-            yielding: yielding?,
-            post_cracking: post_cracking?,
-            post_yield: post_yield?,
-        },
-    };
+    let corners = corners_of(rule, [cracking, yielding, post_cracking, post_yield])?;
     // A stiffness that is not positive is a separate fault.
     let stiffness = stiffness.filter(|stiffness| *stiffness > 0.0)?;
     let spring = Backbone::from_forces(stiffness, corners, corners)
@@ -759,24 +766,8 @@ fn storey_springs(
     let mut springs = Vec::new();
     let mut said: Vec<String> = Vec::new();
     for storey in 0..storeys {
-        let corners = match rule {
-            HysteresisRule::Elastic => Corners::bilinear(1.0, 1.0),
-            HysteresisRule::Bilinear => Corners::bilinear(yielding[storey], post_yield[storey]),
-            HysteresisRule::Normal
-            | HysteresisRule::PeakOriented
-            | HysteresisRule::Takeda { .. }
-            | HysteresisRule::DegradingTrilinear
-            | HysteresisRule::Pinched(_)
-            | HysteresisRule::Sliding { .. }
-            | HysteresisRule::Stop { .. }
-            | HysteresisRule::Failing(_)
-            | HysteresisRule::InPlan { .. } => Corners {
-                cracking: cracking[storey],
-                yielding: yielding[storey],
-                post_cracking: post_cracking[storey],
-                post_yield: post_yield[storey],
-            },
-        };
+        let lists = [&cracking, &yielding, &post_cracking, &post_yield];
+        let corners = corners_of(rule, lists.map(|list| list.get(storey).copied()))?;
         let spring = Backbone::from_deformations(stiffness[storey], corners, corners)
             .and_then(|backbone| Hysteresis::new(rule, backbone));
         match spring {

@@ -50,7 +50,7 @@ pub(crate) fn open_address(address: &str, width: u32, height: u32) -> Option<Ope
         .path(Some(chromium()))
         .sandbox(false)
         .window_size(Some((width, height)))
-        // A busy machine may leave the browser without a word for long.
+        // A busy machine may keep the browser from answering for long.
         .idle_browser_timeout(Duration::from_secs(600))
         .args(
             ["--disable-gpu", "--disable-quic", "--disable-sync"]

@@ -5,9 +5,10 @@ use jostle::{Base, Damping, Foundation, HalfSpace, LawKind, MemberRequest, Soil,
 
 use crate::support::{assembled, frame, framed, law, row, run, shaking, steps};
 
-/// I θ̈ + c θ̇ + k θ = Σ N x + Σ M − Σ α m y (u̇ − u̇_f + y θ̇) + Σ α m x (ẇ − x θ̇): axial forces, positive in tension, at their distances
-/// x to the right of the middle, moments at the feet, and dashpots between masses and the foundation, across it and, for masses
-/// of beams, which rise by w, along columns; I with the masses of the feet.
+/// I θ̈ + c θ̇ + k θ = Σ N x + Σ M − Σ α m y (u̇ − u̇_f + y θ̇) + Σ α m x (ẇ − x θ̇).
+///
+/// N is positive in tension and acts x to the right of the middle. M are moments at the feet. Masses m at the height y have dashpots to
+/// the foundation; those of beams also rise by w. I includes the masses of the feet.
 #[test]
 fn columns_keep_a_rocking_foundation_in_equilibrium() {
     for alpha in [0.0, 0.4] {

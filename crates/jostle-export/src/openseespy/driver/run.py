@@ -52,7 +52,7 @@ def prepare(axial):
         ops.numberer("RCM")
         ops.system("ProfileSPD")
     elif axial == "ties":
-        # SparseSYM (SparseSPD) and equalDOF together give wrong answers without a word. Transformation does not take
+        # SparseSYM (SparseSPD) and equalDOF together give wrong answers without an error. Transformation does not take
         # back a step that failed; Plain lets tied displacements share their equation and does.
         ops.constraints("Plain")
         ops.numberer("RCM")

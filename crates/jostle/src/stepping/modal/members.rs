@@ -293,9 +293,9 @@ pub(super) struct Instant<'a> {
     pub(super) smooth: bool,
 }
 
-/// Follows the forces of columns and beams after steps were kept, batch by batch: first those in which modes come farthest from
-/// rest. A block of forces is computed in a batch only if modes can carry one beyond its greatest or least value; what is found is
-/// the same, bit by bit, as if all were computed in every step.
+/// Follows the forces of columns and beams. Steps are kept and looked at in batches: first those in which modes come farthest from rest.
+/// A block of forces is computed in a batch only if one of them can exceed its greatest or least value. The bits of these are the same as
+/// if all forces were computed in every step.
 pub(super) struct MemberPeaks {
     /// Greatest and least value, and greatest size with what may be missed.
     greatest: Vec<[f64; ROWS]>,
