@@ -15,10 +15,26 @@ pub(super) const LISTS: usize = 4;
 /// Batches of every part of modes that are looked at first.
 const FARTHEST: usize = 3;
 /// Memory for the modal values of kept steps \[B\].
-const MEMORY: usize = 16 << 20;
+pub(super) const MEMORY: usize = 16 << 20;
 /// Least and greatest number of kept instants.
 const FEWEST: usize = 8 * INSTANTS;
 const MOST: usize = 1 << 14;
+
+#[cfg(test)]
+thread_local! {
+    /// Memory for kept steps in tests \[B\].
+    pub(super) static MEMORY_IN_TESTS: std::cell::Cell<usize> = const { std::cell::Cell::new(MEMORY) };
+}
+
+#[cfg(test)]
+fn memory() -> usize {
+    MEMORY_IN_TESTS.get()
+}
+
+#[cfg(not(test))]
+const fn memory() -> usize {
+    MEMORY
+}
 
 /// Steps in batches. The instant at which a batch begins is kept apart from the end of the batch before it, because velocities may
 /// jump between them.
@@ -33,8 +49,7 @@ pub(super) struct KeptSteps {
     batches: Vec<Batch>,
     /// What modes do in every batch, building by building.
     reach: Vec<BatchReach>,
-    /// Number of instants, and most of them.
-    count: usize,
+    /// Most instants.
     room: usize,
     modes: usize,
     buildings: usize,
@@ -73,29 +88,38 @@ impl KeptSteps {
     pub(super) fn new(reduced: &Reduced, contacts: usize) -> Self {
         let (modes, buildings) = (reduced.modes(), reduced.buildings.len());
         let of_instant = size_of::<f64>() * LISTS * modes.max(1);
-        let room = (MEMORY / of_instant).clamp(FEWEST, MOST);
+        let room = (memory() / of_instant).clamp(FEWEST, MOST);
         // A batch has two instants or more.
         let batches = room / 2 + 1;
+        // Memory is set aside but not touched before it is used: to fill it would take longer than the steps.
         let mut kept = Self {
-            modal: vec![0.0; room * LISTS * modes],
-            ground: vec![0.0; room * buildings],
-            pushes: vec![0.0; room * contacts],
-            lengths: vec![0.0; room],
+            modal: Vec::with_capacity(room * LISTS * modes),
+            ground: Vec::with_capacity(room * buildings),
+            pushes: Vec::with_capacity(room * contacts),
+            lengths: Vec::with_capacity(room),
             batches: Vec::with_capacity(batches),
-            reach: vec![BatchReach::default(); batches * buildings],
-            count: 0,
+            reach: Vec::with_capacity(batches * buildings),
             room,
             modes,
             buildings,
             contacts,
         };
-        kept.begin_batch(true);
+        kept.modal.resize(LISTS * modes, 0.0);
+        kept.ground.resize(buildings, 0.0);
+        kept.pushes.resize(contacts, 0.0);
+        kept.lengths.push(0.0);
+        kept.open(true);
         kept
+    }
+
+    /// Number of instants.
+    fn count(&self) -> usize {
+        self.lengths.len()
     }
 
     /// Whether there is no room for another step.
     pub(super) fn is_full(&self) -> bool {
-        self.count + 2 > self.room
+        self.count() + 2 > self.room
     }
 
     /// Number of batches.
@@ -108,23 +132,23 @@ impl KeptSteps {
         self.batches.iter().all(|batch| batch.steps == 0)
     }
 
-    /// Begins a batch at the end of the last step.
+    /// Begins a batch at the end of the last step, as an instant of its own.
     fn begin_batch(&mut self, smooth: bool) {
-        let first = self.count;
-        if let Some(last) = first.checked_sub(1) {
-            let own = |size: usize| last * size..first * size;
-            let of_modes = LISTS * self.modes;
-            self.modal.copy_within(own(of_modes), first * of_modes);
-            self.ground
-                .copy_within(own(self.buildings), first * self.buildings);
-            self.pushes
-                .copy_within(own(self.contacts), first * self.contacts);
-        }
-        self.count += 1;
-        let batch = self.batches.len() * self.buildings;
-        self.reach[batch..][..self.buildings].fill(BatchReach::default());
+        let last = self.count() - 1;
+        let own = |size: usize| last * size..(last + 1) * size;
+        self.modal.extend_from_within(own(LISTS * self.modes));
+        self.ground.extend_from_within(own(self.buildings));
+        self.pushes.extend_from_within(own(self.contacts));
+        self.lengths.push(0.0);
+        self.open(smooth);
+    }
+
+    /// Opens a batch at the last instant.
+    fn open(&mut self, smooth: bool) {
+        let reach = self.reach.len() + self.buildings;
+        self.reach.resize(reach, BatchReach::default());
         self.batches.push(Batch {
-            first,
+            first: self.count() - 1,
             steps: 0,
             smooth,
         });
@@ -153,18 +177,17 @@ impl KeptSteps {
         (length, smooth): (f64, bool),
     ) {
         self.open_batch(smooth).steps += 1;
-        let instant = self.count;
-        self.count += 1;
-        self.lengths[instant] = length;
-        self.set_last(reduced, 0, &lists);
-        let of_grounds = &mut self.ground[instant * self.buildings..][..self.buildings];
-        for (index, to) in of_grounds.iter_mut().enumerate() {
-            *to = ground.of(index)[0];
+        self.lengths.push(length);
+        for own in &reduced.buildings {
+            for list in lists {
+                self.modal.extend_from_slice(&list[own.members.modes()]);
+            }
         }
-        let of_contacts = &mut self.pushes[instant * self.contacts..][..self.contacts];
-        for (to, phase) in of_contacts.iter_mut().zip(phases) {
-            *to = phase.force();
-        }
+        let buildings = 0..self.buildings;
+        self.ground
+            .extend(buildings.map(|index| ground.of(index)[0]));
+        self.pushes.extend(phases.iter().map(ContactPhase::force));
+        debug_assert_eq!(self.pushes.len(), self.count() * self.contacts);
     }
 
     /// Adds what the modes of a building did in the last step.
@@ -178,18 +201,13 @@ impl KeptSteps {
         if self.batches.last().is_some_and(|batch| batch.steps > 0) {
             self.begin_batch(true);
         }
-        self.set_last(reduced, 1, &jumped);
-    }
-
-    /// Replaces the lists from `part` on at the last instant.
-    fn set_last(&mut self, reduced: &Reduced, part: usize, lists: &[&[f64]]) {
-        let instant =
-            &mut self.modal[(self.count - 1) * LISTS * self.modes..][..LISTS * self.modes];
+        let last = (self.count() - 1) * LISTS * self.modes;
+        let instant = &mut self.modal[last..];
         for own in &reduced.buildings {
             let modes = own.members.modes();
             let count = modes.len();
-            let to = &mut instant[LISTS * modes.start + part * count..LISTS * modes.end];
-            for (to, list) in to.chunks_mut(count.max(1)).zip(lists) {
+            let to = &mut instant[LISTS * modes.start + count..LISTS * modes.end];
+            for (to, list) in to.chunks_mut(count.max(1)).zip(jumped) {
                 to.copy_from_slice(&list[modes.clone()]);
             }
         }
@@ -197,13 +215,14 @@ impl KeptSteps {
 
     /// Starts anew at the end of the last step.
     pub(super) fn clear(&mut self) {
-        let last = |size: usize| (self.count - 1) * size..self.count * size;
-        self.modal.copy_within(last(LISTS * self.modes), 0);
-        self.ground.copy_within(last(self.buildings), 0);
-        self.pushes.copy_within(last(self.contacts), 0);
+        let before = self.count() - 1;
+        self.modal.drain(..before * LISTS * self.modes);
+        self.ground.drain(..before * self.buildings);
+        self.pushes.drain(..before * self.contacts);
+        self.lengths.drain(..before);
         self.batches.clear();
-        self.count = 0;
-        self.begin_batch(true);
+        self.reach.clear();
+        self.open(true);
     }
 
     /// A batch; `modes`: those of the building among all.
@@ -223,7 +242,7 @@ impl KeptSteps {
 
     /// The last step.
     pub(super) fn last_step(&self, building: usize, modes: &std::ops::Range<usize>) -> Steps<'_> {
-        self.from(self.count - 2, 1, true, building, modes)
+        self.from(self.count() - 2, 1, true, building, modes)
     }
 
     fn from(
@@ -271,7 +290,7 @@ impl KeptSteps {
     /// Raises the greatest accelerations of the modes of a building so far.
     pub(super) fn raise_accelerations(&self, modes: &std::ops::Range<usize>, known: &mut [f64]) {
         let at = LISTS * modes.start + 2 * modes.len();
-        for instant in self.modal.chunks(LISTS * self.modes).take(self.count) {
+        for instant in self.modal.chunks(LISTS * self.modes) {
             for (known, a) in known.iter_mut().zip(&instant[at..]) {
                 let size = a.abs();
                 *known = if size > *known { size } else { *known };

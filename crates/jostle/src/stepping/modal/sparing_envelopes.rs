@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use super::member_steps::{MEMORY, MEMORY_IN_TESTS};
 use super::members::LOOK_ALWAYS;
 use crate::contact::{ContactLaw, LawKind, RestitutionIs};
 use crate::model::{
@@ -278,9 +279,15 @@ fn compare(models: &[Model]) {
             always.members.iter().all(|own| !own.is_empty()),
             "model {index}"
         );
-        for (of_always, of_seldom) in always.members.iter().zip(&seldom.members) {
-            for (form, (due, found)) in of_always.iter().zip(of_seldom).enumerate() {
-                assert_eq!(due, found, "model {index}, force {form}");
+        // So little that steps are looked at many times.
+        MEMORY_IN_TESTS.set(0);
+        let often = run(model, false);
+        MEMORY_IN_TESTS.set(MEMORY);
+        for found in [&seldom, &often] {
+            for (of_always, own) in always.members.iter().zip(&found.members) {
+                for (form, (due, found)) in of_always.iter().zip(own).enumerate() {
+                    assert_eq!(due, found, "model {index}, force {form}");
+                }
             }
         }
         let estimate = |outcome: &Outcome| outcome.accuracy.map(|accuracy| accuracy.residual);
