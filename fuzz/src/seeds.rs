@@ -1,6 +1,6 @@
 //! Writes small valid files into corpus/TARGET, for fuzzing to start from.
 
-#[path = "../../crates/jostle-io/tests/fixture/mod.rs"]
+#[path = "../../crates/jostle-io/tests/reading/fixture/mod.rs"]
 mod fixture;
 
 use std::fs;

@@ -360,7 +360,7 @@ pub fn page(study: &Study) -> String {
     );
     let _ = write!(
         text,
-        "\nA test (`crates/jostle/tests/verification/harmonic_pounding.rs`) holds the first and the last line.\n\n\
+        "\nA test (`crates/jostle/tests/mechanics/verification/harmonic_pounding.rs`) holds the first and the last line.\n\n\
          A motion that does not repeat here may be chaotic, or may have two periods without a common multiple; the section tells which: a closed \
          line is the latter. Two states are the same if they differ by less than 0.1 % of their range. Motions that do not repeat are followed for {} more cycles, and the last {} count. The towers on the table were of \
          steel, with less damping; less damping makes resonances narrower and impacts faster.\n",

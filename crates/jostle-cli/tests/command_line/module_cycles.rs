@@ -1,6 +1,6 @@
 //! Modules of a crate do not import each other in a ring.
 
-#[path = "../../../jostle/tests/imports/mod.rs"]
+#[path = "../../../jostle/tests/mechanics/imports/mod.rs"]
 mod imports;
 
 use std::collections::{BTreeMap, BTreeSet};

@@ -1,4 +1,4 @@
-//! The live page in a real browser.
+//! The live page in a real browser; what its server refuses.
 
 #![allow(
     clippy::unwrap_used,
@@ -6,7 +6,7 @@
     reason = "a test stops at the first surprise, helpers included; the open page has helpers for other tests"
 )]
 
-#[path = "../../../jostle-report/tests/browser/opened.rs"]
+#[path = "../../../jostle-report/tests/pages/browser/opened.rs"]
 mod opened;
 
 mod connection;
@@ -20,6 +20,7 @@ mod notebook;
 mod pages;
 mod panels;
 mod runs;
+mod safety;
 
 use std::path::Path;
 use std::time::{Duration, Instant};

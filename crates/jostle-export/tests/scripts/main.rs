@@ -1,0 +1,9 @@
+//! Exported scripts: read back as tables, and compared with runs of OpenSees.
+
+mod driver;
+mod grounds;
+mod member_forces;
+mod openseespy;
+mod plan;
+mod script;
+mod soil;

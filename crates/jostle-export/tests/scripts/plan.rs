@@ -1,0 +1,309 @@
+//! Scripts of buildings in space, read back as tables. That OpenSees gives the same answers is shown in docs/validation.md.
+
+use crate::script::{export, model, number, quadratic, table};
+use jostle::System;
+
+const ELEMENTS: &str = include_str!("../../../jostle-validation/data/opensees/plan_elements.toml");
+const CORNERS: &str = include_str!("../../../jostle-validation/data/opensees/plan_corners.toml");
+
+/// Where a node moves when its floor, or itself, moves: the floor's node and the arm from it; `None` is fixed.
+fn carrier(text: &str, tag: &str) -> Option<(String, [f64; 2])> {
+    let place = |tag: &str| {
+        let nodes = table(text, "NODES");
+        let row = nodes.iter().find(|row| row[0] == tag).expect("a node");
+        [number(&row[1]), number(&row[2])]
+    };
+    if table(text, "SUPPORTS").iter().any(|row| row[0] == tag) {
+        return None;
+    }
+    let arms = table(text, "ARMS");
+    let floor = arms.iter().find(|row| row[1] == tag).expect("tied");
+    let (own, centre) = (place(tag), place(&floor[0]));
+    Some((floor[0].clone(), [own[0] - centre[0], own[1] - centre[1]]))
+}
+
+/// Energy of the springs of one building when floors move, twice.
+fn energy(text: &str, block: &str, damped: &str, floors: &[String], motion: &[[f64; 3]]) -> f64 {
+    let materials = table(text, "MATERIALS");
+    let moved = |tag: &str| {
+        carrier(text, tag).map_or([0.0; 3], |(floor, arm)| {
+            let index = floors.iter().position(|own| *own == floor).expect("own");
+            let [x, y, turn] = motion[index];
+            [x - turn * arm[1], y + turn * arm[0], turn]
+        })
+    };
+    let mut sum = 0.0;
+    for row in table(text, "SPRINGS") {
+        if !row[1].starts_with(block) || row.last().map(String::as_str) != Some(damped) {
+            continue;
+        }
+        let (a, b) = (moved(&row[1]), moved(&row[2]));
+        let pairs: Vec<&String> = row[3..row.len() - 1]
+            .iter()
+            .filter(|w| !w.is_empty())
+            .collect();
+        for pair in pairs.chunks(2) {
+            let component = match &pair[0][..] {
+                "1" => 0,
+                "2" => 1,
+                _ => 2,
+            };
+            let own = materials.iter().find(|row| row[1] == *pair[1]);
+            let stiffness = number(&own.expect("a material")[2]);
+            sum += stiffness * (b[component] - a[component]).powi(2);
+        }
+    }
+    sum
+}
+
+/// Elements at points, other centres of mass at every floor and P-Delta: springs and arms have the energy of the core's matrix.
+#[test]
+fn springs_of_storeys_have_the_energy_of_the_matrix() {
+    let input = model(ELEMENTS);
+    let text = export(&input).expect("it can be exported").text;
+    let system = System::assemble(&input.model).expect("sound");
+    for (number, building) in system.buildings.iter().enumerate() {
+        let floors: Vec<String> = building
+            .discretization
+            .floors
+            .iter()
+            .map(|node| ((number + 1) * 1000 + node + 1).to_string())
+            .collect();
+        for seed in 0..4 {
+            let motion: Vec<[f64; 3]> = (0..floors.len())
+                .map(|floor| {
+                    std::array::from_fn(|c| (1.7 * (seed * 9 + floor * 3 + c) as f64).sin())
+                })
+                .collect();
+            let mut values = vec![0.0; building.equations.len()];
+            for (floor, moved) in motion.iter().enumerate() {
+                let centre = building.discretization.centres[floor];
+                // Along x, across, and rotation, in this order.
+                let row = building.row_at(floor, centre, [1.0, 0.0]);
+                for (&(dof, _), value) in row.entries().iter().zip(moved) {
+                    values[dof - building.offset] = *value;
+                }
+            }
+            let block = (number + 1).to_string();
+            for (damped, matrix) in [
+                ("True", &building.equations.stiffness),
+                ("False", &building.equations.undamped),
+            ] {
+                let expected = quadratic(matrix, &values);
+                let got = energy(&text, &block, damped, &floors, &motion);
+                assert!(
+                    (got - expected).abs() <= 1e-8 * expected.abs(),
+                    "{}, {damped}: {got} against {expected}",
+                    building.name
+                );
+            }
+        }
+    }
+}
+
+/// Points of both sides coincide, so that contacts have no length, and stiffnesses of a face add up to that of the gap.
+#[test]
+fn points_of_a_face_coincide_and_share_the_stiffness() {
+    let text = export(&model(ELEMENTS)).expect("it can be exported").text;
+    let contacts = table(&text, "CONTACTS");
+    assert_eq!(contacts.len(), 10, "two faces of five points");
+    let nodes = table(&text, "NODES");
+    let place = |tag: &str| {
+        let row = nodes.iter().find(|row| row[0] == tag).expect("a node");
+        (row[1].clone(), row[2].clone())
+    };
+    let materials = table(&text, "MATERIALS");
+    let mut sum = 0.0;
+    for row in &contacts {
+        assert_eq!(place(&row[1]), place(&row[2]));
+        let own = materials.iter().find(|own| own[1] == row[3]);
+        sum += number(&own.expect("a material")[2]);
+    }
+    assert!((sum / 500e6 - 1.0).abs() < 1e-9, "{sum}");
+    let faces = table(&text, "FACES");
+    assert_eq!(faces.len(), 10);
+    assert!(
+        faces
+            .iter()
+            .all(|row| row[3..5] == ["1.0", "0.0"] || row[3..5] == ["1.0", "-0.0"])
+    );
+    assert!(table(&text, "ENDS").is_empty());
+}
+
+#[test]
+fn corners_have_the_ends_of_their_edges() {
+    let text = export(&model(CORNERS)).expect("it can be exported").text;
+    let contacts = table(&text, "CONTACTS");
+    let ends = table(&text, "ENDS");
+    assert_eq!(contacts.len(), 2);
+    assert_eq!(ends.len(), 2);
+    // Of corners that pass each other, the end is the indentation of the other.
+    let gap = |row: &Vec<String>| number(&row[4]);
+    for (own, other) in [(0, 1), (1, 0)] {
+        let inside = number(ends[own].last().expect("a distance"));
+        assert!(
+            (inside + gap(&contacts[other])).abs() < 1e-12,
+            "{ends:?} {contacts:?}"
+        );
+    }
+}
+
+#[test]
+fn both_components_and_their_angle_are_written() {
+    let text = export(&model(ELEMENTS)).expect("it can be exported").text;
+    assert!(text.contains("\nANGLE = 0.4363323129985824  # rad"));
+    assert!(text.contains("\nclass ACROSS:"));
+    assert!(text.contains("\n    RICKER = (2.0, 0.6, 2.5)"));
+    // A building without a plan has neither.
+    let plane = model(
+        "motion = { record = \"el-centro-1940-ns\" }\n[[building]]\nkind = \"shear\"\nmass = [\"40 t\"]\nstiffness = [\"60 MN/m\"]\n",
+    );
+    let text = export(&plane).expect("it can be exported").text;
+    assert!(!text.contains("\nANGLE") && !text.contains("\nclass ACROSS"));
+    assert!(text.contains("\nARMS = []"));
+}
+
+/// Joints of a space frame move with the node of their floor; every column and beam joins two of them.
+#[test]
+fn space_frames_are_written_member_by_member() {
+    const FRAME: &str = include_str!("../../../jostle-validation/data/space/S8_space_frame.toml");
+    let text = export(&model(FRAME)).expect("it can be exported").text;
+    let joints = table(&text, "JOINTS");
+    assert_eq!(joints.len(), 4 * 9);
+    assert_eq!(joints.iter().filter(|row| row[4] == "None").count(), 9);
+    let members = table(&text, "COLUMNS_AND_BEAMS");
+    assert_eq!(members.len(), 3 * (9 + 6 + 6));
+    let place = |tag: &str| {
+        let own = joints.iter().find(|row| row[0] == tag).expect("a joint");
+        [1, 2, 3].map(|axis| number(&own[axis]))
+    };
+    for row in &members {
+        let (a, b) = (place(&row[1]), place(&row[2]));
+        let way: Vec<f64> = a.iter().zip(b).map(|(a, b)| b - a).collect();
+        // Columns bend along x in their first plane, beams upwards.
+        let towards: Vec<f64> = row[8..11].iter().map(|value| number(value)).collect();
+        let is_column = way[2] > 0.0;
+        assert_eq!(
+            towards,
+            if is_column {
+                [1.0, 0.0, 0.0]
+            } else {
+                [0.0, 0.0, 1.0]
+            }
+        );
+        assert_eq!(way.iter().filter(|part| **part > 0.0).count(), 1);
+    }
+    let rigid = FRAME.replace("\nshear =", "\naxial = \"rigid\"\nshear =");
+    let exported = export(&model(&rigid)).expect("it can be exported");
+    assert!(exported.text.contains("EA = 1e4 * 12 EI / l^2"));
+}
+
+/// An end of a member with hinges is a node of its own, which a spring joins to its joint upwards and about both axes.
+#[test]
+fn hinges_of_space_frames_stand_between_joints_and_ends() {
+    const FRAME: &str =
+        include_str!("../../../jostle-validation/data/opensees/yielding_space_frame.toml");
+    let text = export(&model(FRAME)).expect("it can be exported").text;
+    let joints = table(&text, "JOINTS");
+    let members = table(&text, "COLUMNS_AND_BEAMS");
+    assert_eq!([joints.len(), members.len()], [12, 16]);
+    let ends = table(&text, "HINGED_ENDS");
+    assert_eq!(ends.len(), 2 * 16);
+    let is_joint = |tag: &String| joints.iter().any(|row| row[0] == *tag);
+    for row in &ends {
+        assert!(is_joint(&row[1]) && !is_joint(&row[0]));
+        let is_end = |member: &Vec<String>| member[1] == row[0] || member[2] == row[0];
+        assert_eq!(members.iter().filter(|member| is_end(member)).count(), 1);
+        let directions: Vec<&str> = [7, 12, 17].map(|at| row[at].as_str()).into();
+        assert_eq!(directions, ["3", "5", "4"]);
+    }
+    let takeda = FRAME.replace("\"bilinear\"", "\"takeda\"").replace(
+        "post_yield",
+        "cracking = \"30 kN.m\", post_cracking = 0.3, post_yield",
+    );
+    let faults = export(&model(&takeda)).expect_err("OpenSees has no such rule");
+    assert_eq!(faults[0].path, "building[0].hinges.rule");
+}
+
+#[test]
+fn friction_in_plan_is_refused_by_field() {
+    let text = CORNERS.replace("law = \"linear\"", "law = \"linear\"\nfriction = 0.3");
+    let faults = export(&model(&text)).expect_err("not yet");
+    assert_eq!(faults.len(), 1, "{faults:?}");
+    assert_eq!(faults[0].path, "gap[0].friction");
+}
+
+const ISOLATED: &str = include_str!("../../../jostle-validation/data/opensees/plan_isolated.toml");
+
+/// Every bearing joins a point of the ground to a point of the mat by springs and dashpots, and by what yields; damping of the building is
+/// between its floors and the mat.
+#[test]
+fn bearings_in_plan_join_the_ground_and_the_mat() {
+    let text = export(&model(ISOLATED)).expect("it can be exported").text;
+    let (nodes, arms) = (table(&text, "NODES"), table(&text, "ARMS"));
+    let supports = table(&text, "SUPPORTS");
+    let mat = &table(&text, "LEVELS")[0];
+    assert_eq!(number(&mat[1]), 0.0);
+    let own = |tag: &str| nodes.iter().find(|row| row[0] == tag).expect("a node");
+    let heavy = own(&mat[0]);
+    assert_eq!([1, 2, 3].map(|at| number(&heavy[at])), [7.0, 5.0, 190e3]);
+    let sliders = table(&text, "SLIDERS");
+    assert_eq!(sliders.len(), 6);
+    let springs = table(&text, "SPRINGS");
+    let materials = table(&text, "MATERIALS");
+    for row in &sliders {
+        let [ground, above] = [&row[1], &row[2]];
+        assert!(supports.iter().any(|own| own[0] == **ground));
+        assert!(arms.iter().any(|arm| arm[0] == mat[0] && arm[1] == **above));
+        for axis in [1, 2] {
+            assert_eq!(own(ground)[axis], own(above)[axis]);
+        }
+        // (K1 - K2) and Q = F_y (1 - K2/K1) of one of six.
+        assert!((number(&row[3]) / (36e6 * 0.88 / 6.0) - 1.0).abs() < 1e-12);
+        assert!((number(&row[4]) / (220e3 * 0.88 / 6.0) - 1.0).abs() < 1e-12);
+        let beside = springs
+            .iter()
+            .find(|own| own[1] == **ground && own[2] == **above);
+        let material = beside.expect("a spring")[4].trim_matches([')', ',']);
+        let material = materials.iter().find(|own| own[1] == material);
+        let material = material.expect("a material");
+        assert!((number(&material[2]) / (36e6 * 0.12 / 6.0) - 1.0).abs() < 1e-12);
+        assert!((number(&material[3]) / (300e3 / 6.0) - 1.0).abs() < 1e-12);
+    }
+    assert!(text.contains("\"alpha\": 0.0, \"beta\": 0.0015"));
+    // 0.35 of the masses of both floors.
+    for mass in [210e3, 180e3] {
+        let dashpot = |row: &Vec<String>| row[0] == "\"Elastic\"" && row.len() > 3;
+        let same = |row: &Vec<String>| (number(&row[3]) / (0.35 * mass) - 1.0).abs() < 1e-12;
+        assert!(
+            materials.iter().any(|row| dashpot(row) && same(row)),
+            "{mass}"
+        );
+    }
+}
+
+#[test]
+fn a_ring_stop_and_friction_that_rises_are_refused_by_field() {
+    let text = ISOLATED.replace(
+        "damping = \"300 kN.s/m\"",
+        "stop = { at = \"80 mm\", stiffness = \"60 MN/m\" }",
+    );
+    let faults = export(&model(&text)).expect_err("OpenSees has no ring");
+    assert_eq!(faults.len(), 1, "{faults:?}");
+    assert_eq!(faults[0].path, "building[0].isolation.stop");
+    const FRAME: &str =
+        include_str!("../../../jostle-validation/data/opensees/plan_isolated_frame.toml");
+    let text = FRAME.replace(
+        "friction = 0.06",
+        "friction = { slow = 0.03, fast = 0.06, rate = \"40 s/m\" }",
+    );
+    let faults = export(&model(&text)).expect_err("not by these springs");
+    assert_eq!(faults[0].path, "building[0].isolation.friction");
+    // Feet of columns stand on the mat.
+    let text = export(&model(FRAME)).expect("it can be exported").text;
+    let mat = table(&text, "LEVELS")[0][0].clone();
+    let joints = table(&text, "JOINTS");
+    let feet = joints.iter().filter(|row| row[4] == mat);
+    assert_eq!(feet.count(), 6);
+    assert!(joints.iter().all(|row| row[4] != "None"));
+}

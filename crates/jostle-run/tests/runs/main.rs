@@ -1,0 +1,7 @@
+//! Runs from model files, and what they report.
+
+mod comparison;
+mod member_capacity;
+mod registry;
+mod shear_failure;
+mod spectra_of_floors;

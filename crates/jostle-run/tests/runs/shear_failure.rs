@@ -1,0 +1,86 @@
+//! Columns that fail in shear while their neighbour strikes them: text, JSON, tables and report.
+
+use std::ops::ControlFlow;
+use std::path::Path;
+
+use jostle::{Hinges, Settings};
+use jostle_io::{Format, read_model_text, summary_json};
+use jostle_run::{Content, Opened, Ran, summary_text};
+
+const MODEL: &str = include_str!("../../../../examples/columns_that_fail_in_shear.toml");
+
+fn run(text: &str) -> Ran {
+    let input = read_model_text("model.toml", text, Format::Toml, Path::new(""));
+    let opened = Opened::new(input.unwrap_or_else(|error| panic!("{error}")), "model");
+    let prepared = opened.unwrap_or_else(|error| panic!("{error}")).prepare();
+    let Ok(prepared) = prepared else {
+        panic!("not prepared")
+    };
+    prepared.run(Settings::default(), &mut |_, _| ControlFlow::Continue(()))
+}
+
+#[test]
+fn failures_are_reported_with_their_impacts() {
+    let ran = run(&MODEL.replace("[motion]\n", "[motion]\nduration = \"8 s\"\n"));
+    let summary = ran.summary();
+    assert_eq!(summary.ended_early, None);
+    assert!(
+        summary.energy.imbalance < 1e-9,
+        "{}",
+        summary.energy.imbalance
+    );
+    let failures = summary.buildings[0].shear_failures.as_ref();
+    let failures = failures.expect("its columns can fail");
+    assert!(failures.total == 9 && failures.failed >= 1, "{failures:?}");
+    assert!(summary.buildings[1].shear_failures.is_none());
+    for pair in failures.list.windows(2) {
+        assert!(pair[0].failed_s <= pair[1].failed_s);
+    }
+    let Some(Hinges::Frame(hinges)) = &ran.prepared.input.model.buildings[0].hinges else {
+        panic!("a frame with hinges")
+    };
+    for own in &failures.list {
+        let place = own.column.strip_prefix("old.column.").expect("its name");
+        let (line, storey) = place.split_once('.').expect("line and storey");
+        let [line, storey] = [line, storey].map(|text| text.parse::<usize>().expect("a number"));
+        // k of Sezen and Moehle, 0.7 to 1.
+        let column = &hinges.shear[storey - 1][line - 1];
+        let share = own.strength_n / column.spring.backbone().yield_force();
+        assert!(
+            (0.7 - 1e-9..=1.0 + 1e-9).contains(&share),
+            "{share}: {own:?}"
+        );
+        assert!((0.1 - 1e-9..=1.0).contains(&own.strength_left), "{own:?}");
+        assert!(own.slip_peak_m > 0.0, "{own:?}");
+    }
+    // An impact that is named was in progress.
+    let impacts = failures
+        .list
+        .iter()
+        .filter_map(|own| Some((own, own.impact.as_ref()?)));
+    for (own, impact) in impacts {
+        let gap = &summary.gaps[0];
+        let known = gap.contacts.iter().flat_map(|contact| &contact.impacts);
+        let mut known = known.filter(|known| known.start_s == impact.start_s);
+        assert!(known.any(|known| (known.start_s..=known.end_s).contains(&own.failed_s)));
+    }
+    let text = summary_text(&summary);
+    assert!(text.contains("fails in shear in "), "{text}");
+    let json: serde_json::Value = serde_json::from_str(&summary_json(&summary)).expect("JSON");
+    let own = &json["buildings"][0]["shear_failures"];
+    assert_eq!(own["failed"], failures.failed);
+    assert!(json["buildings"][1].get("shear_failures").is_none());
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("columns that fail");
+    std::fs::create_dir_all(&folder).expect("a folder");
+    ran.results(&summary)
+        .write(&folder, Content::ALL)
+        .expect("written");
+    let report = std::fs::read_to_string(folder.join("report.html")).expect("a report");
+    for word in [
+        "Columns that fail in shear",
+        "strength left",
+        &failures.list[0].column,
+    ] {
+        assert!(report.contains(word), "the report lacks {word}");
+    }
+}

@@ -1,0 +1,11 @@
+//! Studies, suites and searches.
+
+mod angles;
+mod capacity_columns;
+mod damaged_parts;
+mod isolation_columns;
+mod pages_in_another_language;
+mod ready_made;
+mod size;
+mod studies;
+mod trends;

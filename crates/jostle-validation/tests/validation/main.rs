@@ -1,0 +1,4 @@
+//! Comparisons with references, in their reduced form.
+
+mod certify;
+mod numbers;

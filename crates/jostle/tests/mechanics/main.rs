@@ -1,0 +1,15 @@
+//! The mechanics, by what is tested.
+
+mod column_capacity_by_hand;
+mod hysteresis;
+mod imports;
+mod joint_shear;
+mod layers;
+mod member_cost;
+mod member_forces;
+mod member_ratios;
+mod modal;
+mod statics;
+mod stepping_allocates_nothing;
+mod transfer;
+mod verification;
