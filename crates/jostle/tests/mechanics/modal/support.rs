@@ -83,20 +83,11 @@ pub(crate) fn stored_frame(frame: &Value, compressed: f64) -> BuildingSystem {
 
 pub(crate) fn assembled(stick_model: StickModel, floors: Vec<usize>) -> BuildingSystem {
     let discretization = Discretization {
-        foot: None,
-        mat: None,
-        spring_places: Vec::new(),
-        members: Vec::new(),
-        centres: Vec::new(),
-        frames: Vec::new(),
-        shared_columns: Vec::new(),
-        space_frame: None,
-        jointed_frame: None,
-        element_names: Vec::new(),
         stick_model,
         left_face: floors.clone(),
         right_face: floors.clone(),
         floors,
+        ..Discretization::default()
     };
     BuildingSystem::new("building", discretization)
 }
@@ -175,9 +166,7 @@ pub(crate) fn framed(frame: Frame) -> BuildingSystem {
             alpha: 0.0,
             beta: 0.0,
         },
-        base: Default::default(),
-        gravity: Default::default(),
-        hinges: None,
+        ..Building::default()
     };
     BuildingSystem::new("frame", Discretization::new(&building))
 }
