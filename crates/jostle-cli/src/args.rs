@@ -82,7 +82,7 @@ pub(crate) struct RunArgs {
     pub(crate) floor_spectra: bool,
     /// Compare reinforced columns and beams with their capacity by these rules, the first of which governs; includes
     /// --members. Without rules: all, where ties are known
-    #[arg(long, value_name = "RULE", value_delimiter = ',', value_parser = clap::builder::PossibleValuesParser::new(ShearRule::ALL.map(ShearRule::name)))]
+    #[arg(long, value_name = "RULE", num_args = 0..=1, default_missing_values = ShearRule::ALL.map(ShearRule::name), value_delimiter = ',', value_parser = clap::builder::PossibleValuesParser::new(ShearRule::ALL.map(ShearRule::name)))]
     pub(crate) capacity: Vec<String>,
     /// Run with half and twice the contact stiffness and with restitution ± 0.15 as well, and report the spread
     #[arg(long)]

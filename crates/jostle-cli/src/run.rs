@@ -136,7 +136,11 @@ fn analyse(
         // Warnings of the model are on standard error already.
         let warnings = &ran.prepared.input.warnings;
         summary.notes.retain(|note| !warnings.contains(note));
-        terminal::print(&describe_summary(&summary, report.as_deref()))?;
+        terminal::print(&describe_summary(
+            &summary,
+            &ran.prepared.input,
+            report.as_deref(),
+        ))?;
     }
     ending(&ran.outcome.end, out)?;
     let sensitivity = ran.contact_sensitivity.as_ref();

@@ -74,6 +74,16 @@ pub enum MotionSource {
     },
 }
 
+impl MotionSource {
+    /// Whether it states the size of its accelerations, which a record in the factor of another motion does not.
+    pub(crate) fn states_its_size(&self) -> bool {
+        match self {
+            Self::Sine { .. } | Self::Ricker { .. } => true,
+            Self::Record { .. } | Self::Records { .. } | Self::Given(_) => false,
+        }
+    }
+}
+
 /// Direction of a motion in plan, and the motion across it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BearingSpec {
@@ -347,9 +357,10 @@ impl MotionSpec {
         let motion_scale = motion.scale;
         if let Some(spec) = &self.bearing {
             let mut across = spec.across.as_ref().map(Self::resolve).transpose()?;
-            // Two components of one record keep their ratio.
+            // Two components of one record keep their ratio; what states an amplitude or a scaling of its own keeps it.
             if let (Some(motion), Some(own)) = (&mut across, &spec.across)
                 && own.scaling == Scaling::AsRecorded
+                && !own.source.states_its_size()
             {
                 motion.scale *= motion_scale;
             }

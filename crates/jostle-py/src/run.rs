@@ -206,7 +206,7 @@ impl Run {
     /// The summary as the command line prints it.
     #[pyo3(signature = (without_contact=None))]
     fn text(&self, without_contact: Option<&Self>) -> String {
-        jostle_run::summary_text(&self.summary(without_contact))
+        jostle_run::summary_text(&self.summary(without_contact), &self.ran.prepared.input)
     }
 
     /// The verdict in a sentence or two.

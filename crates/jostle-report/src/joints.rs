@@ -1,14 +1,9 @@
 //! Gaps required by codes, compared with the gap of the model and the smallest one without pounding.
 
-use jostle::Gap;
-use jostle::results::summary::{BuildingSummary, GapSummary};
-use jostle::separation::{
-    Neighbours, Place, Requirements, Side, ddc_coefficient, floors_are_level, peak_at_height,
-    required_gaps,
-};
+use jostle::results::summary::GapSummary;
+use jostle::separation::Requirements;
 use maud::{Markup, html};
 
-use crate::envelope::Envelope;
 use crate::message;
 use crate::verdict::peak_closing;
 use crate::{Page, format};
@@ -21,16 +16,22 @@ struct Width {
 }
 
 /// Required gaps as bars: the gap of the model, the smallest gap without pounding, the gaps of rules.
-pub(crate) fn joints(page: &Page, run: &[Envelope], without: Option<&[Envelope]>) -> Markup {
-    let envelopes = without.unwrap_or(run);
-    let of_gap = |summary: &GapSummary, gap: &Gap| {
-        let required = required_gaps(&neighbours(page, summary, gap, envelopes), page.codes);
+pub(crate) fn joints(page: &Page) -> Markup {
+    let of_gap = |index: usize, summary: &GapSummary| {
+        let required = page.summary.required_gaps(page.model, index, page.codes);
         (widths(summary, &required), required)
     };
     let gaps: Vec<_> = page
         .gaps()
-        .map(|(summary, gap)| (summary, gap, of_gap(summary, gap)))
+        .enumerate()
+        .map(|(index, (summary, gap))| (summary, gap, of_gap(index, summary)))
         .collect();
+    let mut floors = page
+        .summary
+        .buildings
+        .iter()
+        .flat_map(|own| own.floors.iter());
+    let is_without_contact = floors.all(|floor| floor.without_contact.is_some());
     let mut rules = gaps.iter().flat_map(|(_, _, (_, found))| &found.rules);
     let combined = rules.any(|rule| rule.name == "SRSS");
     html! {
@@ -62,7 +63,7 @@ pub(crate) fn joints(page: &Page, run: &[Envelope], without: Option<&[Envelope]>
             (message::the_line_marks_the_gap())
             @if combined {
                 " " (message::srss_and_abs_combine()) " "
-                @if without.is_some() { (message::of_the_run_without_contact()) } @else { (message::of_this_run_impacts_included()) }
+                @if is_without_contact { (message::of_the_run_without_contact()) } @else { (message::of_this_run_impacts_included()) }
                 " " (message::codes_take_the_same_displacements())
             }
         }
@@ -77,7 +78,7 @@ fn sources(required: &Requirements) -> Markup {
         .filter(|rule| rule.code.is_some())
         .collect();
     html! {
-        @if !codes.is_empty() {
+        @if !codes.is_empty() || !required.left_out.is_empty() {
             details.rules {
                 summary { (message::clauses_and_inputs()) }
                 div.scroll {
@@ -105,7 +106,7 @@ fn sources(required: &Requirements) -> Markup {
                     }
                 }
                 @for rule in &required.left_out {
-                    p.quiet { (message::is_left_out_it_needs(&rule.name, &rule.needs)) " " code { "[codes]" } "." }
+                    p.quiet { (message::is_left_out_it_needs(&rule.name, &rule.needs)) }
                 }
             }
         }
@@ -120,71 +121,6 @@ fn lower_height(page: &Page, between: [Option<usize>; 2]) -> Option<f64> {
         .into_iter()
         .filter_map(|building| building?.floor_heights().last().copied())
         .min_by(f64::total_cmp)
-}
-
-/// Two neighbours as rules see them. Between floors, and beside walls, only rules of heights apply.
-fn neighbours(page: &Page, summary: &GapSummary, gap: &Gap, envelopes: &[Envelope]) -> Neighbours {
-    let between = page.model.buildings_beside(gap.between);
-    let sides = between.map(|building| {
-        let building = building.filter(|_| between.iter().all(Option::is_some))?;
-        let own = page.model.buildings.get(building)?;
-        let heights = own.floor_heights();
-        Some(Side {
-            building,
-            name: own.name.clone(),
-            height: heights.last().copied().unwrap_or(0.0),
-            storeys: heights.len(),
-            yields: own.may_yield(),
-        })
-    });
-    let peak = |building: Option<usize>, height: f64| {
-        let building = building?;
-        let heights = page.model.buildings.get(building)?.floor_heights();
-        let envelope = envelopes.get(building)?;
-        let peaks = envelope.greatest.iter().zip(&envelope.least);
-        let peaks = peaks.map(|(greatest, least)| greatest.max(-least));
-        let mat = envelope
-            .mat
-            .map(|[greatest, least, _]| (0.0, greatest.max(-least)));
-        let floors = heights.into_iter().zip(peaks);
-        let peak = peak_at_height(mat.into_iter().chain(floors), height);
-        peak.is_finite().then_some(peak)
-    };
-    let contacts = summary.contacts.iter();
-    let between_floors = contacts.filter(|contact| contact.floors.iter().all(Option::is_some));
-    let places = between_floors.filter_map(|contact| {
-        let [left, right] = gap.between;
-        let height = contact.height_m;
-        Some(Place {
-            height,
-            peaks: [peak(left, height)?, peak(right, height)?],
-        })
-    });
-    Neighbours {
-        sides,
-        places: places.collect(),
-        floors_are_level: floors_are_level(page.model, gap),
-        correlation: correlation(page, gap.between),
-        peak_ground_acceleration: page.summary.motion.pga_m_s2,
-    }
-}
-
-/// Correlation of the double difference; `None` without periods or damping.
-fn correlation(page: &Page, between: [Option<usize>; 2]) -> Option<f64> {
-    let of = |building: Option<usize>| {
-        let own: &BuildingSummary = page.summary.buildings.get(building?)?;
-        let period = own
-            .periods_s
-            .first()
-            .copied()
-            .filter(|period| *period > 0.0)?;
-        let omega = std::f64::consts::TAU / period;
-        let damping = 0.5 * (own.rayleigh_alpha_per_s / omega + own.rayleigh_beta_s * omega);
-        (damping > 0.0 && damping.is_finite()).then_some((period, damping))
-    };
-    let [left, right] = between;
-    let ((t1, d1), (t2, d2)) = (of(left)?, of(right)?);
-    Some(ddc_coefficient([t1, t2], [d1, d2]))
 }
 
 fn widths(summary: &GapSummary, required: &Requirements) -> Vec<Width> {

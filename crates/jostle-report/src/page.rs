@@ -107,7 +107,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                     @if !page.model.gaps.is_empty() {
                         section #joints {
                             h2 { (message::comparison_with_code_requirements()) }
-                            (joints::joints(page, &run, without))
+                            (joints::joints(page))
                         }
                     }
                     section #model {

@@ -88,7 +88,7 @@ pub fn frame(page: &Page) -> Frame {
         (envelopes(page, &run, without))
     };
     let joints = html! {
-        @if !page.model.gaps.is_empty() { (joints::joints(page, &run, without)) }
+        @if !page.model.gaps.is_empty() { (joints::joints(page)) }
     };
     let parts = [
         ("warnings", page::warnings(page)),

@@ -1,9 +1,6 @@
 //! The smallest gap without pounding, by bracketing on the response, compared with rules and codes.
 
-use jostle::separation::{
-    Code, CodeInputs, Neighbours, Place, Requirement, Requirements, Side, ddc_coefficient,
-    floors_are_level, peak_at_height, required_gaps,
-};
+use jostle::separation::{Code, CodeInputs, Requirement};
 use jostle::{GroundMotion, Model, Pounding};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -365,28 +362,10 @@ impl Search<'_> {
         };
         let bracket = one.bracket(settings.tolerance)?;
         // A wall has no period, and so no double difference.
-        let neighbours = self
-            .model
-            .buildings_beside(self.model.gaps[gap].between)
-            .map(|side| side.map(|building| &apart.system.buildings[building]));
-        let periods = neighbours.map(|building| {
-            let first = building.and_then(|building| building.lateral_modes().next());
-            first.map_or(0.0, jostle::eigen::Mode::period)
-        });
-        let damping = [0, 1].map(|side| {
-            let omega = std::f64::consts::TAU / periods[side];
-            neighbours[side].map_or(0.0, |building| {
-                let equations = &building.equations;
-                let rayleigh = 0.5 * (equations.alpha / omega + equations.beta * omega);
-                building.foundation.map_or(rayleigh, |own| own.damping)
-            })
-        });
-        let usable = periods
-            .iter()
-            .chain(&damping)
-            .all(|x| *x > 0.0 && x.is_finite());
-        let rho = usable.then(|| ddc_coefficient(periods, damping));
-        let required = self.required(gap, &own, apart, rho, settings);
+        let modes = apart.summary.first_modes(self.model, gap);
+        let required = apart
+            .summary
+            .required_gaps(self.model, gap, &settings.codes);
         let mut rules: Vec<RuleGap> = required.rules.into_iter().map(rule_gap).collect();
         for rule in &mut rules {
             rule.ratio = (bracket.free > 0.0).then(|| rule.gap_m / bracket.free);
@@ -410,9 +389,9 @@ impl Search<'_> {
             closing_without_contact_m: closing,
             height_m: apart.system.contacts[nearest].height,
             runs: one.runs(),
-            periods_s: periods,
-            damping,
-            ddc_correlation: rho,
+            periods_s: modes.map(|mode| mode.map_or(0.0, |(period, _)| period)),
+            damping: modes.map(|mode| mode.map_or(0.0, |(_, damping)| damping)),
+            ddc_correlation: apart.summary.correlation(self.model, gap),
             rules,
             left_out: required
                 .left_out
@@ -424,46 +403,6 @@ impl Search<'_> {
                 .collect(),
             curve,
         })
-    }
-
-    fn required(
-        &self,
-        gap: usize,
-        own: &[usize],
-        apart: &Tried,
-        rho: Option<f64>,
-        settings: &GapSettings,
-    ) -> Requirements {
-        let places = own.iter().map(|&contact| {
-            let contact = &apart.system.contacts[contact];
-            let peaks = contact.ports.buildings().map(|building| {
-                building.map_or(0.0, |building| peak_at(apart, building, contact.height))
-            });
-            Place {
-                height: contact.height,
-                peaks,
-            }
-        });
-        let of_gap = &self.model.gaps[gap];
-        let sides = self.model.buildings_beside(of_gap.between).map(|building| {
-            let building = building?;
-            let assembled = &apart.system.buildings[building];
-            Some(Side {
-                building,
-                name: assembled.name.clone(),
-                height: assembled.floors.last().map_or(0.0, |floor| floor.height),
-                storeys: assembled.floors.len(),
-                yields: !assembled.equations.springs.is_empty(),
-            })
-        });
-        let neighbours = Neighbours {
-            sides,
-            places: places.collect(),
-            floors_are_level: floors_are_level(self.model, of_gap),
-            correlation: rho,
-            peak_ground_acceleration: self.motion.peak(),
-        };
-        required_gaps(&neighbours, &settings.codes)
     }
 }
 
@@ -486,21 +425,6 @@ fn rule_gap(required: Requirement) -> RuleGap {
 struct Bracket {
     free: f64,
     pounding: Option<f64>,
-}
-
-/// Greatest displacement of a building at a height, in either direction; between floors by linear interpolation.
-fn peak_at(run: &Tried, building: usize, height: f64) -> f64 {
-    let Some(own) = run.summary.buildings.get(building) else {
-        // Walls follow the buildings.
-        let peaks = run.outcome.supports.get(building);
-        return peaks.map_or(0.0, |peaks| {
-            let [max, min] = [peaks.displacement_max, peaks.displacement_min];
-            max.value.max(-min.value)
-        });
-    };
-    let floors = own.floors.mat.iter().chain(&own.floors.above);
-    let peaks = floors.map(|floor| (floor.height_m, floor.response.displacement_peak_m()));
-    peak_at_height(peaks, height)
 }
 
 #[cfg(test)]

@@ -8,7 +8,8 @@ use jostle::results::response::FloorResponse;
 use jostle::results::summary::{
     BuildingSummary, ContactSummary, ExceededSummary, GapSummary, LinkSummary, Summary,
 };
-use jostle::separation::gb50011_frame_joint;
+use jostle::separation::{Code, Requirement, Requirements};
+use jostle_io::Input;
 
 use crate::floor_spectra_text::write_floor_spectra;
 use crate::numbers::{counted, counted_grouped, grouped, kn, mm};
@@ -21,20 +22,25 @@ const WALL: &str = "wall";
 
 /// The summary of a run on one screen, as `jostle run` prints it, without colours.
 #[must_use]
-pub fn summary_text(summary: &Summary) -> String {
-    anstream::adapter::strip_str(&describe_summary(summary, None)).to_string()
+pub fn summary_text(summary: &Summary, input: &Input) -> String {
+    anstream::adapter::strip_str(&describe_summary(summary, input, None)).to_string()
 }
 
 /// The summary of a run on one screen, with styles; `result` is the file to open next.
 #[must_use]
-pub fn describe_summary(summary: &Summary, result: Option<&Path>) -> String {
+pub fn describe_summary(summary: &Summary, input: &Input, result: Option<&Path>) -> String {
     let mut text = String::new();
     // Writing to a string cannot fail.
-    let _ = write_all(&mut text, summary, result);
+    let _ = write_all(&mut text, summary, input, result);
     text
 }
 
-fn write_all(text: &mut String, summary: &Summary, result: Option<&Path>) -> std::fmt::Result {
+fn write_all(
+    text: &mut String,
+    summary: &Summary,
+    input: &Input,
+    result: Option<&Path>,
+) -> std::fmt::Result {
     let motion = &summary.motion;
     writeln!(text, "{}", styled(BOLD, &summary.title))?;
     let reversed = if motion.scale < 0.0 { ", reversed" } else { "" };
@@ -60,8 +66,9 @@ fn write_all(text: &mut String, summary: &Summary, result: Option<&Path>) -> std
     write_hinges(text, &summary.buildings)?;
     write_shear_failures(text, &summary.buildings)?;
     write_capacity(text, &summary.buildings)?;
-    for gap in &summary.gaps {
-        write_gap(text, gap, summary)?;
+    for (index, gap) in summary.gaps.iter().enumerate() {
+        let required = summary.required_gaps(&input.model, index, &input.codes);
+        write_gap(text, gap, summary, &required)?;
     }
     if let Some(spread) = &summary.contact_sensitivity {
         write_spread(text, spread)?;
@@ -465,7 +472,12 @@ fn write_friction(text: &mut String, gap: &GapSummary) -> std::fmt::Result {
     Ok(())
 }
 
-fn write_gap(text: &mut String, gap: &GapSummary, summary: &Summary) -> std::fmt::Result {
+fn write_gap(
+    text: &mut String,
+    gap: &GapSummary,
+    summary: &Summary,
+    required: &Requirements,
+) -> std::fmt::Result {
     let [left, right] = &gap.between;
     let verdict = match gap.first_impact_s {
         Some(first) => format!(
@@ -544,7 +556,10 @@ fn write_gap(text: &mut String, gap: &GapSummary, summary: &Summary) -> std::fmt
             mm(closing)
         )?;
     }
-    write_code_joint(text, gap, summary)
+    let floors = summary.buildings.iter().flat_map(|own| own.floors.iter());
+    let mut floors = floors.map(|floor| floor.without_contact.is_some());
+    let has_impacts = gap.impact_count > 0 && !floors.all(|is_known| is_known);
+    write_codes(text, required, has_impacts)
 }
 
 fn write_spread(text: &mut String, spread: &ContactSensitivity) -> std::fmt::Result {
@@ -608,28 +623,64 @@ fn write_link(text: &mut String, link: &LinkSummary) -> std::fmt::Result {
     )
 }
 
-/// The gap required by a code, compared with the result.
-fn write_code_joint(text: &mut String, gap: &GapSummary, summary: &Summary) -> std::fmt::Result {
-    let height = |name: &String| {
-        let building = summary
-            .buildings
-            .iter()
-            .find(|building| building.name == *name)?;
-        building.floors.last().map(|roof| roof.height_m)
-    };
-    let [Some(left), Some(right)] = gap.between.each_ref().map(height) else {
-        return Ok(());
-    };
-    let lower = left.min(right);
-    let joints: Vec<String> = (6..=9)
-        .filter_map(|i| gb50011_frame_joint(lower, i))
-        .map(|joint| format!("{:.0}", joint * 1e3))
+/// The gaps that codes require, by the same rules as `jostle gap` and the report.
+fn write_codes(text: &mut String, required: &Requirements, has_impacts: bool) -> std::fmt::Result {
+    // GB 50011 has one width for each intensity.
+    let (of_intensity, others): (Vec<&Requirement>, Vec<&Requirement>) = required
+        .rules
+        .iter()
+        .filter(|rule| rule.code.is_some())
+        .partition(|rule| rule.code == Some(Code::Gb50011));
+    let mut widths: Vec<String> = others
+        .iter()
+        .map(|rule| format!("{} {:.0}", rule.name, rule.width * 1e3))
         .collect();
-    writeln!(
-        text,
-        "  GB 50011 requires {} mm at intensity 6 / 7 / 8 / 9 for frames {lower:.1} m high.",
-        joints.join(" / ")
-    )
+    if !of_intensity.is_empty() {
+        let joints = of_intensity.iter();
+        let joints = joints.map(|rule| format!("{:.0}", rule.width * 1e3));
+        let joints: Vec<String> = joints.collect();
+        let joints = format!("GB 50011 {} (intensity 6 to 9)", joints.join(" / "));
+        widths.insert(0, joints);
+    }
+    if !widths.is_empty() {
+        let from = if has_impacts {
+            ", from displacements with impacts"
+        } else {
+            ""
+        };
+        write_list(text, &format!("  Codes require{from} [mm]: "), &widths)?;
+    }
+    let left_out: Vec<String> = required
+        .left_out
+        .iter()
+        .map(|rule| format!("{} needs {}", rule.name, rule.needs))
+        .collect();
+    if !left_out.is_empty() {
+        write_list(text, "  Left out: ", &left_out)?;
+    }
+    Ok(())
+}
+
+/// Widest line of a list \[characters\].
+const WIDTH: usize = 110;
+
+/// A list between commas, in lines that begin below each other.
+fn write_list(text: &mut String, heading: &str, items: &[String]) -> std::fmt::Result {
+    let mut line = heading.to_owned();
+    for (index, item) in items.iter().enumerate() {
+        let item = match index + 1 == items.len() {
+            true => format!("{item}."),
+            false => format!("{item}, "),
+        };
+        if line.trim_end() != heading.trim_end()
+            && line.chars().count() + item.chars().count() > WIDTH
+        {
+            writeln!(text, "{}", line.trim_end())?;
+            line = "    ".to_owned();
+        }
+        line += &item;
+    }
+    writeln!(text, "{line}")
 }
 
 #[cfg(test)]

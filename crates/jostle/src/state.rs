@@ -216,16 +216,20 @@ impl State {
 pub(crate) type BearingForces = [f64; 3];
 
 impl BuildingSystem {
-    /// Elastic and hysteretic base shear, positive when the building leans to the right \[N\].
+    /// Base shear of springs and of links to the base, positive when the building leans to the right; `links`: forces of the
+    /// links of the system \[N\].
     #[must_use]
-    pub fn base_shear(&self, state: &State) -> f64 {
+    pub fn base_shear(&self, state: &State, links: &[f64]) -> f64 {
         let elastic = self.equations.base_shear(&state.displacement[self.range()]);
         let springs = self.equations.springs.iter();
         let yielding = springs
             .zip(&state.springs[self.spring_range()])
             .filter(|(spring, _)| spring.carries_base_shear)
             .map(|(_, memory)| memory.force());
-        elastic + yielding.sum::<f64>()
+        // What a link between two floors presses on one it presses on the other.
+        let inner = self.inner_links.iter();
+        let inner = inner.map(|own| own.of_base() * links[own.link]);
+        elastic + yielding.sum::<f64>() + inner.sum::<f64>()
     }
 
     /// Force of bearings, or of the spring and dashpot of a wall, on the ground, positive when the mat or the wall is to the
@@ -328,11 +332,18 @@ impl BuildingSystem {
         }
     }
 
-    /// Calls `take` with every storey, from the top down, its shear \[N\] and overturning moment \[N·m\].
-    pub fn storey_forces(&self, state: &State, take: impl FnMut(usize, StoreyForce)) {
+    /// Calls `take` with every storey, from the top down, its shear \[N\] and overturning moment \[N·m\]; `links`: forces of
+    /// the links of the system \[N\].
+    pub fn storey_forces(
+        &self,
+        state: &State,
+        links: &[f64],
+        take: impl FnMut(usize, StoreyForce),
+    ) {
         let springs = &state.springs[self.spring_range()];
         let force = |spring: usize| springs[spring].force();
+        let link = |own: usize| links[self.inner_links[own].link];
         self.storeys
-            .for_each(&state.displacement[self.range()], force, take);
+            .for_each(&state.displacement[self.range()], force, link, take);
     }
 }

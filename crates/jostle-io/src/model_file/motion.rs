@@ -366,9 +366,15 @@ fn scaling(reader: &mut Reader<'_>, view: &View<'_>, base: &Path) -> Scaling {
         }
     }
     let [pga, scale, wanted] = given;
-    let factor = scale
-        .and_then(|field| reader.quantity(&field, Dimension::Dimensionless))
-        .map(Scaling::Factor);
+    let factor = scale.and_then(|field| {
+        let factor = reader.quantity(&field, Dimension::Dimensionless)?;
+        if factor == 0.0 {
+            *reader.bad(&field, "must not be 0, with which nothing shakes") =
+                Some("give a factor other than 0, or leave scale out".into());
+            return None;
+        }
+        Some(Scaling::Factor(factor))
+    });
     let peak = pga
         .and_then(|field| reader.positive(&field, Dimension::Acceleration))
         .map(Scaling::Pga);

@@ -153,10 +153,15 @@ impl GroundsSpec {
             })),
         }
         .resolve()?;
-        // Records of one event keep their ratio, and a share of the common motion is a share.
-        match (&own.scaling, &own.source) {
-            (Scaling::AsRecorded, _) | (Scaling::Factor(_), None) => motion.scale *= common.scale,
-            _ => {}
+        // Records of one event keep their ratio, and a share of the common motion is a share; what states an amplitude or a
+        // scaling of its own keeps it.
+        let follows = match (&own.scaling, &own.source) {
+            (Scaling::AsRecorded | Scaling::Factor(_), None) => true,
+            (Scaling::AsRecorded, Some(source)) => !source.states_its_size(),
+            (Scaling::Factor(_) | Scaling::Pga(_) | Scaling::Match(_), _) => false,
+        };
+        if follows {
+            motion.scale *= common.scale;
         }
         Ok(motion)
     }

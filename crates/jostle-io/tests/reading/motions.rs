@@ -42,6 +42,16 @@ fn every_built_in_motion_can_be_had() {
 }
 
 #[test]
+fn a_factor_of_zero_is_refused() {
+    let error = motion_of("record = \"el-centro-1940-ns\"\nscale = 0", Path::new(""));
+    let error = error.expect_err("nothing would shake");
+    assert!(
+        error.contains("motion.scale: must not be 0, with which nothing shakes"),
+        "{error}"
+    );
+}
+
+#[test]
 fn a_motion_is_scaled_to_a_spectrum() {
     let gb = "spectrum = { code = \"gb50011\", intensity = 7.5, site = \"II\", group = 1, level = \"rare\" }";
     let record = "record = \"el-centro-1940-ns\"\nmatch = ";

@@ -169,6 +169,28 @@ across = "el-centro-1940-ns"
     assert!(a.abs() > 0.01);
 }
 
+/// A motion that states an amplitude or a scaling keeps it; a record without one has the factor of the motion beside it.
+#[test]
+fn what_states_its_size_keeps_it() {
+    let peak_across = |across: &str| {
+        let text = format!(
+            "[motion]\nrecord = \"el-centro-1940-ns\"\nscale = 1.1\nacross = {across}\n{A}"
+        );
+        let motion = read(&text).expect("sound").ground_motion().expect("one");
+        motion.across().expect("a motion across").peak()
+    };
+    let sine = "kind = \"sine\", amplitude = \"1.2 m/s2\", period = \"0.5 s\"";
+    assert!((peak_across(&format!("{{ {sine} }}")) - 1.2).abs() < 1e-3);
+    assert!((peak_across(&format!("{{ {sine}, scale = 2 }}")) - 2.4).abs() < 2e-3);
+    let ricker =
+        "{ kind = \"ricker\", amplitude = \"1.2 m/s2\", period = \"0.5 s\", centre = \"1 s\" }";
+    assert!((peak_across(ricker) - 1.2).abs() < 1e-3);
+    let record = "record = \"el-centro-1940-ns\"";
+    assert!((peak_across(&format!("{{ {record}, pga = \"1 m/s2\" }}")) - 1.0).abs() < 1e-9);
+    let whole = peak_across(&format!("{{ {record}, scale = 1 }}"));
+    assert!((peak_across(&format!("{{ {record} }}")) / whole - 1.1).abs() < 1e-9);
+}
+
 #[test]
 fn stiffness_per_length_follows_the_overlap() {
     let gap = "[[gap]]\nbetween = [\"A\", \"B\"]\nwidth = \"20 mm\"\nlaw = \"linear\"\nstiffness_per_length = \"20 MN/m/m\"\npoints = 3\n";

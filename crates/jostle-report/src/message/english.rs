@@ -330,7 +330,7 @@ messages! {
     clause = "clause";
     inputs = "inputs";
     distance_from_the_property_line = "distance from the property line";
-    is_left_out_it_needs(name, needs) = "{name} is left out: it needs {needs} in";
+    is_left_out_it_needs(name, needs) = "{name} is left out: it needs {needs}.";
     peak_closing = "peak closing";
     smallest_gap_without_pounding = "smallest gap without pounding";
 

@@ -128,7 +128,7 @@ fn written(ran: &Ran, name: &str) -> (String, Vec<String>) {
 fn a_run_says_which_member_goes_first() {
     let ran = run("", "members = true");
     let summary = ran.summary();
-    let text = summary_text(&summary);
+    let text = summary_text(&summary, &ran.prepared.input);
     let lines: Vec<&str> = text
         .lines()
         .filter(|line| line.contains("capacity"))
@@ -239,7 +239,7 @@ fn a_run_says_which_member_goes_first() {
 fn nothing_is_said_unless_asked_for() {
     let ran = run("", "members = false");
     let summary = ran.summary();
-    assert!(!summary_text(&summary).contains("capacity"));
+    assert!(!summary_text(&summary, &ran.prepared.input).contains("capacity"));
     let json = summary_json(&summary);
     assert!(!json.contains("\"ratio\"") && !json.contains("\"capacity\""));
 }

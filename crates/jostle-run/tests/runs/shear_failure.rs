@@ -64,7 +64,7 @@ fn failures_are_reported_with_their_impacts() {
         let mut known = known.filter(|known| known.start_s == impact.start_s);
         assert!(known.any(|known| (known.start_s..=known.end_s).contains(&own.failed_s)));
     }
-    let text = summary_text(&summary);
+    let text = summary_text(&summary, &ran.prepared.input);
     assert!(text.contains("fails in shear in "), "{text}");
     let json: serde_json::Value = serde_json::from_str(&summary_json(&summary)).expect("JSON");
     let own = &json["buildings"][0]["shear_failures"];

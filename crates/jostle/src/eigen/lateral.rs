@@ -1,10 +1,11 @@
 //! Modes excited by horizontal ground motion, by Lanczos' method.
 
 use super::{LATERAL_SHARE, Mode, tridiagonal};
+use crate::linear::full_matrix::{FullMatrix, PivotedLu};
 use crate::linear::{NotPositive, StepMatrix};
 use crate::simd::{add, dot};
-use crate::structure::AssembledBuilding;
 use crate::structure::StepEquations;
+use crate::structure::{AssembledBuilding, InnerLink};
 use crate::transfer::riccati::{RiccatiFactor, RiccatiScratch, RiccatiSweep};
 
 /// Residual, relative to the eigenvalue, below which a mode counts as found; its frequency is then exact to rounding.
@@ -102,6 +103,70 @@ pub(super) struct Flexibility<'a> {
     root: Vec<f64>,
     full: Vec<f64>,
     scratch: RiccatiScratch,
+    links: LinkSprings,
+}
+
+/// Springs of links between floors: (K + R S Rᵀ)⁻¹ = K⁻¹ − K⁻¹R (S⁻¹ + Rᵀ K⁻¹R)⁻¹ Rᵀ K⁻¹ (Sherman, Morrison and Woodbury; G. H.
+/// Golub, C. F. Van Loan, Matrix Computations, section 2.1.4).
+#[derive(Default)]
+struct LinkSprings {
+    /// Columns of R: degree of freedom and coefficient.
+    shortenings: Vec<Vec<(usize, f64)>>,
+    /// Columns of K⁻¹ R.
+    displaced: Vec<Vec<f64>>,
+    /// S⁻¹ + Rᵀ K⁻¹ R.
+    flexibility: PivotedLu,
+    shortened: Vec<f64>,
+    forces: Vec<f64>,
+}
+
+impl LinkSprings {
+    /// `solve` replaces a load by the displacement without links.
+    fn new(building: &AssembledBuilding, mut solve: impl FnMut(&mut [f64])) -> Self {
+        let links = building.inner_links.iter();
+        let links: Vec<&InnerLink> = links.filter(|link| link.stiffness > 0.0).collect();
+        let displaced: Vec<Vec<f64>> = links
+            .iter()
+            .map(|link| {
+                let mut load = vec![0.0; building.equations.len()];
+                for (dof, share) in &link.shortening {
+                    load[*dof] += share;
+                }
+                solve(&mut load);
+                load
+            })
+            .collect();
+        let mut flexibility = FullMatrix::zeros(links.len(), links.len());
+        for (row, link) in links.iter().enumerate() {
+            for (column, displaced) in displaced.iter().enumerate() {
+                flexibility[(row, column)] = link.shortened_by(displaced);
+            }
+            flexibility[(row, row)] += 1.0 / link.stiffness;
+        }
+        Self {
+            shortened: vec![0.0; links.len()],
+            forces: Vec::with_capacity(links.len()),
+            shortenings: links.iter().map(|link| link.shortening.clone()).collect(),
+            displaced,
+            flexibility: PivotedLu::new(flexibility),
+        }
+    }
+
+    /// From the displacement without links to that with them.
+    fn stiffen(&mut self, displacement: &mut [f64]) {
+        if self.shortened.is_empty() {
+            return;
+        }
+        for (shortened, shortening) in self.shortened.iter_mut().zip(&self.shortenings) {
+            let entries = shortening.iter();
+            *shortened = entries.map(|(dof, share)| share * displacement[*dof]).sum();
+        }
+        self.flexibility
+            .solve_into(&self.shortened, &mut self.forces);
+        for (force, displaced) in self.forces.iter().zip(&self.displaced) {
+            add(displacement, -force, displaced);
+        }
+    }
 }
 
 impl<'a> Flexibility<'a> {
@@ -117,13 +182,18 @@ impl<'a> Flexibility<'a> {
             &mut factor,
         )?;
         let massive: Vec<usize> = (0..mass.len()).filter(|&dof| mass[dof] > 0.0).collect();
+        let mut scratch = RiccatiScratch::default();
+        let links = LinkSprings::new(building, |load| {
+            sweep.solve(&factor, load, &mut scratch);
+        });
         Ok(Self {
+            links,
             root: massive.iter().map(|&dof| mass[dof].sqrt()).collect(),
             sweep,
             factor,
             massive,
             full: vec![0.0; mass.len()],
-            scratch: RiccatiScratch::default(),
+            scratch,
         })
     }
 
@@ -140,6 +210,7 @@ impl<'a> Flexibility<'a> {
         }
         self.sweep
             .solve(&self.factor, &mut self.full, &mut self.scratch);
+        self.links.stiffen(&mut self.full);
         &self.full
     }
 

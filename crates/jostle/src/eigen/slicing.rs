@@ -1,7 +1,7 @@
 //! Modes by dividing the spectrum: counting isolates them, inverse iteration finds their shapes.
 
 use super::spectrum::{Spectrum, number_of_modes};
-use super::{Mode, inner, symmetric};
+use super::{Mode, inner, modes_dense, symmetric};
 use crate::linear::NotPositive;
 use crate::simd::add;
 use crate::structure::AssembledBuilding;
@@ -34,6 +34,15 @@ const EQUAL: f64 = 1e-10;
 /// # Errors
 /// [`NotPositive`] when the building can move without deforming.
 pub fn modes(building: &AssembledBuilding, count: usize) -> Result<Vec<Mode>, NotPositive> {
+    // Pivots are those of the building without links between its floors.
+    if building.inner_links.iter().any(|link| link.stiffness > 0.0) {
+        let mut modes = modes_dense(building, |lower| {
+            let (values, vectors) = symmetric::eigen(lower);
+            Some(values.into_iter().zip(vectors).collect())
+        })?;
+        modes.truncate(count);
+        return Ok(modes);
+    }
     let mut search = Search {
         mass: &building.equations.mass,
         spectrum: Spectrum::new(building)?,

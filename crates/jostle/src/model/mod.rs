@@ -503,6 +503,23 @@ impl Link {
     pub fn is_inside(&self) -> bool {
         matches!(self.between, [Some(one), Some(other)] if one == other)
     }
+
+    /// Stiffness against a small static change of length from rest; 0 of dashpots, and of springs behind a gap or a slack
+    /// \[N/m\].
+    #[must_use]
+    pub fn initial_stiffness(&self) -> f64 {
+        match &self.law {
+            LinkLaw::Linear => self.stiffness,
+            LinkLaw::Friction {
+                stick_stiffness, ..
+            } => *stick_stiffness,
+            LinkLaw::Yielding(hysteresis) => hysteresis.initial_tangent(),
+            LinkLaw::Viscous { .. }
+            | LinkLaw::Maxwell
+            | LinkLaw::Cable { .. }
+            | LinkLaw::Stopper { .. } => 0.0,
+        }
+    }
 }
 
 /// Standard gravity \[m/s²\].

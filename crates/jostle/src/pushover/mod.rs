@@ -276,6 +276,11 @@ pub enum CannotPush {
         "bearings under a building with a plan that yield or slide in every direction, and their ring stop, have no pushover; remove isolation to push the building fixed on its mat, or take kind = \"linear\" without stop"
     )]
     BearingsInPlan,
+    /// Braces and infills that are links between floors are no part of the path of equilibrium.
+    #[error(
+        "springs of links between its floors take part of the load, and a pushover does not follow them; add their stiffness to the storeys or members, or remove the links to push the building without them"
+    )]
+    LinksBetweenFloors,
 }
 
 /// Runs a pushover of a building from rest, under self weight if included, with prescribed roof displacement
@@ -287,6 +292,9 @@ pub fn pushover(building: &BuildingSystem, settings: PushSettings) -> Result<Pus
     let equations = &building.equations;
     if equations.single_springs < equations.springs.len() {
         return Err(CannotPush::BearingsInPlan);
+    }
+    if building.inner_links.iter().any(|link| link.resists) {
+        return Err(CannotPush::LinksBetweenFloors);
     }
     if let Some(alone) = building.without_neighbours() {
         return pushover(&alone, settings);

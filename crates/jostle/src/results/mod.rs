@@ -12,6 +12,7 @@ pub mod in_plan;
 mod isolation;
 mod members;
 pub mod registry;
+mod required;
 pub mod response;
 mod shear_failure;
 mod summarise;

@@ -132,14 +132,16 @@ pub const IRAN2800_MOST_STOREYS: usize = 8;
 
 /// Iranian Standard 2800, 4th edition, §1-4-1: distance of a floor from the line of its lot \[m\].
 ///
-/// 0.005 of its `height` above the base for buildings of up to eight storeys; for higher ones, and for those of high and
-/// very high importance, the inelastic `displacement` of the design earthquake.
+/// 0.005 of its `height` above the base for buildings of up to eight storeys; for higher ones the inelastic `displacement` of
+/// the design earthquake. Buildings of high and very high importance keep that displacement too, and here never less than
+/// an ordinary building of as many storeys.
 #[must_use]
 pub fn iran2800_setback(height: f64, storeys: usize, is_important: bool, displacement: f64) -> f64 {
-    if storeys <= IRAN2800_MOST_STOREYS && !is_important {
-        0.005 * height
-    } else {
-        displacement.abs()
+    let of_height = 0.005 * height;
+    match (storeys <= IRAN2800_MOST_STOREYS, is_important) {
+        (true, false) => of_height,
+        (true, true) => displacement.abs().max(of_height),
+        (false, _) => displacement.abs(),
     }
 }
 

@@ -260,6 +260,7 @@ impl Recorder {
             state,
             grounds,
             ground: all,
+            links,
             ..
         } = *instant;
         let (u, v) = (&state.displacement, &state.velocity);
@@ -295,12 +296,12 @@ impl Recorder {
                 below = now.0;
             }
             let floors = &mut self.floors[index];
-            building.storey_forces(state, |storey, force| {
+            building.storey_forces(state, links, |storey, force| {
                 let peaks = &mut floors[storey];
                 peaks.storey_shear = peaks.storey_shear.max(force.shear.abs());
                 peaks.overturning_moment = peaks.overturning_moment.max(force.moment.abs());
             });
-            let shear = building.base_shear(state);
+            let shear = building.base_shear(state, links);
             self.base_shear[index] = self.base_shear[index].max(shear.abs());
         }
         self.corners.after_step(system, state, start, step);

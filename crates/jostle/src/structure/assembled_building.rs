@@ -1,6 +1,6 @@
 //! A building on its own, assembled.
 
-use super::{Discretization, Equations, StoreyForces};
+use super::{Discretization, Equations, InnerLink, StoreyForces};
 
 /// Masses, elements and matrices of one building, before it stands in a row.
 #[derive(Clone, Debug)]
@@ -13,6 +13,8 @@ pub struct AssembledBuilding {
     pub equations: Equations,
     /// How storey shears and overturning moments follow from displacements.
     pub storeys: StoreyForces,
+    /// Links between its floors.
+    pub inner_links: Vec<InnerLink>,
     /// Degree of freedom of every floor in the vectors of this building, from the ground up; floors that cannot move
     /// are left out.
     pub floor_dofs: Vec<usize>,
@@ -41,7 +43,25 @@ impl AssembledBuilding {
             discretization,
             equations,
             storeys,
+            inner_links: Vec::new(),
             floor_dofs,
         }
+    }
+
+    /// Base shear of its elastic parts and of the springs of links to its base, for a displacement of an elastic building \[N\].
+    #[must_use]
+    pub fn elastic_base_shear(&self, displacement: &[f64]) -> f64 {
+        let links = self.inner_links.iter();
+        let links =
+            links.map(|link| link.of_base() * link.stiffness * link.shortened_by(displacement));
+        self.equations.base_shear(displacement) + links.sum::<f64>()
+    }
+
+    /// Adds links between its floors to its storey forces.
+    pub(crate) fn link(&mut self, links: Vec<InnerLink>) {
+        for (index, link) in links.iter().enumerate() {
+            self.storeys.add_link(index, &link.ends);
+        }
+        self.inner_links = links;
     }
 }

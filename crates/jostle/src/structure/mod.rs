@@ -5,6 +5,7 @@ mod discretization;
 pub(crate) mod element;
 mod equations;
 mod foundation;
+mod inner_link;
 mod member_end;
 mod member_forces;
 mod path;
@@ -25,6 +26,7 @@ mod tiers;
 pub use assembled_building::AssembledBuilding;
 pub use discretization::{Discretization, Mat};
 pub use equations::{Equations, YieldingSpring};
+pub use inner_link::InnerLink;
 pub(crate) use member_end::{ductility, end_stiffnesses};
 pub(crate) use member_forces::Motion;
 pub use member_forces::{

@@ -8,8 +8,8 @@ use crate::structure::element::{self, Part, THETA, X, Y};
 
 /// Storey forces as linear forms of displacements.
 ///
-/// The storey shear is the sum of the horizontal restoring forces (rows x of (K + K′) u, and of springs that yield)
-/// of all nodes above the base of the storey, positive when the building leans to the right. The overturning moment
+/// The storey shear is the sum of the horizontal restoring forces (rows x of (K + K′) u, of springs that yield, and of links
+/// between floors) of all nodes above the base of the storey, positive when the building leans to the right. The overturning moment
 /// is the moment of the same forces about the base of the storey. Vertical forces are not included. (A. K. Chopra,
 /// Dynamics of Structures, sections 9.4.4 and 13.2.)
 #[derive(Clone, Debug, Default)]
@@ -29,6 +29,8 @@ struct Storey {
     of_displacements: Vec<(usize, [f64; 2])>,
     /// Spring that yields, and the contribution of its force \[–, m\].
     of_springs: Vec<(usize, [f64; 2])>,
+    /// Link between floors, among those of the building, and the contribution of its compression \[–, m\].
+    of_links: Vec<(usize, [f64; 2])>,
 }
 
 /// Forces of a storey.
@@ -161,6 +163,22 @@ impl StoreyForces {
         all
     }
 
+    /// Adds a link between floors of a building in one plane; `ends`: heights \[m\], and how its compression counts there.
+    pub(crate) fn add_link(&mut self, link: usize, ends: &[(f64, f64)]) {
+        let mut top = 0.0;
+        let storeys = self.storeys[..self.per_direction].iter();
+        let tops = storeys.map(|storey| {
+            top += storey.height;
+            top
+        });
+        let tops: Vec<f64> = tops.collect();
+        for (height, sign) in ends {
+            if let Some((storey, arm)) = self.arm(&tops, *height) {
+                storey.of_links.push((link, [*sign, sign * arm]));
+            }
+        }
+    }
+
     /// The storey of a node, and its height above the base of the storey \[m\]; `None` at the ground.
     fn arm(&mut self, tops: &[f64], height: f64) -> Option<(&mut Storey, f64)> {
         if height <= LEVEL_TOLERANCE {
@@ -185,11 +203,12 @@ impl StoreyForces {
     }
 
     /// Calls `take` with every storey, from the top down, direction by direction for a building in plan, and its forces, for displacements of the building \[m,
-    /// rad\] and forces of its springs that yield \[N\].
+    /// rad\], forces of its springs that yield and of the links between its floors \[N\].
     pub fn for_each(
         &self,
         displacement: &[f64],
         spring: impl Fn(usize) -> f64,
+        link: impl Fn(usize) -> f64,
         mut take: impl FnMut(usize, StoreyForce),
     ) {
         let mut above = StoreyForce::default();
@@ -210,6 +229,9 @@ impl StoreyForces {
             }
             for (index, share) in &storey.of_springs {
                 add(*share, spring(*index));
+            }
+            for (index, share) in &storey.of_links {
+                add(*share, link(*index));
             }
             take(index, own);
             above = own;

@@ -9,10 +9,10 @@ use crate::interface::{
     PushedFloor, Row, faces_of_gap, narrowest, sticking_stiffness, unique_below,
 };
 use crate::model::{
-    Base, Building, Damping, FloorPairs, Level, Link, LumpedFloor, Model, ModelFault, PlanPoint,
-    Structure,
+    Base, Building, Damping, FloorPairs, LEVEL_TOLERANCE, Level, Link, LinkLaw, LumpedFloor, Model,
+    ModelFault, PlanPoint, Structure,
 };
-use crate::structure::{Discretization, Support};
+use crate::structure::{Discretization, InnerLink, Support};
 
 impl System {
     /// Assembles a model.
@@ -32,8 +32,10 @@ impl System {
             let number = foundations.len();
             let on_soil = building.base.foundation.zip(Ground::of(model, number));
             let damping = match (building.base.isolation, &on_soil) {
-                (Some(_), _) => fixed(building, points, true).map(|fixed| (rayleigh(&fixed), None)),
-                (None, Some((foundation, ground))) => fixed(building, points, false)
+                (Some(_), _) => {
+                    fixed(model, index, points, true).map(|fixed| (rayleigh(&fixed), None))
+                }
+                (None, Some((foundation, ground))) => fixed(model, index, points, false)
                     .and_then(|fixed| Founded::new(building, &fixed, points, foundation, ground))
                     .map(|founded| (founded.damping.clone(), Some((founded, *foundation)))),
                 (None, None) => Ok((building.damping.clone(), None)),
@@ -63,6 +65,15 @@ impl System {
                 continue;
             }
             assembled.weaken_with_ductility(building);
+            // Modes and damping are those with the links between its floors.
+            match inner_links(&assembled, model, index) {
+                Ok(links) if founded.is_none() => assembled.link(links),
+                Ok(_) => {}
+                Err(mut found) => {
+                    faults.append(&mut found);
+                    continue;
+                }
+            }
             if let Some(fault) = finite::of_building(index, building, &assembled) {
                 faults.push(fault);
                 continue;
@@ -80,6 +91,8 @@ impl System {
             }
             if let Some((founded, foundation)) = &founded {
                 assembled.foundation = founded.place(&assembled, *foundation);
+                // Only now what the foundation turns can be taken out of their shortening.
+                assembled.link(inner_links(&assembled, model, index)?);
                 foundations.extend(assembled.foundation.map(|place| (index, place)));
             }
             buildings.push(assembled);
@@ -192,6 +205,7 @@ impl System {
             contacts.sort_by(|a, b| a.height.total_cmp(&b.height));
             self.contacts.extend(contacts);
         }
+        let mut joined_inside = vec![0; self.buildings.len()];
         for (index, (link, joined)) in model.links.iter().zip(&row.links).enumerate() {
             let mut pairs = joined.pairs.clone();
             pairs.sort_by(|a, b| mean(a).total_cmp(&mean(b)));
@@ -215,6 +229,14 @@ impl System {
                             law: link.law,
                             closing_at_rest: closing_at_rest(self, &ports),
                         };
+                        if let (true, Some(building)) = (inside, link.between[0]) {
+                            let own = self.buildings[building].structure.inner_links.iter_mut();
+                            let next = own.skip(joined_inside[building]).next();
+                            joined_inside[building] += 1;
+                            if let Some(next) = next {
+                                next.link = self.links.len();
+                            }
+                        }
                         self.links.push(element);
                     }
                     Err(problem) => faults.push(ModelFault {
@@ -248,19 +270,22 @@ impl System {
 /// # Errors
 /// The field of the building, and what is wrong with it.
 fn fixed(
-    building: &Building,
+    model: &Model,
+    index: usize,
     points: [&[f64]; 2],
     on_mat: bool,
 ) -> Result<BuildingSystem, (&'static str, String)> {
     let fixed = Building {
         base: Base::default(),
-        ..building.clone()
+        ..model.buildings[index].clone()
     };
     let mut assembled =
         BuildingSystem::new(&fixed.name, Discretization::with_points(&fixed, points));
     assembled
         .put_under_gravity(fixed.gravity)
         .map_err(|problem| (problem.field(), problem.to_string()))?;
+    // Faults of links are found where they are joined.
+    assembled.link(inner_links(&assembled, model, index).unwrap_or_default());
     assembled
         .damp_as(&fixed.damping, on_mat)
         .map_err(|problem| ("damping.modes", problem))?;
@@ -527,6 +552,72 @@ fn ports_inside(system: &System, link: &Link) -> Vec<Result<PortPair, String>> {
         height(a).total_cmp(&height(b))
     });
     found
+}
+
+/// Links of the model between floors of one building, with their initial stiffness, in the order in which they are joined.
+///
+/// # Errors
+/// Floors that links cannot reach.
+fn inner_links(
+    building: &BuildingSystem,
+    model: &Model,
+    index: usize,
+) -> Result<Vec<InnerLink>, Vec<ModelFault>> {
+    let own = |link: &&(usize, &Link)| link.1.is_inside() && link.1.between[0] == Some(index);
+    let all: Vec<(usize, &Link)> = model.links.iter().enumerate().collect();
+    if !all.iter().any(|link| own(&link)) {
+        return Ok(Vec::new());
+    }
+    let alone = System::of_buildings(vec![building.clone()]);
+    let building = &alone.buildings[0];
+    let mut found = Vec::new();
+    for (number, link) in all.iter().filter(own) {
+        let of_alone = Link {
+            between: [Some(0); 2],
+            ..Link::clone(link)
+        };
+        for ports in ports_inside(&alone, &of_alone) {
+            let ports = ports.map_err(|problem| {
+                vec![ModelFault {
+                    path: format!("link[{number}].floors"),
+                    problem,
+                }]
+            })?;
+            let sides = || ports.sides().filter(|(port, _)| !stands_on(building, port));
+            found.push(InnerLink {
+                link: 0,
+                shortening: ports
+                    .sides()
+                    .flat_map(|(port, sign)| {
+                        let entries = port.row.entries().to_vec();
+                        entries
+                            .into_iter()
+                            .map(move |(dof, share)| (dof, -sign * share))
+                    })
+                    .collect(),
+                stiffness: link.initial_stiffness(),
+                resists: match link.law {
+                    LinkLaw::Linear | LinkLaw::Cable { .. } | LinkLaw::Stopper { .. } => {
+                        link.stiffness > 0.0
+                    }
+                    LinkLaw::Friction { .. } | LinkLaw::Yielding(_) => true,
+                    LinkLaw::Viscous { .. } | LinkLaw::Maxwell => false,
+                },
+                damping: if link.law == LinkLaw::Linear {
+                    link.damping
+                } else {
+                    0.0
+                },
+                ends: sides().map(|(port, sign)| (port.height, -sign)).collect(),
+            });
+        }
+    }
+    Ok(found)
+}
+
+/// Whether an end is the foundation of its building: what acts there acts below it.
+fn stands_on(building: &BuildingSystem, port: &Port) -> bool {
+    building.discretization.stick_model.foundation.is_some() && port.height <= LEVEL_TOLERANCE
 }
 
 /// The same end of a link inside a building, with what its foundation turns taken out: u + yθ (theory, Eq. B22). A building that

@@ -15,7 +15,9 @@ use crate::model::{Building, Damping, Gravity, LEVEL_TOLERANCE, PlanPoint, usual
 use crate::motion::Ground;
 use crate::statics::{Collapse, Settled, under_gravity};
 use crate::structure::motion_at;
-use crate::structure::{AssembledBuilding, Discretization, MemberForces, SpringPlace, Support};
+use crate::structure::{
+    AssembledBuilding, Discretization, InnerLink, MemberForces, SpringPlace, Support,
+};
 use crate::transfer::riccati::RiccatiSweep;
 
 /// One building of a system: its equations, and where they stand among those of the others.
@@ -171,15 +173,7 @@ impl BuildingSystem {
         let foot = foot.and_then(|node| structure.equations.horizontal(node));
         let support = spring_support(&structure);
         let mat_in_plan = MatInPlan::new(&structure);
-        let modes = if structure.discretization.stick_model.in_plan {
-            modes_dense(&structure, |lower| {
-                let (values, vectors) = symmetric::eigen(lower);
-                Some(values.into_iter().zip(vectors).collect())
-            })
-        } else {
-            lateral_modes_along(&structure, &sweep)
-        };
-        let modes = modes.unwrap_or_default();
+        let modes = modes(&structure, &sweep);
         Self {
             structure,
             offset: 0,
@@ -224,6 +218,15 @@ impl BuildingSystem {
         Ok(())
     }
 
+    /// Adds links between its floors: its storey forces contain theirs, and its modes are those with their initial stiffness.
+    pub(super) fn link(&mut self, links: Vec<InnerLink>) {
+        if links.is_empty() {
+            return;
+        }
+        self.structure.link(links);
+        self.modes = modes(&self.structure, &self.sweep);
+    }
+
     /// Gives the soil under its foundation other springs and dashpots over displacement and rotation: uu, uθ, θθ. Modes stay
     /// those of the springs that it had.
     pub(super) fn stand_on(&mut self, stiffness: [f64; 3], damping: [f64; 3]) {
@@ -237,6 +240,7 @@ impl BuildingSystem {
         let mut structure = AssembledBuilding::new(&self.structure.name, discretization);
         let (old, new) = (&self.structure.equations, &mut structure.equations);
         (new.alpha, new.beta) = (old.alpha, old.beta);
+        structure.link(self.structure.inner_links.clone());
         self.sweep = Arc::new(RiccatiSweep::through(&structure.equations));
         self.alone = Some(Arc::new(std::mem::replace(&mut self.structure, structure)));
     }
@@ -357,13 +361,31 @@ impl BuildingSystem {
                 } else {
                     modes
                 };
-                match modes.iter().map(frequency).collect::<Result<Vec<_>, _>>()?[..] {
-                    [single] if on_mat => (0.0, 2.0 * ratio / single),
-                    [single] => (2.0 * ratio * single, 0.0),
-                    [low, high] => (
-                        2.0 * ratio * low * high / (low + high),
-                        2.0 * ratio / (low + high),
-                    ),
+                let frequencies = modes.iter().map(frequency).collect::<Result<Vec<_>, _>>()?;
+                // Squares of frequencies, as far as damping in proportion to stiffness acts: not on springs of links.
+                let damped: Vec<f64> = modes
+                    .iter()
+                    .map(|number| self.own_stiffness(*number))
+                    .collect();
+                match (&frequencies[..], &damped[..]) {
+                    (&[single], &[own]) if on_mat && !self.inner_links.is_empty() => {
+                        (0.0, 2.0 * ratio * single / own)
+                    }
+                    (&[low, high], &[own_low, own_high])
+                        if !self.inner_links.is_empty() && !self.is_in_space() =>
+                    {
+                        let beta = 2.0 * ratio * (high - low) / (own_high - own_low);
+                        let alpha = 2.0 * ratio * low - beta * own_low;
+                        if alpha >= 0.0 && beta >= 0.0 {
+                            (alpha, beta)
+                        } else {
+                            // No such coefficients damp: those of a building whose stiffness is all its own.
+                            rayleigh(*ratio, [low, high])
+                        }
+                    }
+                    (&[single], _) if on_mat => (0.0, 2.0 * ratio / single),
+                    (&[single], _) => (2.0 * ratio * single, 0.0),
+                    (&[low, high], _) => rayleigh(*ratio, [low, high]),
                     _ => return Err("damping takes one or two modes".to_owned()),
                 }
             }
@@ -371,6 +393,16 @@ impl BuildingSystem {
         let equations = &mut self.structure.equations;
         (equations.alpha, equations.beta) = (alpha, beta);
         Ok(())
+    }
+
+    /// φᵀKφ of a lateral mode, counted from 1, without the springs of links between floors, ω² if there are none \[rad²/s²\].
+    fn own_stiffness(&self, number: usize) -> f64 {
+        let Some(mode) = self.lateral_modes().nth(number - 1) else {
+            return f64::NAN;
+        };
+        let links = self.inner_links.iter();
+        let links = links.map(|link| link.stiffness * link.shortened_by(&mode.shape).powi(2));
+        mode.circular_frequency.powi(2) - links.sum::<f64>()
     }
 
     /// Whether its floors move in both horizontal directions and turn.
@@ -479,6 +511,27 @@ impl BuildingSystem {
     pub fn range(&self) -> std::ops::Range<usize> {
         self.offset..self.offset + self.equations.len()
     }
+}
+
+/// Coefficients that give two modes a damping ratio (theory, Eq. D1) \[1/s, s\].
+fn rayleigh(ratio: f64, [low, high]: [f64; 2]) -> (f64, f64) {
+    (
+        2.0 * ratio * low * high / (low + high),
+        2.0 * ratio / (low + high),
+    )
+}
+
+/// Lateral modes; all of a building in space. None where it can move without deforming.
+fn modes(structure: &AssembledBuilding, sweep: &RiccatiSweep) -> Vec<Mode> {
+    let modes = if structure.discretization.stick_model.in_plan {
+        modes_dense(structure, |lower| {
+            let (values, vectors) = symmetric::eigen(lower);
+            Some(values.into_iter().zip(vectors).collect())
+        })
+    } else {
+        lateral_modes_along(structure, sweep)
+    };
+    modes.unwrap_or_default()
 }
 
 /// Of the mat of an isolated building.

@@ -5,27 +5,29 @@ use crate::separation::srss;
 
 impl Table<'_> {
     pub(super) fn asce7(&mut self) {
-        let Some(([l, r], used)) = self.amplified("ASCE 7", true) else {
+        let Some(([l, r], used)) = self.amplified("ASCE 7-16", true) else {
             return;
         };
         let widest = self.widest(|place| srss(l * place.peaks[0], r * place.peaks[1]));
         let Some((width, _)) = widest else { return };
-        self.add(
-            "ASCE 7",
-            Some(Code::Asce7),
-            "ASCE 7-16 §12.12.3, Eq. (12.12-1) and (12.12-2)",
-            width,
-            used.clone(),
-        );
+        if !self.is_at_wall() {
+            self.add(
+                "ASCE 7-16",
+                Some(Code::Asce7),
+                "ASCE 7-16 §12.12.3, Eq. (12.12-1) and (12.12-2)",
+                width,
+                used.clone(),
+            );
+        }
         let setbacks = [0, 1].map(|side| {
             let own = self.neighbours.places.iter();
             own.map(|place| [l, r][side] * place.peaks[side].abs())
                 .fold(0.0, f64::max)
         });
         self.add(
-            "ASCE 7, line",
+            "ASCE 7-16, line",
             Some(Code::Asce7),
-            "ASCE 7-16 §12.12.3, a property line between the buildings: each keeps its own δ_M",
+            "ASCE 7-16 §12.12.3, at a property line: each building keeps its own δ_M",
             setbacks[0] + setbacks[1],
             used,
         );

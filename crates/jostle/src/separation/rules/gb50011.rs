@@ -5,6 +5,12 @@ use crate::separation::gb50011_joint;
 
 impl Table<'_> {
     pub(super) fn gb50011(&mut self) {
+        if self.is_at_wall() {
+            return self.leave_out(
+                "GB 50011",
+                "a neighbouring building (it has no clause for property lines)",
+            );
+        }
         let height = self.lower_height();
         let system = self.inputs.system;
         for intensity in 6..=9 {

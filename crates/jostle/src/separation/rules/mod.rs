@@ -65,7 +65,7 @@ pub struct Neighbours {
 /// The gap of a rule.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Requirement {
-    /// Short name, such as `ASCE 7`.
+    /// Short name, such as `ASCE 7-16`.
     pub name: String,
     /// Code; `None` of general rules.
     pub code: Option<Code>,
@@ -198,12 +198,20 @@ impl Table<'_> {
             .max_by(|a, b| a.0.total_cmp(&b.0))
     }
 
+    /// Whether one side is a wall, such as a property line.
+    fn is_at_wall(&self) -> bool {
+        self.neighbours.sides.iter().any(Option::is_none)
+    }
+
+    /// Whether floors lie at equal height, and the words for it.
     fn level(&self) -> (bool, String) {
         match self.inputs.floors_are_level {
             Some(level) => {
                 let word = if level { "equal" } else { "different" };
                 (level, format!("floor_levels = {word}"))
             }
+            // What stands beyond a property line, or whether its floors are level, the model does not say.
+            None if self.is_at_wall() => (false, "a wall has no floors".to_owned()),
             None => {
                 let level = self.neighbours.floors_are_level;
                 let words = if level {
@@ -372,8 +380,8 @@ mod tests {
             ("0.7 SRSS", 70.0),
             ("UBC-97", 70.0),
             ("EN 1998-1", 70.0),
-            ("ASCE 7", 68.75),
-            ("ASCE 7, line", 96.25),
+            ("ASCE 7-16", 68.75),
+            ("ASCE 7-16, line", 96.25),
             ("TBDY 2018", 70.0),
             ("IS 1893", 140.0),
             ("NTC 2018", 140.0),
@@ -407,8 +415,8 @@ mod tests {
         };
         for name in [
             "EN 1998-1",
-            "ASCE 7",
-            "ASCE 7, line",
+            "ASCE 7-16",
+            "ASCE 7-16, line",
             "TBDY 2018",
             "IS 1893",
             "NTC 2018",
@@ -444,7 +452,7 @@ mod tests {
             motion: MotionLevel::Reduced,
             ..of_both(codes)
         };
-        assert_eq!(width(&pair, &reduced, "ASCE 7"), 80.0);
+        assert_eq!(width(&pair, &reduced, "ASCE 7-16"), 80.0);
         assert_eq!(width(&pair, &reduced, "TBDY 2018"), 70.0);
     }
 
@@ -460,9 +468,16 @@ mod tests {
         let names: Vec<&str> = found.left_out.iter().map(|rule| &*rule.name).collect();
         assert_eq!(
             names,
-            ["EN 1998-1", "TBDY 2018", "IS 1893", "NTC 2018", "E.030"]
+            [
+                "UBC-97",
+                "EN 1998-1",
+                "TBDY 2018",
+                "IS 1893",
+                "NTC 2018",
+                "E.030"
+            ]
         );
-        assert_eq!(found.left_out[0].needs, "behaviour_factor of \"Low\"");
+        assert_eq!(found.left_out[1].needs, "behaviour_factor of \"Low\"");
         let full = required_gaps(&pair, &CodeInputs::default());
         assert_eq!(full.left_out.len(), 1);
         let with_soil = CodeInputs {
@@ -501,9 +516,58 @@ mod tests {
             side.yields = true;
         }
         let inputs = CodeInputs::default();
-        assert_eq!(width(&pair, &inputs, "ASCE 7"), 100.0);
+        assert_eq!(width(&pair, &inputs, "ASCE 7-16"), 100.0);
         assert_eq!(width(&pair, &inputs, "E.030-2018"), 96.0);
         assert!(width(&pair, &inputs, "UBC-97").is_nan());
+    }
+
+    /// At a property line a building keeps its own displacement: EN 1998-1 §4.4.2.7(2)a, without the 0.7 for level floors of a
+    /// neighbour, which a wall has not; 3 % of 16 m in NSR-10, whose neighbour may have slabs at any height; GB 50011 has no
+    /// clause for it.
+    #[test]
+    fn a_wall_has_no_floors() {
+        let mut pair = neighbours();
+        pair.sides[1] = None;
+        for place in &mut pair.places {
+            place.peaks[1] = 0.0;
+        }
+        let inputs = CodeInputs::default();
+        for (name, due) in [
+            ("EN 1998-1", 60.0),
+            ("NSR-10", 480.0),
+            ("UBC-97", 42.0),
+            ("ASCE 7-16, line", 41.25),
+            // 0.5 · 60 is below 30 + 4 · 10.
+            ("TBDY 2018", 70.0),
+        ] {
+            assert_eq!(width(&pair, &inputs, name), due, "{name}");
+        }
+        assert!(width(&pair, &inputs, "0.7 SRSS").is_nan());
+        let found = required_gaps(&pair, &inputs);
+        assert!(found.left_out.iter().any(|rule| rule.name == "GB 50011"));
+        // What is stated of the neighbour beyond the line counts.
+        let stated = CodeInputs {
+            floors_are_level: Some(true),
+            ..inputs
+        };
+        assert_eq!(width(&pair, &stated, "EN 1998-1"), 42.0);
+    }
+
+    /// An important building of few storeys never needs less than an ordinary one: 0.005 · 16 m = 80 mm each.
+    #[test]
+    fn importance_never_narrows_a_setback() {
+        let mut pair = neighbours();
+        for side in pair.sides.iter_mut().flatten() {
+            side.storeys = 5;
+        }
+        let important = of_both(BuildingCodes {
+            importance: Some(1.4),
+            ..BuildingCodes::default()
+        });
+        let [ordinary, important] =
+            [CodeInputs::default(), important].map(|inputs| width(&pair, &inputs, "Standard 2800"));
+        assert_eq!(ordinary, 160.0);
+        assert!(important >= ordinary, "{important}");
     }
 
     #[test]
@@ -514,7 +578,10 @@ mod tests {
         };
         let found = required_gaps(&neighbours(), &inputs);
         let names: Vec<&str> = found.rules.iter().map(|rule| &*rule.name).collect();
-        assert_eq!(names, ["ABS", "SRSS", "0.7 SRSS", "ASCE 7", "ASCE 7, line"]);
+        assert_eq!(
+            names,
+            ["ABS", "SRSS", "0.7 SRSS", "ASCE 7-16", "ASCE 7-16, line"]
+        );
         for code in Code::ALL {
             assert_eq!(Code::named(code.name()), Some(code));
         }

@@ -45,7 +45,7 @@ impl Defects {
             for (row, place) in found.rows.iter_mut().zip(places) {
                 row[mode] = (place.value(shape) - whole * place.value(answer)) / theta;
             }
-            let shear = |vector: &[f64]| building.equations.base_shear(vector);
+            let shear = |vector: &[f64]| building.elastic_base_shear(vector);
             found.rows[places.len()][mode] = (shear(shape) - whole * shear(answer)) / theta;
             wholes[mode] = whole;
             for (vectors, vector) in vectors.iter_mut().zip([shape, answer]) {

@@ -21,10 +21,16 @@ pub(super) fn of_vectors(building: &BuildingSystem, vectors: &[Vec<f64>]) -> Vec
     let mut rows = vec![vec![0.0; vectors.len()]; count(building)];
     let elastic = |_| 0.0;
     for (index, vector) in vectors.iter().enumerate() {
-        building.storeys.for_each(vector, elastic, |storey, force| {
-            rows[storey][index] = force.shear;
-            rows[storeys + storey][index] = force.moment;
-        });
+        let link = |own: usize| {
+            let link = &building.inner_links[own];
+            link.stiffness * link.shortened_by(vector)
+        };
+        building
+            .storeys
+            .for_each(vector, elastic, link, |storey, force| {
+                rows[storey][index] = force.shear;
+                rows[storeys + storey][index] = force.moment;
+            });
     }
     let forms = &building.members.forms;
     if forms.is_empty() {
@@ -44,6 +50,36 @@ pub(super) fn of_vectors(building: &BuildingSystem, vectors: &[Vec<f64>]) -> Vec
         }
     }
     rows
+}
+
+/// What dashpots of links between floors add to the forces of storeys, over shapes as velocities \[N·s/m, N·s\]; empty without
+/// any.
+pub(super) fn of_dashpots(building: &BuildingSystem, modes: &RitzModes) -> Vec<Vec<f64>> {
+    if building.inner_links.iter().all(|link| link.damping == 0.0) {
+        return Vec::new();
+    }
+    let storeys = building.storeys.len();
+    let mut rows = vec![vec![0.0; modes.vectors.len()]; 2 * storeys];
+    let resting = vec![0.0; building.equations.len()];
+    for (index, vector) in modes.vectors.iter().enumerate() {
+        let link = |own: usize| {
+            let link = &building.inner_links[own];
+            link.damping * link.shortened_by(vector)
+        };
+        building.storeys.for_each(
+            &resting,
+            |_| 0.0,
+            link,
+            |storey, force| {
+                rows[storey][index] = force.shear;
+                rows[storeys + storey][index] = force.moment;
+            },
+        );
+    }
+    Arch::new().dispatch(Combine {
+        rows,
+        parts: &modes.parts,
+    })
 }
 
 /// Rows over the shapes of Ritz modes.

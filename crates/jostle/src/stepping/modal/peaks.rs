@@ -268,6 +268,7 @@ impl Peaks {
         } = now;
         self.forces.swap(0, 1);
         reduced.show_forces(q, &mut self.forces[0]);
+        reduced.add_force_dashpots(velocities, &mut self.forces[0]);
         if self.are_forces_near_peaks(reduced) {
             self.look_at_forces(system, reduced, [velocities, accelerations], time);
         }
@@ -285,6 +286,10 @@ impl Peaks {
     /// step starts with the new ones.
     pub(super) fn restart(&mut self, reduced: &Reduced, jumped: [&[f64]; 3]) {
         let [velocities, accelerations, _] = jumped;
+        // So do forces of dashpots.
+        let before = self.before.velocities.iter_mut().zip(velocities);
+        before.for_each(|(before, now)| *before = now - *before);
+        reduced.add_force_dashpots(&self.before.velocities, &mut self.forces[0]);
         self.before.velocities.copy_from_slice(velocities);
         self.before.accelerations.copy_from_slice(accelerations);
         if let Some(members) = &mut self.members {
@@ -304,6 +309,7 @@ impl Peaks {
     ) {
         self.restart(reduced, moving);
         reduced.show_forces(q, &mut self.forces[0]);
+        reduced.add_force_dashpots(moving[0], &mut self.forces[0]);
         for (floors, (building, own)) in self
             .floors
             .iter_mut()
@@ -351,7 +357,9 @@ impl Peaks {
         reduced.show_forces_missed(accelerations, missed_now);
         let [rate_then, rate_now] = &mut self.force_rates;
         reduced.show_forces(&self.before.velocities, rate_then);
+        reduced.add_force_dashpots(&self.before.accelerations, rate_then);
         reduced.show_forces(velocities, rate_now);
+        reduced.add_force_dashpots(accelerations, rate_now);
         let step = time - self.before.time;
         for (index, own) in reduced.buildings.iter().enumerate() {
             let storeys = system.buildings[index].storeys.len();
@@ -372,6 +380,9 @@ impl Peaks {
                 });
                 let peaks = &mut self.floors[index][storey];
                 [peaks.storey_shear, peaks.overturning_moment] = raised;
+            }
+            if own.is_damped_at_base(&system.buildings[index]) {
+                self.base_shear[index] = self.floors[index][0].storey_shear;
             }
         }
     }
@@ -537,7 +548,9 @@ impl Peaks {
                 then: [then.u[shear], then.rate[shear]],
                 now: [now.u[shear], now.rate[shear]],
             };
-            shears.widen(&mut self.base_shear[index], step);
+            if !own.is_damped_at_base(building) {
+                shears.widen(&mut self.base_shear[index], step);
+            }
             self.limits.high[shear] = self.base_shear[index];
             self.limits.low[shear] = -self.base_shear[index];
         }

@@ -20,7 +20,7 @@ use crate::interface::{DofRow, InterfaceGraph};
 use crate::linear::NotPositive;
 use crate::motion::Ground;
 use crate::simd;
-use crate::system::{Direction, GroundsAt, System};
+use crate::system::{BuildingSystem, Direction, GroundsAt, System};
 
 /// A row of buildings as oscillators, with their displacements at floors and contacts.
 pub(super) struct Reduced {
@@ -88,6 +88,9 @@ pub(super) struct ReducedBuilding {
     pub(super) blocks: Vec<[f64; ROWS]>,
     /// Shapes as forces of storeys, likewise \[N·kg^−½, N·m·kg^−½\].
     pub(super) force_blocks: Vec<[f64; ROWS]>,
+    /// What dashpots of links between its floors add to forces of storeys, row by row, over modal velocities; empty without any
+    /// \[N·s·m⁻¹·kg^−½, N·s·kg^−½\].
+    pub(super) force_dashpots: Vec<Vec<f64>>,
     /// Additional static contribution of a unit acceleration of every mode to forces of storeys, and the remaining
     /// error; empty if all natural modes are used \[N·s²·m⁻¹·kg^−½, N·s²·kg^−½\].
     pub(super) forces_missed: Vec<[f64; ROWS]>,
@@ -100,6 +103,14 @@ pub(super) struct ReducedBuilding {
     /// Number of degrees of freedom, and the shapes over all of them.
     size: usize,
     pub(super) basis: Arc<Basis>,
+}
+
+impl ReducedBuilding {
+    /// Whether dashpots of links between its floors take part in its base shear, which is then the shear of its lowest storey. An
+    /// isolated building has that of its bearings.
+    pub(super) fn is_damped_at_base(&self, building: &BuildingSystem) -> bool {
+        !self.force_dashpots.is_empty() && building.support.is_none()
+    }
 }
 
 /// Damping ratio above which missing shapes respond statically to the residuals, from random models \[–\].
@@ -359,7 +370,7 @@ impl Reduced {
             self.upwards
                 .extend(basis.of_shapes(|vector| simd::dot(driven, vector)));
         }
-        let shear = basis.of_shapes(|vector| equations.base_shear(vector));
+        let shear = basis.of_shapes(|vector| building.elastic_base_shear(vector));
         let shown: Vec<Vec<f64>> = places
             .iter()
             .map(|place| basis.of_shapes(|vector| place.value(vector)))
@@ -367,6 +378,7 @@ impl Reduced {
             .collect();
         let mut storeys = force_rows::of_shapes(building, &basis.modes);
         let members = storeys.split_off(2 * building.storeys.len());
+        let force_dashpots = force_rows::of_dashpots(building, &basis.modes);
         let mut defects_of_members = [const { Vec::new() }; 2];
         let forcing = self.forces();
         let (mut missed, mut forces_missed, mut forces_off) = (Vec::new(), Vec::new(), Vec::new());
@@ -420,6 +432,7 @@ impl Reduced {
             watched: watching..watching + rows,
             forces: forcing..forcing + storeys.len().div_ceil(ROWS) * ROWS,
             force_blocks: in_blocks(&storeys, basis.len()),
+            force_dashpots,
             forces_missed,
             forces_off,
             members: member_rows,
@@ -549,6 +562,17 @@ impl Reduced {
             modal,
             forces,
         });
+    }
+
+    /// Adds what dashpots of links between floors contribute to forces of storeys, from modal velocities, or to their rates, from
+    /// modal accelerations.
+    pub(super) fn add_force_dashpots(&self, modal: &[f64], forces: &mut [f64]) {
+        for building in &self.buildings {
+            let own = &mut forces[building.forces.clone()];
+            for (force, row) in own.iter_mut().zip(&building.force_dashpots) {
+                *force += simd::dot(row, &modal[building.modes.clone()]);
+            }
+        }
     }
 
     /// Contribution of modal accelerations, since shapes do not follow the members between masses exactly: the

@@ -8,6 +8,9 @@ use crate::stepping::events::Cubic;
 use crate::structure::StoreyForce;
 use crate::system::{BuildingSystem, System};
 
+/// Power series are for buildings without links.
+const NO_LINK: fn(usize) -> f64 = |_| 0.0;
+
 /// Peaks of a run so far.
 #[derive(Clone, Debug)]
 pub(super) struct SeriesPeaks {
@@ -254,7 +257,7 @@ impl SeriesPeaks {
             }
             let u = &ends[side][0];
             let force = |spring: usize| segment.forces[side][spring];
-            storeys.for_each(u, force, |storey, value| {
+            storeys.for_each(u, force, NO_LINK, |storey, value| {
                 own[storey] = value;
                 let peaks = &mut floors[storey];
                 near |= value.shear.abs() > NEAR * peaks.storey_shear
@@ -270,6 +273,7 @@ impl SeriesPeaks {
             storeys.for_each(
                 v,
                 |spring| rate_of(v, spring),
+                NO_LINK,
                 |storey, rate| rates[storey] = rate,
             );
             base_ends[side].1 = base(v, &|spring| rate_of(v, spring));
@@ -281,6 +285,7 @@ impl SeriesPeaks {
                 storeys.for_each(
                     row,
                     |spring| rate_of(row, spring),
+                    NO_LINK,
                     |at, value| {
                         if at == storey {
                             own = of(value);

@@ -1,0 +1,98 @@
+//! What rules and codes require of the gaps of a run.
+
+use super::summary::{BuildingSummary, FloorSummary, Summary};
+use crate::model::{Damping, Model};
+use crate::separation::{
+    CodeInputs, Neighbours, Place, Requirements, Side, ddc_coefficient, floors_are_level,
+    peak_at_height, required_gaps,
+};
+
+impl Summary {
+    /// What every rule requires of a gap of the model.
+    ///
+    /// Displacements are those of the run without contact, if it was made, else those of the run itself. Neighbours can touch at
+    /// every contact of the gap, between floors as well; displacements there are linear between floors. `gap` is an index of
+    /// `model.gaps`, whose run this is the summary of.
+    #[must_use]
+    pub fn required_gaps(&self, model: &Model, gap: usize, inputs: &CodeInputs) -> Requirements {
+        let (Some(of_gap), Some(own)) = (model.gaps.get(gap), self.gaps.get(gap)) else {
+            return Requirements::default();
+        };
+        let places = own.contacts.iter().map(|contact| Place {
+            height: contact.height_m,
+            peaks: of_gap
+                .between
+                .map(|side| self.peak(model, side, contact.height_m)),
+        });
+        let sides = model.buildings_beside(of_gap.between).map(|building| {
+            let building = building?;
+            let own = &model.buildings[building];
+            let heights = own.floor_heights();
+            Some(Side {
+                building,
+                name: own.name.clone(),
+                height: heights.last().copied().unwrap_or(0.0),
+                storeys: heights.len(),
+                yields: own.may_yield(),
+            })
+        });
+        let neighbours = Neighbours {
+            sides,
+            places: places.collect(),
+            floors_are_level: floors_are_level(model, of_gap),
+            correlation: self.correlation(model, gap),
+            peak_ground_acceleration: self.motion.pga_m_s2,
+        };
+        required_gaps(&neighbours, inputs)
+    }
+
+    /// Period and damping ratio of the first lateral mode of both neighbours of a gap; `None` of a wall, and of a building
+    /// without modes or damping \[s, –\].
+    #[must_use]
+    pub fn first_modes(&self, model: &Model, gap: usize) -> [Option<(f64, f64)>; 2] {
+        let between = model.gaps.get(gap).map_or([None; 2], |gap| gap.between);
+        model.buildings_beside(between).map(|building| {
+            first_mode(
+                self.buildings.get(building?)?,
+                &model.buildings.get(building?)?.damping,
+            )
+        })
+    }
+
+    /// Correlation of the double difference; `None` beside a wall, and without periods or damping \[–\].
+    #[must_use]
+    pub fn correlation(&self, model: &Model, gap: usize) -> Option<f64> {
+        let [left, right] = self.first_modes(model, gap);
+        let ((t1, d1), (t2, d2)) = (left?, right?);
+        Some(ddc_coefficient([t1, t2], [d1, d2]))
+    }
+
+    /// Greatest displacement of a side of a gap at a height, either sign; 0 of a wall that does not move \[m\].
+    fn peak(&self, model: &Model, side: Option<usize>, height: f64) -> f64 {
+        let Some(side) = side else { return 0.0 };
+        let Some(own) = self.buildings.get(side) else {
+            let wall = self.walls.get(side - model.buildings.len());
+            return wall.map_or(0.0, |wall| wall.displacement_peak_m);
+        };
+        let floors = own.floors.mat.iter().chain(&own.floors.above);
+        let peak = |floor: &FloorSummary| {
+            let response = floor.without_contact.as_ref().unwrap_or(&floor.response);
+            (floor.height_m, response.displacement_peak_m())
+        };
+        peak_at_height(floors.map(peak), height)
+    }
+}
+
+/// Period and damping ratio of the first lateral mode, that of the soil included \[s, –\].
+fn first_mode(own: &BuildingSummary, damping: &Damping) -> Option<(f64, f64)> {
+    let period = own.periods_s.first().copied().filter(|t| *t > 0.0)?;
+    let omega = std::f64::consts::TAU / period;
+    let damping = match (&own.foundation, damping) {
+        (Some(foundation), _) => foundation.damping_ratio,
+        (None, Damping::AllModes { ratio }) => *ratio,
+        (None, Damping::Ratio { .. } | Damping::Rayleigh { .. }) => {
+            0.5 * (own.rayleigh_alpha_per_s / omega + own.rayleigh_beta_s * omega)
+        }
+    };
+    (damping > 0.0 && damping.is_finite()).then_some((period, damping))
+}

@@ -1,0 +1,34 @@
+//! Links between floors of one building, as far as its storey forces and modes follow from them.
+
+/// A link between two floors of a building, or a floor and its base: a brace, an infill, a device.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InnerLink {
+    /// Index among the links of the system.
+    pub link: usize,
+    /// How displacements of the building shorten it: degree of freedom and coefficient.
+    pub shortening: Vec<(usize, f64)>,
+    /// Initial stiffness, ≥ 0; zero of one that takes no static load \[N/m\].
+    pub stiffness: f64,
+    /// Whether it resists a slow change of length.
+    pub resists: bool,
+    /// Force per rate of shortening of one with a linear dashpot beside its spring, otherwise 0 \[N·s/m\].
+    pub damping: f64,
+    /// Heights of its ends above the base \[m\], and how its compression counts among the restoring forces there, 1 or −1; an end
+    /// at the base has none.
+    pub ends: Vec<(f64, f64)>,
+}
+
+impl InnerLink {
+    /// How its compression counts in the base shear: 0 between two floors, 1 or −1 between a floor and the base.
+    #[must_use]
+    pub fn of_base(&self) -> f64 {
+        self.ends.iter().map(|(_, sign)| sign).sum()
+    }
+
+    /// How much shorter displacements make it, or its rate for velocities \[m, m/s\].
+    #[must_use]
+    pub fn shortened_by(&self, values: &[f64]) -> f64 {
+        let entries = self.shortening.iter();
+        entries.map(|(dof, share)| share * values[*dof]).sum()
+    }
+}

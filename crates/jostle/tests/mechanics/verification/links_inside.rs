@@ -1,0 +1,244 @@
+//! Braces and dampers between floors of one building count in everything that is named for the whole building.
+
+use jostle::pushover::{CannotPush, PushSettings, pushover};
+use jostle::{
+    Axial, Column, Damping, FloorPairs, LawKind, Link, LinkLaw, Model, Outcome, Plan, Solver,
+    Structure, Summary, System, eigen,
+};
+
+use crate::verification::support::{
+    assembled, column, frame, framed, largest, law, row, run, shaking, tower,
+};
+
+/// Braces between these floors of the first building \[N/m, N·s/m\].
+fn braces(floors: &[(usize, usize)], stiffness: f64, damping: f64) -> Link {
+    Link {
+        between: [Some(0); 2],
+        floors: FloorPairs::listed(floors),
+        level_tolerance: 1e-3,
+        stiffness,
+        damping,
+        law: LinkLaw::Linear,
+    }
+}
+
+const STOREYS: [(usize, usize); 4] = [(0, 1), (1, 2), (2, 3), (3, 4)];
+
+/// A tower of four storeys of 40 MN/m, with links.
+fn alone(damping: Damping, links: Vec<Link>) -> Model {
+    let mut model = row(
+        vec![tower("a", 4, 1e5, 0.9)],
+        0.0,
+        law(LawKind::Linear, 1.0),
+    );
+    model.gaps.clear();
+    let Structure::Shear(shear) = &mut model.buildings[0].structure else {
+        panic!("a tower is a shear building")
+    };
+    shear.stiffness = vec![4e7; 4];
+    model.buildings[0].damping = damping;
+    model.links = links;
+    model
+}
+
+fn outcome(model: &Model, solver: Solver, tolerance: f64) -> (System, Outcome) {
+    let system = assembled(model);
+    let mut model = model.clone();
+    model.analysis.solver = Some(solver);
+    model.analysis.tolerance = tolerance;
+    let motion = shaking(8.0);
+    let plan = Plan::choose(&system, &motion, &model.analysis).expect("steps");
+    let outcome = run(&system, &motion, &plan);
+    (system, outcome)
+}
+
+fn summary(model: &Model, solver: Solver, tolerance: f64) -> Summary {
+    let (system, outcome) = outcome(model, solver, tolerance);
+    let motion = shaking(8.0);
+    let plan = Plan::choose(&system, &motion, &model.analysis).expect("steps");
+    Summary::new(&jostle::Run {
+        model,
+        system: &system,
+        motion: &motion,
+        plan: &plan,
+        outcome: &outcome,
+        without_contact: None,
+        wall: 0.0,
+    })
+}
+
+/// Storeys of 40 MN/m with braces of 80 MN/m are storeys of 120 MN/m: with the same damping, every number of building and floors
+/// is the same, by both ways of stepping.
+#[test]
+fn braced_storeys_are_stiffer_storeys() {
+    let stiffer = |damping: Damping| {
+        let mut model = alone(damping, Vec::new());
+        let Structure::Shear(shear) = &mut model.buildings[0].structure else {
+            panic!("a tower is a shear building")
+        };
+        shear.stiffness = vec![12e7; 4];
+        model
+    };
+    let five = Damping::Ratio {
+        ratio: 0.05,
+        modes: Vec::new(),
+    };
+    let of_mass = Damping::Rayleigh {
+        alpha: 0.4,
+        beta: 0.0,
+    };
+    // Damping in proportion to stiffness acts on the storeys, not on the braces: its coefficients make up for that.
+    for damping in [of_mass, five] {
+        for solver in [Solver::Modal, Solver::Riccati] {
+            let braced = alone(damping.clone(), vec![braces(&STOREYS, 8e7, 0.0)]);
+            let [braced, stiff] =
+                [&braced, &stiffer(damping.clone())].map(|model| summary(model, solver, 1e-6));
+            let [a, b] = [&braced.buildings[0], &stiff.buildings[0]];
+            let close = |what: &str, a: f64, b: f64| {
+                assert!(
+                    (a - b).abs() < 2e-5 * b.abs(),
+                    "{solver:?} {damping:?}: {what} {a} and {b}"
+                );
+            };
+            for (a, b) in a.periods_s.iter().zip(&b.periods_s) {
+                assert!((a / b - 1.0).abs() < 1e-10, "{a} and {b}");
+            }
+            close(
+                "base",
+                a.response.base_shear_peak_n,
+                b.response.base_shear_peak_n,
+            );
+            for (a, b) in a.floors.iter().zip(&b.floors) {
+                let (a, b) = (&a.response, &b.response);
+                close("shear", a.storey_shear_peak_n, b.storey_shear_peak_n);
+                close(
+                    "moment",
+                    a.overturning_moment_peak_n_m,
+                    b.overturning_moment_peak_n_m,
+                );
+                close("drift", a.storey_drift_peak, b.storey_drift_peak);
+                close(
+                    "acceleration",
+                    a.total_acceleration_peak_m_s2,
+                    b.total_acceleration_peak_m_s2,
+                );
+            }
+        }
+    }
+}
+
+/// What stands above a level is held by all that passes through it: without other damping, the sum of springs, braces and dashpots
+/// is that of −m (ü + a_g). Links over two storeys count in both.
+#[test]
+fn storey_shears_balance_the_inertia_above() {
+    let undamped = Damping::Rayleigh {
+        alpha: 0.0,
+        beta: 0.0,
+    };
+    let viscous = Link {
+        law: LinkLaw::Viscous { exponent: 0.5 },
+        ..braces(&[(0, 1)], 0.0, 2e5)
+    };
+    let model = alone(
+        undamped,
+        vec![
+            braces(&[(1, 3)], 5e7, 4e6),
+            braces(&[(0, 1), (3, 4)], 0.0, 6e6),
+        ],
+    );
+    let mut yielding = model.clone();
+    yielding.links.push(viscous);
+    for (model, solver) in [
+        (&model, Solver::Modal),
+        (&model, Solver::Riccati),
+        (&yielding, Solver::Riccati),
+    ] {
+        let (system, outcome) = outcome(model, solver, 1e-5);
+        let Structure::Shear(shear) = &model.buildings[0].structure else {
+            panic!("a tower is a shear building")
+        };
+        let accelerations: Vec<Vec<f64>> = (1..=4)
+            .map(|floor| column(&outcome, Column::TotalAcceleration { building: 0, floor }))
+            .collect();
+        let rows = accelerations[0].len();
+        for storey in 0..4 {
+            let above = |row: usize| -> f64 {
+                (storey..4)
+                    .map(|floor| -shear.mass[floor] * accelerations[floor][row])
+                    .sum()
+            };
+            let inertia: Vec<f64> = (0..rows).map(above).collect();
+            let inertia = largest(&inertia);
+            let found = outcome.floors[0][storey].storey_shear;
+            // Rows are as close as steps, and peaks are also looked for between them.
+            assert!(
+                (found / inertia - 1.0).abs() < 4e-3,
+                "{solver:?}, storey {storey}: {found} and {inertia}"
+            );
+        }
+        let base = outcome.base_shear[0];
+        let lowest = outcome.floors[0][0].storey_shear;
+        assert!(
+            (base / lowest - 1.0).abs() < 1e-6,
+            "{solver:?}: {base} and {lowest}"
+        );
+        assert_eq!(system.structures().len(), 1);
+    }
+}
+
+/// All modes of a braced frame are those of the matrix that its flexibility with braces inverts: ω² φᵀMφ = φᵀ(K + RSRᵀ)φ.
+#[test]
+fn modes_of_braced_frames_have_the_energy_of_braces() {
+    let braced = frame(4, &[5.0, 4.0]);
+    let mut model = row(vec![framed("a", braced)], 0.0, law(LawKind::Linear, 1.0));
+    model.gaps.clear();
+    if let Structure::Frame(frame) = &mut model.buildings[0].structure {
+        frame.axial = Axial::default();
+    }
+    let bare = assembled(&model);
+    model.links = vec![braces(&[(0, 1), (1, 3)], 9e7, 1e5)];
+    let system = assembled(&model);
+    let (own, links) = (&system.buildings[0], &system.buildings[0].inner_links);
+    assert_eq!(links.len(), 2);
+    assert!(own.modes[0].period() < 0.9 * bare.buildings[0].modes[0].period());
+    let all = eigen::modes(own, 3).expect("it stands");
+    for (mode, lateral) in all.iter().zip(own.lateral_modes()) {
+        assert!((mode.period() / lateral.period() - 1.0).abs() < 1e-9);
+        let mut force = vec![0.0; own.equations.len()];
+        own.equations
+            .stiffness
+            .multiply_add(&mode.shape, &mut force);
+        own.equations.undamped.multiply_add(&mode.shape, &mut force);
+        let mut energy: f64 = force.iter().zip(&mode.shape).map(|(f, u)| f * u).sum();
+        energy += links
+            .iter()
+            .map(|link| link.stiffness * link.shortened_by(&mode.shape).powi(2))
+            .sum::<f64>();
+        assert!(
+            (energy / mode.circular_frequency.powi(2) - 1.0).abs() < 1e-8,
+            "{energy} and {}",
+            mode.circular_frequency.powi(2)
+        );
+    }
+}
+
+/// A pushover of a building whose braces it cannot follow is refused; dashpots do not resist it.
+#[test]
+fn a_pushover_does_not_leave_braces_out() {
+    let five = Damping::Ratio {
+        ratio: 0.05,
+        modes: Vec::new(),
+    };
+    let push = |link: Link| {
+        let system = assembled(&alone(five.clone(), vec![link]));
+        pushover(&system.buildings[0], PushSettings::default())
+    };
+    let braced = push(braces(&STOREYS, 8e7, 0.0));
+    assert_eq!(braced.err(), Some(CannotPush::LinksBetweenFloors));
+    let stopper = Link {
+        law: LinkLaw::Stopper { gap: 0.01 },
+        ..braces(&STOREYS, 8e7, 0.0)
+    };
+    assert_eq!(push(stopper).err(), Some(CannotPush::LinksBetweenFloors));
+    assert!(push(braces(&STOREYS, 0.0, 1e6)).is_ok());
+}
