@@ -635,7 +635,7 @@ fn short(value: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use jostle::{Base, Damping, Gravity, Shear};
+    use jostle::{Base, Damping, Shear};
 
     use super::*;
 
@@ -652,9 +652,7 @@ mod tests {
                 alpha: 0.0,
                 beta: 0.0,
             },
-            base: Base::default(),
-            gravity: Gravity::default(),
-            hinges: None,
+            ..Building::default()
         };
         assert_eq!(special(&building), Vec::<String>::new());
         building.gravity.p_delta = true;

@@ -222,7 +222,7 @@ fn counted(section: &Section, wanted: impl Fn(f64) -> bool) -> String {
 
 #[cfg(test)]
 mod tests {
-    use jostle::{Damping, Gravity, Shear};
+    use jostle::{Damping, Shear};
     use jostle_section::{Concrete, Reinforcement, Steel, StrengthLevel};
 
     use super::*;
@@ -240,9 +240,7 @@ mod tests {
                 alpha: 0.0,
                 beta: 0.0,
             },
-            base: Base::default(),
-            gravity: Gravity::default(),
-            hinges: None,
+            ..Building::default()
         };
         assert!(facts(&building).is_empty());
         building.base.horizontal_stiffness = Some(5e8);

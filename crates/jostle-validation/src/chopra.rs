@@ -189,9 +189,7 @@ fn shear_frame(case: &Value) -> BuildingSystem {
             alpha: 0.0,
             beta: 0.0,
         },
-        base: Default::default(),
-        gravity: Default::default(),
-        hinges: None,
+        ..Building::default()
     };
     BuildingSystem::new(&building.name, Discretization::new(&building))
 }

@@ -64,20 +64,11 @@ fn building(
         ..StickModel::default()
     };
     let discretization = Discretization {
-        foot: None,
-        mat: None,
-        spring_places: Vec::new(),
-        members: Vec::new(),
-        centres: Vec::new(),
-        frames: Vec::new(),
-        shared_columns: Vec::new(),
-        element_names: Vec::new(),
-        space_frame: None,
-        jointed_frame: None,
         stick_model,
         left_face: floors.clone(),
         right_face: floors.clone(),
         floors,
+        ..Discretization::default()
     };
     BuildingSystem::new(name, discretization)
 }

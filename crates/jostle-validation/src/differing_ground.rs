@@ -68,9 +68,7 @@ fn row_of_towers(inputs: &Value) -> Model {
                 alpha: number(stored, "/alpha_1_s"),
                 beta: number(stored, "/beta_s"),
             },
-            base: Default::default(),
-            gravity: Default::default(),
-            hinges: None,
+            ..Building::default()
         }
     });
     let contact = at(inputs, "/contact");
@@ -86,10 +84,7 @@ fn row_of_towers(inputs: &Value) -> Model {
         title: "ground".to_owned(),
         buildings: buildings.collect(),
         gaps: gaps.collect(),
-        links: Vec::new(),
-        walls: Vec::new(),
-        soil: None,
-        analysis: Analysis::default(),
+        ..Model::default()
     }
 }
 

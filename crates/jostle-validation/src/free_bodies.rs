@@ -87,19 +87,13 @@ fn building(stored: &Value) -> Building {
             }],
             storey_heights: vec![number(floor, "/height_m")],
             floors: vec![tier],
-            frames: Vec::new(),
-            space_frame: None,
-            yielding: Vec::new(),
-            bearings: Vec::new(),
-            element_names: Vec::new(),
+            ..Tiers::default()
         }),
         damping: Damping::Rayleigh {
             alpha: 0.0,
             beta: 0.0,
         },
-        base: Default::default(),
-        gravity: Default::default(),
-        hinges: None,
+        ..Building::default()
     }
 }
 
@@ -129,13 +123,11 @@ fn model(inputs: &Value, case: &Value, tolerance: f64) -> Model {
         title: "free floors".to_owned(),
         buildings: list(inputs, "/buildings").iter().map(building).collect(),
         gaps: vec![gap],
-        links: Vec::new(),
-        walls: Vec::new(),
-        soil: None,
         analysis: Analysis {
             tolerance,
             ..Analysis::default()
         },
+        ..Model::default()
     }
 }
 

@@ -131,8 +131,7 @@ fn model_of(inputs: &Value) -> Model {
             )),
             ..Base::default()
         },
-        gravity: Default::default(),
-        hinges: None,
+        ..Building::default()
     };
     let (mut walls, mut gaps) = (Vec::new(), Vec::new());
     if let Some(stored) = inputs.get("wall") {
@@ -159,10 +158,8 @@ fn model_of(inputs: &Value) -> Model {
         title: "ground".to_owned(),
         buildings: vec![building],
         gaps,
-        links: Vec::new(),
         walls,
-        soil: None,
-        analysis: Analysis::default(),
+        ..Model::default()
     }
 }
 
@@ -335,19 +332,10 @@ fn block_case(source: &str, case: &Value) -> Vec<Row> {
     };
     let discretization = Discretization {
         stick_model: sticks,
-        foot: None,
-        mat: None,
         floors: vec![1],
         left_face: vec![1],
         right_face: vec![1],
-        spring_places: Vec::new(),
-        members: Vec::new(),
-        centres: Vec::new(),
-        frames: Vec::new(),
-        shared_columns: Vec::new(),
-        element_names: Vec::new(),
-        space_frame: None,
-        jointed_frame: None,
+        ..Discretization::default()
     };
     let system = System::of_buildings(vec![BuildingSystem::new("block", discretization)]);
     let motion = motion(inputs);

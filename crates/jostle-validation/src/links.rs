@@ -83,9 +83,7 @@ fn building(stored: &Value) -> Building {
             alpha: number(stored, "/alpha_1_s"),
             beta: number(stored, "/beta_s"),
         },
-        base: Default::default(),
-        gravity: Default::default(),
-        hinges: None,
+        ..Building::default()
     }
 }
 
@@ -138,12 +136,11 @@ fn model(inputs: &Value, tolerance: f64) -> Model {
         buildings: list(inputs, "/buildings").iter().map(building).collect(),
         gaps: gap.into_iter().collect(),
         links: vec![link(at(inputs, "/links"))],
-        walls: Vec::new(),
-        soil: None,
         analysis: Analysis {
             tolerance,
             ..Analysis::default()
         },
+        ..Model::default()
     }
 }
 

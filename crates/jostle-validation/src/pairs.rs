@@ -80,9 +80,7 @@ fn building(random: &mut Random, name: &str) -> Building {
             ratio: random.between(0.02, 0.07),
             modes: if storeys > 1 { vec![1, 2] } else { vec![1] },
         },
-        base: Default::default(),
-        gravity: Default::default(),
-        hinges: None,
+        ..Building::default()
     }
 }
 
@@ -110,13 +108,11 @@ pub(crate) fn pair(seed: u64, tolerance: f64) -> (Model, GroundMotion) {
         title: format!("pair {seed}"),
         buildings,
         gaps: vec![Gap::after(0, random.between(0.002, 0.04), law)],
-        links: Vec::new(),
-        walls: Vec::new(),
-        soil: None,
         analysis: Analysis {
             tolerance,
             ..Analysis::default()
         },
+        ..Model::default()
     };
     let waves: Vec<[f64; 3]> = (0..4)
         .map(|_| {

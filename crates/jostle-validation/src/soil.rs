@@ -135,17 +135,13 @@ fn one_mass(case: &Value) -> Model {
                 modes: vec![1],
             },
             base: foundation(number(on, "/mass_kg"), number(on, "/rotary_inertia_kg_m2")),
-            gravity: Default::default(),
-            hinges: None,
+            ..Building::default()
         }],
-        gaps: Vec::new(),
-        links: Vec::new(),
-        walls: Vec::new(),
         soil: given(
             diagonal("/horizontal_stiffness_n_m", "/rotational_stiffness_n_m_rad"),
             diagonal("/horizontal_damping_n_s_m", "/rotational_damping_n_m_s_rad"),
         ),
-        analysis: Analysis::default(),
+        ..Model::default()
     }
 }
 
@@ -189,8 +185,7 @@ fn tower(stored: &Value) -> Building {
             number(stored, "/foundation_mass_kg"),
             number(stored, "/foundation_rotary_inertia_kg_m2"),
         ),
-        gravity: Default::default(),
-        hinges: None,
+        ..Building::default()
     }
 }
 
@@ -214,10 +209,8 @@ fn two_towers(case: &Value) -> Model {
         title: "two towers on soil".to_owned(),
         buildings: list(inputs, "/buildings").iter().map(tower).collect(),
         gaps: gaps.into_iter().collect(),
-        links: Vec::new(),
-        walls: Vec::new(),
         soil: given(matrix("/soil_stiffness"), matrix("/soil_damping")),
-        analysis: Analysis::default(),
+        ..Model::default()
     }
 }
 

@@ -119,19 +119,13 @@ fn building(stored: &Value) -> Building {
             floors: floors.collect(),
             storeys: storeys.collect(),
             storey_heights: heights.collect(),
-            frames: Vec::new(),
-            space_frame: None,
-            yielding: Vec::new(),
-            bearings: Vec::new(),
-            element_names: Vec::new(),
+            ..Tiers::default()
         }),
         damping: Damping::Rayleigh {
             alpha: number(stored, "/alpha_1_s"),
             beta: number(stored, "/beta_s"),
         },
-        base: Default::default(),
-        gravity: Default::default(),
-        hinges: None,
+        ..Building::default()
     }
 }
 
@@ -184,13 +178,11 @@ fn model(inputs: &Value, tolerance: f64) -> Model {
         title: "space".to_owned(),
         buildings,
         gaps,
-        links: Vec::new(),
-        walls: Vec::new(),
-        soil: None,
         analysis: Analysis {
             tolerance,
             ..Analysis::default()
         },
+        ..Model::default()
     }
 }
 
@@ -645,19 +637,13 @@ fn polygons() -> Vec<Row> {
                     }],
                     floors: vec![tier],
                     storey_heights: vec![3.0],
-                    frames: Vec::new(),
-                    space_frame: None,
-                    yielding: Vec::new(),
-                    bearings: Vec::new(),
-                    element_names: Vec::new(),
+                    ..Tiers::default()
                 }),
                 damping: Damping::Ratio {
                     ratio: 0.05,
                     modes: Vec::new(),
                 },
-                base: Default::default(),
-                gravity: Default::default(),
-                hinges: None,
+                ..Building::default()
             }
         };
         let law = ContactLaw {
@@ -678,10 +664,7 @@ fn polygons() -> Vec<Row> {
             title: names.join(" and "),
             buildings: names.iter().map(|name| tower(name)).collect(),
             gaps: vec![gap],
-            links: Vec::new(),
-            walls: Vec::new(),
-            soil: None,
-            analysis: Analysis::default(),
+            ..Model::default()
         };
         let found = System::assemble(&model)
             .map(|system| system.contacts)

@@ -61,20 +61,11 @@ pub(crate) fn explicit_frame(name: &str, frame: &Value) -> BuildingSystem {
     let left_face: Vec<usize> = joints.iter().map(|floor| floor[0]).collect();
     let right_face = joints.iter().map(|floor| floor[floor.len() - 1]).collect();
     let discretization = Discretization {
-        foot: None,
-        mat: None,
-        spring_places: Vec::new(),
-        members: Vec::new(),
-        centres: Vec::new(),
-        frames: Vec::new(),
-        shared_columns: Vec::new(),
-        element_names: Vec::new(),
-        space_frame: None,
-        jointed_frame: None,
         stick_model,
         floors: left_face.clone(),
         left_face,
         right_face,
+        ..Discretization::default()
     };
     BuildingSystem::new(name, discretization)
 }
@@ -104,20 +95,11 @@ fn single_mass(name: &str, mass: f64, stiffness: Option<f64>) -> BuildingSystem 
         ..StickModel::default()
     };
     let discretization = Discretization {
-        foot: None,
-        mat: None,
-        spring_places: Vec::new(),
-        members: Vec::new(),
-        centres: Vec::new(),
-        frames: Vec::new(),
-        shared_columns: Vec::new(),
-        element_names: Vec::new(),
-        space_frame: None,
-        jointed_frame: None,
         stick_model,
         floors: vec![1],
         left_face: vec![1],
         right_face: vec![1],
+        ..Discretization::default()
     };
     BuildingSystem::new(name, discretization)
 }

@@ -58,9 +58,7 @@ fn row(buildings: usize, storeys: usize) -> Model {
             alpha: 0.3,
             beta: 0.004,
         },
-        base: Default::default(),
-        gravity: Default::default(),
-        hinges: None,
+        ..Building::default()
     };
     let law = ContactLaw {
         kind: LawKind::HertzDamp,
@@ -74,13 +72,11 @@ fn row(buildings: usize, storeys: usize) -> Model {
         gaps: (1..buildings)
             .map(|right| Gap::after(right - 1, 0.02, law))
             .collect(),
-        links: Vec::new(),
-        walls: Vec::new(),
-        soil: None,
         analysis: Analysis {
             step: Some(2e-3),
             ..Analysis::default()
         },
+        ..Model::default()
     }
 }
 

@@ -108,22 +108,16 @@ fn model(depth: f64, turn: f64, points: usize) -> Model {
         Building {
             name: name.to_owned(),
             structure: Structure::Tiers(Tiers {
-                frames: Vec::new(),
-                yielding: Vec::new(),
-                bearings: Vec::new(),
-                element_names: Vec::new(),
                 floors: vec![tier],
                 storeys: vec![storey],
                 storey_heights: vec![3.0],
-                space_frame: None,
+                ..Tiers::default()
             }),
             damping: Damping::Rayleigh {
                 alpha: 0.0,
                 beta: 0.0,
             },
-            base: Default::default(),
-            gravity: Default::default(),
-            hinges: None,
+            ..Building::default()
         }
     };
     let law = ContactLaw {
@@ -144,14 +138,12 @@ fn model(depth: f64, turn: f64, points: usize) -> Model {
             building("neighbour", &wall, 1e10, 0.02),
         ],
         gaps: vec![gap],
-        links: Vec::new(),
-        walls: Vec::new(),
-        soil: None,
         analysis: Analysis {
             solver: Some(Solver::Modal),
             tolerance: 1e-5,
             ..Analysis::default()
         },
+        ..Model::default()
     }
 }
 

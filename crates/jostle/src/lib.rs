@@ -10,8 +10,8 @@
 //! use std::ops::ControlFlow;
 //!
 //! use jostle::{
-//!     Analysis, Base, Building, ContactLaw, Damping, Gap, Gravity, GroundMotion, LawKind, Model, Plan,
-//!     RestitutionIs, RunEnd, Settings, Shear, Structure, System, simulate,
+//!     Building, ContactLaw, Damping, Gap, GroundMotion, LawKind, Model, Plan, RestitutionIs, RunEnd, Settings,
+//!     Shear, Structure, System, simulate,
 //! };
 //!
 //! // A shear building of equal storeys: mass [kg] and stiffness [N/m] of each, 3.2 m high.
@@ -24,9 +24,7 @@
 //!             storey_heights: vec![3.2; storeys],
 //!         }),
 //!         damping: Damping::Ratio { ratio: 0.05, modes: Vec::new() },
-//!         base: Base::default(),
-//!         gravity: Gravity::default(),
-//!         hinges: None,
+//!         ..Building::default()
 //!     }
 //! }
 //!
@@ -40,10 +38,7 @@
 //!     title: "Soft and stiff".to_owned(),
 //!     buildings: vec![tower("soft", 3, 40e3, 20e6), tower("stiff", 3, 60e3, 90e6)],
 //!     gaps: vec![Gap::after(0, 0.02, law)], // 20 mm, right of building 0
-//!     links: Vec::new(),
-//!     walls: Vec::new(),
-//!     soil: None,
-//!     analysis: Analysis::default(),
+//!     ..Model::default()
 //! };
 //! // A record: ground acceleration [m/s²] at equal steps, here five seconds of a sine of 0.7 s.
 //! let wave: Vec<f64> = (0..=500).map(|i| 3.0 * (0.01 * f64::from(i) * 9.0).sin()).collect();

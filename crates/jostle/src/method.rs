@@ -162,9 +162,7 @@ mod tests {
                 alpha: 0.0,
                 beta: 0.0,
             },
-            base: Default::default(),
-            gravity: Default::default(),
-            hinges: None,
+            ..Building::default()
         };
         let survey = MethodSurvey::new(&BuildingSystem::new(
             "three",

@@ -27,7 +27,9 @@ use crate::system::{BuildingSystem, MatInPlan, RunGrounds, System};
 /// assert_eq!(rest.displacement.len(), 6); // two towers of three floors
 /// # Ok::<(), jostle::ModelFault>(())
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+///
+/// The default is that of no buildings at time zero.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct State {
     /// Time \[s\].
     pub time: f64,

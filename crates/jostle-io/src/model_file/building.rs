@@ -3,7 +3,7 @@
 use jostle::hysteresis::{Hysteresis, Side};
 use jostle::model::{FrameHinges, Hinges};
 use jostle::separation::BuildingCodes;
-use jostle::{Analysis, Base, Building, Damping, Gravity, Model, PlanPoint, Structure};
+use jostle::{Base, Building, Damping, Gravity, Model, PlanPoint, Structure};
 use std::path::Path;
 
 use super::damper::{self, Damper};
@@ -336,13 +336,8 @@ fn warn_of_cracking_twice(
 /// Whether a building by itself would pass the check of a model.
 fn is_sound(building: &Building) -> bool {
     let alone = Model {
-        title: String::new(),
         buildings: vec![building.clone()],
-        gaps: Vec::new(),
-        links: Vec::new(),
-        walls: Vec::new(),
-        soil: None,
-        analysis: Analysis::default(),
+        ..Model::default()
     };
     alone.check().is_ok()
 }

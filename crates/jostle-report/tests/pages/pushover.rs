@@ -51,13 +51,12 @@ fn frame(name: &str) -> BuildingSystem {
             alpha: 0.0,
             beta: 0.0,
         },
-        base: Default::default(),
-        gravity: Gravity::default(),
         hinges: Some(Hinges::Frame(FrameHinges {
             columns: vec![vec![hinge; 3]; 2],
             beams: vec![vec![hinge; 2]; 2],
             ..FrameHinges::default()
         })),
+        ..Building::default()
     };
     let mut system = BuildingSystem::new(name, Discretization::new(&building));
     system
@@ -118,9 +117,7 @@ fn an_elastic_building_pushed_in_its_first_mode_is_an_oscillator_of_its_first_pe
             alpha: 0.0,
             beta: 0.0,
         },
-        base: Default::default(),
-        gravity: Gravity::default(),
-        hinges: None,
+        ..Building::default()
     };
     let system = BuildingSystem::new("S", Discretization::new(&building));
     let push = |pattern| {

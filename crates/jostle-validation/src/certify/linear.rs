@@ -7,23 +7,25 @@
 //! accurate. Where damping does not couple them each gives one complex mode, or two real ones if overdamped; else the
 //! eigenvectors of the first-order system are taken.
 
-use faer::linalg::solvers::{DenseSolveCore, Solve};
-use faer::{Mat, Side, c64};
 use jostle::System;
 use jostle::linear::SparseSymmetric;
+use nalgebra::DMatrix;
+
+use super::C64;
+use super::eigen::eigen;
 
 /// Modes of buildings that links join.
 pub(super) struct Component {
     /// Buildings of it.
     pub(super) buildings: Vec<usize>,
     /// Growth rates; conjugates are left out.
-    pub(super) lambda: Vec<c64>,
+    pub(super) lambda: Vec<C64>,
     /// Input of the ground acceleration.
-    pub(super) ground: Vec<c64>,
+    pub(super) ground: Vec<C64>,
     basis: Basis,
     place: Vec<Place>,
     offset: usize,
-    eliminated: Mat<f64>,
+    eliminated: DMatrix<f64>,
 }
 
 #[derive(Clone, Copy)]
@@ -35,24 +37,24 @@ enum Place {
 
 /// How physical displacements come from modes: x_d = Φ y, x_h = T Φ y + ξ.
 struct Basis {
-    shapes: Mat<f64>,
-    held: Mat<f64>,
+    shapes: DMatrix<f64>,
+    held: DMatrix<f64>,
     kind: Kind,
 }
 
 enum Kind {
     /// Per mode of q: which y, and the factor of Re.
-    Classical(Vec<(usize, c64)>),
+    Classical(Vec<(usize, C64)>),
     /// z = U q with z = (Ω y, ẏ, ξ), and the inverse of U.
     Coupled {
         frequency: Vec<f64>,
-        right: Mat<c64>,
-        left: Mat<c64>,
+        right: DMatrix<C64>,
+        left: DMatrix<C64>,
         factor: Vec<f64>,
     },
 }
 
-fn dense(matrix: &SparseSymmetric, offset: usize, factor: f64, into: &mut Mat<f64>) {
+fn dense(matrix: &SparseSymmetric, offset: usize, factor: f64, into: &mut DMatrix<f64>) {
     for column in 0..matrix.diagonal.len() {
         into[(offset + column, offset + column)] += factor * matrix.diagonal[column];
         for place in matrix.starts[column]..matrix.starts[column + 1] {
@@ -63,8 +65,8 @@ fn dense(matrix: &SparseSymmetric, offset: usize, factor: f64, into: &mut Mat<f6
     }
 }
 
-fn part(matrix: &Mat<f64>, rows: &[usize], columns: &[usize]) -> Mat<f64> {
-    Mat::from_fn(rows.len(), columns.len(), |i, j| {
+fn part(matrix: &DMatrix<f64>, rows: &[usize], columns: &[usize]) -> DMatrix<f64> {
+    DMatrix::from_fn(rows.len(), columns.len(), |i, j| {
         matrix[(rows[i], columns[j])]
     })
 }
@@ -97,10 +99,10 @@ impl Component {
             .map(|b| system.buildings[*b].equations.len())
             .sum();
         let (mut plain, mut damped, mut other, mut dashpots) = (
-            Mat::<f64>::zeros(size, size),
-            Mat::<f64>::zeros(size, size),
-            Mat::<f64>::zeros(size, size),
-            Mat::<f64>::zeros(size, size),
+            DMatrix::<f64>::zeros(size, size),
+            DMatrix::<f64>::zeros(size, size),
+            DMatrix::<f64>::zeros(size, size),
+            DMatrix::<f64>::zeros(size, size),
         );
         let (mut mass, mut driven) = (vec![0.0; size], vec![0.0; size]);
         let mut alpha = vec![0.0; size];
@@ -142,7 +144,7 @@ impl Component {
         let (mut massive, mut held, mut following) = (Vec::new(), Vec::new(), Vec::new());
         let mut place = Vec::new();
         for dof in 0..size {
-            let touched = |matrix: &Mat<f64>| (0..size).any(|k| matrix[(dof, k)] != 0.0);
+            let touched = |matrix: &DMatrix<f64>| (0..size).any(|k| matrix[(dof, k)] != 0.0);
             if mass[dof] > 0.0 {
                 place.push(Place::Massive(massive.len()));
                 massive.push(dof);
@@ -158,15 +160,13 @@ impl Component {
         let rest: Vec<usize> = massive.iter().chain(&held).copied().collect();
         // What follows: x_f = E x_rest, the same for K and βK.
         let eliminated = if following.is_empty() {
-            Mat::zeros(0, rest.len())
+            DMatrix::zeros(0, rest.len())
         } else {
             let own = part(&plain, &following, &following);
-            let factor = own
-                .llt(Side::Lower)
-                .map_err(|_| "a joint without stiffness")?;
-            -factor.solve(part(&plain, &following, &rest))
+            let factor = own.cholesky().ok_or("a joint without stiffness")?;
+            -factor.solve(&part(&plain, &following, &rest))
         };
-        let condense = |matrix: &Mat<f64>| {
+        let condense = |matrix: &DMatrix<f64>| {
             part(matrix, &rest, &rest) + part(matrix, &rest, &following) * &eliminated
         };
         let stiffness = condense(&plain) + part(&other, &rest, &rest);
@@ -178,36 +178,37 @@ impl Component {
         let h: Vec<usize> = (nd..nd + nh).collect();
         let held_stiffness = part(&stiffness, &h, &h);
         let held_shape = if nh == 0 {
-            Mat::zeros(0, nd)
+            DMatrix::zeros(0, nd)
         } else {
-            let factor = held_stiffness
-                .llt(Side::Lower)
-                .map_err(|_| "a base without stiffness")?;
-            -factor.solve(part(&stiffness, &h, &d))
+            let factor = held_stiffness.clone().cholesky();
+            let factor = factor.ok_or("a base without stiffness")?;
+            -factor.solve(&part(&stiffness, &h, &d))
         };
         let condensed = part(&stiffness, &d, &d) + part(&stiffness, &d, &h) * &held_shape;
         let root: Vec<f64> = massive.iter().map(|dof| mass[*dof].sqrt()).collect();
-        let symmetric = Mat::from_fn(nd, nd, |i, j| 0.5 * (condensed[(i, j)] + condensed[(j, i)]));
-        let scaled = Mat::from_fn(nd, nd, |i, j| symmetric[(i, j)] / (root[i] * root[j]));
+        let symmetric =
+            DMatrix::from_fn(nd, nd, |i, j| 0.5 * (condensed[(i, j)] + condensed[(j, i)]));
+        let scaled = DMatrix::from_fn(nd, nd, |i, j| symmetric[(i, j)] / (root[i] * root[j]));
         let flexibility = scaled
-            .llt(Side::Lower)
-            .map_err(|_| "a building that can move without deforming")?
+            .cholesky()
+            .ok_or("a building that can move without deforming")?
             .inverse();
-        let eigen = flexibility
-            .self_adjoint_eigen(Side::Lower)
-            .map_err(|_| "no eigenvalues")?;
+        let modes = flexibility
+            .try_symmetric_eigen(f64::EPSILON, 100 * (nd + 1))
+            .ok_or("no eigenvalues")?;
         // Longest period first.
+        let mut order = d.clone();
+        order.sort_by(|a, b| modes.eigenvalues[*b].total_cmp(&modes.eigenvalues[*a]));
         let mut omega = Vec::new();
-        let mut shapes = Mat::zeros(nd, nd);
-        for k in 0..nd {
-            let from = nd - 1 - k;
-            let value = eigen.S()[from];
+        let mut shapes = DMatrix::zeros(nd, nd);
+        for (k, &from) in order.iter().enumerate() {
+            let value = modes.eigenvalues[from];
             if value <= 0.0 {
                 return Err("a mode without a frequency".into());
             }
             omega.push((1.0 / value).sqrt());
             for i in 0..nd {
-                shapes[(i, k)] = eigen.U()[(i, from)] / root[i];
+                shapes[(i, k)] = modes.eigenvectors[(i, from)] / root[i];
             }
         }
         let modal_ratio: Vec<Option<f64>> = buildings
@@ -228,7 +229,7 @@ impl Component {
             let own = &system.buildings[only].equations;
             let bare = own.undamped.is_zero() && system.links.is_empty();
             if own.dashpots.is_zero() && (bare || own.beta == 0.0) && system.links.is_empty() {
-                modal_damping = Mat::zeros(nd, nd);
+                modal_damping = DMatrix::zeros(nd, nd);
                 for k in 0..nd {
                     let ratio = modal_ratio[0].unwrap_or(0.0);
                     modal_damping[(k, k)] =
@@ -258,7 +259,7 @@ impl Component {
             let held_damping = part(&damping, &h, &h);
             let across = part(&damping, &d, &h);
             let nz = 2 * nd + if coupled_damping { nh } else { 0 };
-            let mut matrix = Mat::<f64>::zeros(nz, nz);
+            let mut matrix = DMatrix::<f64>::zeros(nz, nz);
             // D_hd + D_hh T, in modes.
             for k in 0..nd {
                 matrix[(k, nd + k)] = omega[k];
@@ -268,9 +269,8 @@ impl Component {
                 }
             }
             if coupled_damping {
-                let factor = held_damping
-                    .llt(Side::Lower)
-                    .map_err(|_| "a massless base with a dashpot one way only")?;
+                let factor = held_damping.clone().cholesky();
+                let factor = factor.ok_or("a massless base with a dashpot one way only")?;
                 let driven_by = (across.transpose() + &held_damping * &held_shape) * &shapes;
                 let by_velocity = -factor.solve(&driven_by);
                 let by_itself = -factor.solve(&held_stiffness);
@@ -294,21 +294,17 @@ impl Component {
                     }
                 }
             }
-            let eigen = matrix.eigen().map_err(|_| "no complex eigenvalues")?;
-            let left = eigen.U().partial_piv_lu().inverse();
-            let all = (0..nz).map(|k| eigen.S()[k]);
-            let kept: Vec<usize> = all
-                .enumerate()
-                .filter(|(_, value)| value.im >= 0.0)
-                .map(|(k, _)| k)
-                .collect();
-            lambda.extend(kept.iter().map(|k| eigen.S()[*k]));
+            let (values, vectors) = eigen(matrix).ok_or("no complex eigenvalues")?;
+            let left = vectors.clone().lu().try_inverse();
+            let left = left.ok_or("a double eigenvalue with one eigenvector")?;
+            let kept: Vec<usize> = (0..nz).filter(|k| values[*k].im >= 0.0).collect();
+            lambda.extend(kept.iter().map(|k| values[*k]));
             let factor = lambda
                 .iter()
                 .map(|l| if l.im > 0.0 { 2.0 } else { 1.0 })
                 .collect();
-            let right = Mat::from_fn(nz, kept.len(), |i, j| eigen.U()[(i, kept[j])]);
-            let left = Mat::from_fn(kept.len(), nz, |i, j| left[(kept[i], j)]);
+            let right = DMatrix::from_fn(nz, kept.len(), |i, j| vectors[(i, kept[j])]);
+            let left = DMatrix::from_fn(kept.len(), nz, |i, j| left[(kept[i], j)]);
             let kind = Kind::Coupled {
                 frequency: omega,
                 right,
@@ -323,15 +319,15 @@ impl Component {
                 let square = omega[k] * omega[k] - half * half;
                 if square > 0.0 {
                     let own = square.sqrt();
-                    lambda.push(c64::new(-half, own));
-                    list.push((k, c64::new(0.0, -1.0 / own)));
+                    lambda.push(C64::new(-half, own));
+                    list.push((k, C64::new(0.0, -1.0 / own)));
                 } else {
                     let own = (-square).sqrt();
                     let fast = -half - own;
                     let slow = omega[k] * omega[k] / fast;
-                    lambda.extend([c64::new(slow, 0.0), c64::new(fast, 0.0)]);
-                    list.push((k, c64::new(1.0 / (slow - fast), 0.0)));
-                    list.push((k, c64::new(-1.0 / (slow - fast), 0.0)));
+                    lambda.extend([C64::new(slow, 0.0), C64::new(fast, 0.0)]);
+                    list.push((k, C64::new(1.0 / (slow - fast), 0.0)));
+                    list.push((k, C64::new(-1.0 / (slow - fast), 0.0)));
                 }
             }
             (Vec::new(), Kind::Classical(list))
@@ -354,14 +350,14 @@ impl Component {
     }
 
     /// What a load on y does to every q.
-    fn input(&self, load: &[f64]) -> Vec<c64> {
+    fn input(&self, load: &[f64]) -> Vec<C64> {
         match &self.basis.kind {
-            Kind::Classical(list) => list.iter().map(|(k, _)| c64::new(load[*k], 0.0)).collect(),
+            Kind::Classical(list) => list.iter().map(|(k, _)| C64::new(load[*k], 0.0)).collect(),
             Kind::Coupled { left, .. } => (0..left.nrows())
                 .map(|i| {
                     load.iter()
                         .enumerate()
-                        .fold(c64::new(0.0, 0.0), |sum, (k, f)| {
+                        .fold(C64::new(0.0, 0.0), |sum, (k, f)| {
                             sum + left[(i, load.len() + k)] * *f
                         })
                 })
@@ -370,7 +366,7 @@ impl Component {
     }
 
     /// What a force on a degree of freedom with mass (of the system) does to every q.
-    pub(super) fn push(&self, dof: usize) -> Vec<c64> {
+    pub(super) fn push(&self, dof: usize) -> Vec<C64> {
         let shapes = &self.basis.shapes;
         let load: Vec<f64> = match self.place[dof - self.offset] {
             Place::Massive(i) => (0..shapes.ncols()).map(|k| shapes[(i, k)]).collect(),
@@ -380,7 +376,7 @@ impl Component {
     }
 
     /// Coefficients of Σ weight · displacement, (dof of the system, weight).
-    pub(super) fn output(&self, weights: &[(usize, f64)]) -> Vec<c64> {
+    pub(super) fn output(&self, weights: &[(usize, f64)]) -> Vec<C64> {
         let Basis { shapes, held, kind } = &self.basis;
         let (nd, nh) = (shapes.ncols(), held.nrows());
         let mut rest = vec![0.0; nd + nh];
@@ -413,7 +409,7 @@ impl Component {
                 ..
             } => (0..right.ncols())
                 .map(|j| {
-                    let mut sum = c64::new(0.0, 0.0);
+                    let mut sum = C64::new(0.0, 0.0);
                     for k in 0..nd {
                         sum += right[(k, j)] * (in_modes[k] / frequency[k]);
                     }

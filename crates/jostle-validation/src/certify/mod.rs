@@ -22,6 +22,7 @@
 //! t, run again and held against a reference cut at the same instant.
 
 mod describe;
+mod eigen;
 mod hold;
 mod laws;
 mod linear;
@@ -43,6 +44,7 @@ use std::sync::Arc;
 
 use jostle::{GroundMotion, Solver, System};
 use jostle_io::{Format, Input, read_model_text};
+use nalgebra::Complex;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
@@ -56,6 +58,8 @@ pub use quantities::Quantity;
 pub use reference::{Accuracy, Peaks, run as reference};
 pub use truth::Truth;
 use truth::true_peaks;
+
+type C64 = Complex<f64>;
 
 /// Tolerances at which every model is run.
 pub const TOLERANCES: [f64; 3] = [1e-2, 1e-3, 1e-4];

@@ -1,11 +1,11 @@
 //! The functions φ_k(z) = ∫₀¹ e^{z(1−s)} s^{k−1}/(k−1)! ds of exponential integrators.
 
-use faer::c64;
+use super::C64;
 
 /// Highest degree of the polynomials that loads are over a step.
 pub(super) const DEGREE: usize = 8;
 /// e^z, φ₁ … φ_{DEGREE+1}.
-pub(super) type Phi = [c64; DEGREE + 2];
+pub(super) type Phi = [C64; DEGREE + 2];
 
 /// 1/k!.
 const INVERSE_FACTORIAL: [f64; 11] = [
@@ -28,11 +28,11 @@ pub(super) const FACTORIAL: [f64; DEGREE + 1] =
 
 /// e^z and φ₁ … φ_`last`; Re z ≤ 0. The series of the last one converges without cancellation where |z| is not large,
 /// and the recursion downwards is stable there; elsewhere that upwards is.
-pub(super) fn phi(z: c64, last: usize, out: &mut Phi) {
+pub(super) fn phi(z: C64, last: usize, out: &mut Phi) {
     let exp = z.exp();
     out[0] = exp;
     if z.norm_sqr() < ((last + 1) * (last + 1)) as f64 {
-        let mut term = c64::new(INVERSE_FACTORIAL[last], 0.0);
+        let mut term = C64::new(INVERSE_FACTORIAL[last], 0.0);
         let mut sum = term;
         for m in 1..80 {
             term *= z / (last + m) as f64;
@@ -53,7 +53,7 @@ pub(super) fn phi(z: c64, last: usize, out: &mut Phi) {
 }
 
 /// ∫₀^t e^{λ(t−τ)} (τ/h)^k dτ for k = 0 … `last`, where t = s h.
-pub(super) fn moments(phi: &Phi, s: f64, h: f64, last: usize, out: &mut [c64; DEGREE + 1]) {
+pub(super) fn moments(phi: &Phi, s: f64, h: f64, last: usize, out: &mut [C64; DEGREE + 1]) {
     let mut power = s * h;
     for k in 0..=last {
         out[k] = phi[k + 1] * (power * FACTORIAL[k]);
@@ -69,13 +69,13 @@ mod tests {
     #[test]
     fn as_quadrature_finds_them() {
         for z in [
-            c64::new(-0.01, 0.1),
-            c64::new(-3.0, 4.0),
-            c64::new(-0.1, 9.9),
-            c64::new(-10.5, 0.0),
-            c64::new(-2.0, 30.0),
+            C64::new(-0.01, 0.1),
+            C64::new(-3.0, 4.0),
+            C64::new(-0.1, 9.9),
+            C64::new(-10.5, 0.0),
+            C64::new(-2.0, 30.0),
         ] {
-            let mut all = [c64::new(0.0, 0.0); DEGREE + 2];
+            let mut all = [C64::new(0.0, 0.0); DEGREE + 2];
             phi(z, DEGREE + 1, &mut all);
             let n = 20_000;
             for k in 1..=DEGREE + 1 {

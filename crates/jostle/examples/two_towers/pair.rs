@@ -1,9 +1,6 @@
 // The model of the example and of examples in the documentation of the crate.
 
-use jostle::{
-    Analysis, Base, Building, ContactLaw, Damping, Gap, Gravity, LawKind, Model, RestitutionIs,
-    Shear, Structure,
-};
+use jostle::{Building, ContactLaw, Damping, Gap, LawKind, Model, RestitutionIs, Shear, Structure};
 
 /// A soft tower beside a stiff one, `gap` metres apart.
 pub(crate) fn pair(gap: f64) -> Model {
@@ -17,10 +14,7 @@ pub(crate) fn pair(gap: f64) -> Model {
         title: "Soft and stiff".to_owned(),
         buildings: vec![tower("soft", 40e3, 20e6), tower("stiff", 60e3, 90e6)],
         gaps: vec![Gap::after(0, gap, law)],
-        links: Vec::new(),
-        walls: Vec::new(),
-        soil: None,
-        analysis: Analysis::default(),
+        ..Model::default()
     }
 }
 
@@ -37,8 +31,6 @@ fn tower(name: &str, mass: f64, stiffness: f64) -> Building {
             ratio: 0.05,
             modes: Vec::new(),
         },
-        base: Base::default(),
-        gravity: Gravity::default(),
-        hinges: None,
+        ..Building::default()
     }
 }

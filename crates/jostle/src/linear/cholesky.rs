@@ -72,8 +72,7 @@ impl NullaryFnOnce for Solve<'_> {
 
 #[cfg(test)]
 mod tests {
-    use faer::linalg::solvers::Solve;
-    use faer::{Mat, Side};
+    use nalgebra::DMatrix;
 
     use super::*;
 
@@ -92,10 +91,8 @@ mod tests {
             let mut right: Vec<Vec<f64>> = (0..3)
                 .map(|k| (0..n).map(|i| (1.7 * (i + k) as f64).sin()).collect())
                 .collect();
-            let library = Mat::from_fn(n, n, entry)
-                .llt(Side::Lower)
-                .expect("definite");
-            let expected = library.solve(Mat::from_fn(n, 3, |i, k| right[k][i]));
+            let library = DMatrix::from_fn(n, n, entry).cholesky().expect("definite");
+            let expected = library.solve(&DMatrix::from_fn(n, 3, |i, k| right[k][i]));
             Cholesky::new(lower(n, entry))
                 .expect("definite")
                 .solve(&mut right);

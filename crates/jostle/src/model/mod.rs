@@ -43,7 +43,7 @@ pub use wall::Wall;
 /// [`Model::check`] finds all faults at once:
 ///
 /// ```
-/// use jostle::{Analysis, Base, Building, Damping, Gravity, Model, Shear, Structure};
+/// use jostle::{Building, Damping, Model, Shear, Structure};
 ///
 /// let model = Model {
 ///     title: "One storey too few".to_owned(),
@@ -55,20 +55,17 @@ pub use wall::Wall;
 ///             storey_heights: vec![3.0, 3.0],
 ///         }),
 ///         damping: Damping::Ratio { ratio: 0.05, modes: Vec::new() },
-///         base: Base::default(),
-///         gravity: Gravity::default(),
-///         hinges: None,
+///         ..Building::default()
 ///     }],
-///     gaps: Vec::new(),
-///     links: Vec::new(),
-///     walls: Vec::new(),
-///     soil: None,
-///     analysis: Analysis::default(),
+///     ..Model::default()
 /// };
 /// let faults = model.check().expect_err("the stiffness is missing");
 /// assert!(faults[0].path.starts_with("building[0].stiffness"));
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+///
+/// The default has no buildings, gaps, links or walls, no soil, and the default [`Analysis`]. The check refuses it until it
+/// has a building.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Model {
     /// Title printed on summaries and reports.
     pub title: String,
@@ -89,7 +86,7 @@ pub struct Model {
 /// One building: its structure, its damping and where it yields.
 ///
 /// ```
-/// use jostle::{Base, Building, Damping, Gravity, Shear, Structure};
+/// use jostle::{Building, Damping, Shear, Structure};
 ///
 /// let building = Building {
 ///     name: "North".to_owned(),
@@ -99,13 +96,15 @@ pub struct Model {
 ///         storey_heights: vec![4.0, 3.2], // m
 ///     }),
 ///     damping: Damping::Ratio { ratio: 0.02, modes: vec![1, 2] },
-///     base: Base::default(), // fixed
-///     gravity: Gravity::default(),
-///     hinges: None, // elastic
+///     ..Building::default()
 /// };
 /// assert_eq!(building.floors(), 2);
+/// assert!(building.base.is_fixed());
 /// assert!(!building.may_yield());
 /// ```
+///
+/// The default has no name and no floors, so that the check refuses it; it is undamped, elastic, fixed to the ground and
+/// without effects of self weight.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Building {
     /// Name, unique in the model.
@@ -120,6 +119,26 @@ pub struct Building {
     pub gravity: Gravity,
     /// Springs that crack and yield; `None` is elastic.
     pub hinges: Option<Hinges>,
+}
+
+impl Default for Building {
+    fn default() -> Self {
+        Self {
+            name: String::new(),
+            structure: Structure::Shear(Shear {
+                mass: Vec::new(),
+                stiffness: Vec::new(),
+                storey_heights: Vec::new(),
+            }),
+            damping: Damping::Rayleigh {
+                alpha: 0.0,
+                beta: 0.0,
+            },
+            base: Base::default(),
+            gravity: Gravity::default(),
+            hinges: None,
+        }
+    }
 }
 
 impl Building {
@@ -206,9 +225,7 @@ pub struct Gravity {
 ///
 /// ```
 /// use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
-/// use jostle::{
-///     Analysis, Base, Building, Damping, Gravity, Hinges, Model, Shear, Structure, System,
-/// };
+/// use jostle::{Building, Damping, Hinges, Model, Shear, Structure, System};
 ///
 /// // Storeys of 60 MN/m that yield at 20 mm and keep 5 % of their stiffness.
 /// let corners = || Corners::bilinear(0.02, 0.05);
@@ -226,18 +243,13 @@ pub struct Gravity {
 ///         storey_heights: vec![3.0; 2],
 ///     }),
 ///     damping: Damping::Ratio { ratio: 0.05, modes: Vec::new() },
-///     base: Base::default(),
-///     gravity: Gravity::default(),
 ///     hinges: Some(Hinges::Storeys(vec![storey; 2])),
+///     ..Building::default()
 /// };
 /// let model = Model {
 ///     title: "Yielding tower".to_owned(),
 ///     buildings: vec![building],
-///     gaps: Vec::new(),
-///     links: Vec::new(),
-///     walls: Vec::new(),
-///     soil: None,
-///     analysis: Analysis::default(),
+///     ..Model::default()
 /// };
 /// let system = System::assemble(&model).map_err(|faults| faults[0].to_string())?;
 /// assert_eq!(system.buildings[0].spring_range().len(), 2);
@@ -725,6 +737,31 @@ mod tests {
     use super::*;
     use crate::contact::ContactLaw;
     use crate::contact::{LawKind, RestitutionIs};
+
+    /// Defaults fill what a model leaves open; none of them is a model.
+    #[test]
+    fn defaults_without_a_building_or_a_floor_are_refused() {
+        let paths = |model: Model| -> Vec<String> {
+            let faults = model.check().expect_err("nothing to analyse");
+            faults.into_iter().map(|fault| fault.path).collect()
+        };
+        assert_eq!(paths(Model::default()), ["building"]);
+        for structure in [
+            Building::default().structure,
+            Structure::Tiers(Tiers::default()),
+        ] {
+            let building = Building {
+                name: "empty".to_owned(),
+                structure,
+                ..Building::default()
+            };
+            let found = paths(Model {
+                buildings: vec![building],
+                ..Model::default()
+            });
+            assert_eq!(found, ["building[0].mass"]);
+        }
+    }
 
     #[test]
     fn a_narrower_gap_keeps_its_set_back() {

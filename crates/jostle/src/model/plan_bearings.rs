@@ -94,13 +94,8 @@ mod tests {
     fn tiers(plan: Vec<PlanPoint>) -> Tiers {
         Tiers {
             floors: vec![Tier::uniform(1e5, plan).expect("a plan")],
-            storeys: Vec::new(),
             storey_heights: vec![3.0],
-            frames: Vec::new(),
-            space_frame: None,
-            yielding: Vec::new(),
-            element_names: Vec::new(),
-            bearings: Vec::new(),
+            ..Tiers::default()
         }
     }
 

@@ -25,15 +25,13 @@ pub type PlanPoint = [f64; 2];
 ///     floors: vec![tier],
 ///     storeys: vec![storey],
 ///     storey_heights: vec![3.2],
-///     frames: Vec::new(),
-///     space_frame: None,
-///     yielding: Vec::new(),
-///     element_names: Vec::new(),
-///     bearings: Vec::new(),
+///     ..Tiers::default()
 /// };
 /// assert_eq!(tiers.floors.len(), tiers.storeys.len());
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+///
+/// The default has neither floors nor anything that holds them, so that the check refuses it.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Tiers {
     /// Floors from the ground up.
     pub floors: Vec<Tier>,

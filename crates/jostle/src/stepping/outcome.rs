@@ -99,7 +99,9 @@ pub(super) type Observer<'a> = dyn FnMut(Progress) -> ControlFlow<()> + 'a;
 /// assert!(outcome.gap_forces[0].value >= strongest); // of all contacts of the gap together
 /// # Ok::<(), jostle::ModelFault>(())
 /// ```
-#[derive(Clone, Debug)]
+///
+/// The default is that of a run of no buildings that was stopped before its first step.
+#[derive(Clone, Debug, Default)]
 pub struct Outcome {
     /// Time histories, if requested.
     pub history: Option<History>,
@@ -221,11 +223,12 @@ pub struct Accuracy {
 /// assert_eq!(stopped.end, RunEnd::Stopped);
 /// # Ok::<(), jostle::ModelFault>(())
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub enum RunEnd {
     /// The end of the motion was reached.
     Completed,
     /// The observer asked to stop.
+    #[default]
     Stopped,
     /// A step failed; earlier results are valid.
     Failed(StepError),
@@ -332,33 +335,19 @@ impl Outcome {
         let ratios = MemberRatios::new(system);
         let unknown = |building: &BuildingSystem| vec![[0.0; 2]; building.members.forms.len()];
         Self {
-            history: None,
-            impacts: Vec::new(),
             floors: system.buildings.iter().map(floors).collect(),
             in_plan: vec![PlanPeaks::default(); system.buildings.len()],
             supports: vec![SupportPeaks::default(); system.buildings.len()],
             foundations: vec![FoundationPeaks::default(); system.buildings.len()],
             closing: vec![Extreme::default(); system.contacts.len()],
-            gap_forces: Vec::new(),
-            face_impacts: Vec::new(),
             base_shear: vec![0.0; system.buildings.len()],
-            acceleration_parts: AccelerationParts::default(),
-            spring_events: Vec::new(),
-            springs: Vec::new(),
             links: vec![LinkTotals::default(); system.links.len()],
-            spring_history: None,
             members: system.buildings.iter().map(unknown).collect(),
-            member_history: None,
             member_ratios: ratios.greatest,
             worst_instants: ratios.worst,
-            energy: Energy::default(),
-            work: Work::default(),
-            free_step: None,
-            contact_step: None,
             state: State::at_rest(system, 0.0),
-            accuracy: None,
-            refined: Refined::default(),
             end: RunEnd::Failed(error),
+            ..Self::default()
         }
     }
 }

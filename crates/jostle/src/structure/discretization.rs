@@ -15,8 +15,8 @@ use crate::model::{
     Shear, ShearEnds, ShearSpring, Structure,
 };
 
-/// A stick model and where its floors and faces are.
-#[derive(Clone, Debug, PartialEq)]
+/// A stick model and where its floors and faces are. The default has no nodes.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Discretization {
     /// Masses and elements.
     pub stick_model: StickModel,
@@ -420,20 +420,8 @@ pub(super) fn discretize_frame(
         .map(|x| stick_model.add_foot(*x, base))
         .collect();
     let mut discretization = Discretization {
-        stick_model: StickModel::default(),
         foot: Some(below[0]),
-        mat: None,
-        floors: Vec::new(),
-        left_face: Vec::new(),
-        right_face: Vec::new(),
-        spring_places: Vec::new(),
-        members: Vec::new(),
-        centres: Vec::new(),
-        frames: Vec::new(),
-        shared_columns: Vec::new(),
-        space_frame: None,
-        jointed_frame: None,
-        element_names: Vec::new(),
+        ..Discretization::default()
     };
     // Hinges come before springs, in the order of the stick model.
     let at_the_base =
@@ -636,19 +624,11 @@ fn discretize_given(given: &Given) -> Discretization {
     let floors: Vec<usize> = given.floors.iter().map(|dof| ground + 1 + dof).collect();
     Discretization {
         stick_model,
-        members: Vec::new(),
-        centres: Vec::new(),
-        frames: Vec::new(),
-        shared_columns: Vec::new(),
-        space_frame: None,
-        jointed_frame: None,
-        element_names: Vec::new(),
         foot: Some(ground),
-        mat: None,
         left_face: floors.clone(),
         right_face: floors.clone(),
         floors,
-        spring_places: Vec::new(),
+        ..Discretization::default()
     }
 }
 
@@ -718,17 +698,10 @@ fn discretize_shear(shear: &Shear, base: &Base, springs: &[Hysteresis]) -> Discr
     Discretization {
         stick_model,
         foot: Some(foot),
-        mat: None,
         left_face: floors.clone(),
         right_face: floors.clone(),
         floors,
         spring_places,
-        members: Vec::new(),
-        centres: Vec::new(),
-        frames: Vec::new(),
-        shared_columns: Vec::new(),
-        space_frame: None,
-        jointed_frame: None,
-        element_names: Vec::new(),
+        ..Discretization::default()
     }
 }

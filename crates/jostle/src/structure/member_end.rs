@@ -75,8 +75,7 @@ mod tests {
     use super::*;
     use crate::hysteresis::{Backbone, Corners, HysteresisRule};
     use crate::model::{
-        Axial, Base, Building, Damping, Frame, FrameHinges, Gravity, Hinges, Joint, Section,
-        Structure,
+        Axial, Building, Damping, Frame, FrameHinges, Hinges, Joint, Section, Structure,
     };
     use crate::structure::Discretization;
 
@@ -132,13 +131,12 @@ mod tests {
                     alpha: 0.0,
                     beta: 0.0,
                 },
-                base: Base::default(),
-                gravity: Gravity::default(),
                 hinges: Some(Hinges::Frame(FrameHinges {
                     columns: vec![vec![hinge; 3]; 2],
                     beams: vec![vec![hinge; 2]; 2],
                     ..FrameHinges::default()
                 })),
+                ..Building::default()
             };
             let found = end_stiffnesses(&Discretization::new(&building).stick_model);
             assert_eq!(found.len(), expected.len());

@@ -45,9 +45,8 @@ pub(crate) fn frame_with(change: impl FnOnce(&mut Frame) -> Option<Hinges>) -> A
             alpha: 0.0,
             beta: 0.0,
         },
-        base: Default::default(),
-        gravity: Default::default(),
         hinges,
+        ..Building::default()
     };
     AssembledBuilding::new("frame", Discretization::new(&building))
 }

@@ -114,19 +114,13 @@ pub(super) fn discretize_tiers(
     }
     let mut discretization = Discretization {
         stick_model,
-        foot: None,
-        mat: None,
-        left_face: Vec::new(),
-        right_face: Vec::new(),
         centres: lumped.iter().map(|floor| floor.tier.centre).collect(),
         floors,
         spring_places,
         element_names: tiers.element_names.clone(),
-        members: Vec::new(),
-        frames: Vec::new(),
-        shared_columns: Vec::new(),
         space_frame: condensed,
         jointed_frame: jointed,
+        ..Discretization::default()
     };
     let below = mat.as_ref().map(|mat| (foot, mat));
     add_frames(tiers, &lumped, below, &mut discretization);

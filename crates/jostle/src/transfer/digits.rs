@@ -43,9 +43,7 @@ const PER_BEAM_DECADE: f64 = 0.4;
 ///         storey_heights: vec![3.0; 8],
 ///     }),
 ///     damping: Damping::Rayleigh { alpha: 0.0, beta: 0.0 },
-///     base: Default::default(),
-///     gravity: Default::default(),
-///     hinges: None,
+///     ..Building::default()
 /// };
 /// let tower = AssembledBuilding::new("tower", Discretization::new(&tower));
 /// let at = |step: f64| digits_left(&tower, &StepMatrix::new(1.0, 4.0 / (step * step)));

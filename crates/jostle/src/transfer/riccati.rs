@@ -31,8 +31,7 @@ use crate::structure::StepEquations;
 /// use jostle::linear::StepMatrix;
 /// use jostle::structure::StepEquations;
 /// use jostle::{
-///     Analysis, Base, Building, Damping, Gravity, Model, RiccatiFactor, RiccatiScratch, RiccatiSweep, Shear,
-///     Structure, System,
+///     Building, Damping, Model, RiccatiFactor, RiccatiScratch, RiccatiSweep, Shear, Structure, System,
 /// };
 ///
 /// let building = Building {
@@ -43,18 +42,12 @@ use crate::structure::StepEquations;
 ///         storey_heights: vec![3.0; 3],
 ///     }),
 ///     damping: Damping::Ratio { ratio: 0.05, modes: Vec::new() },
-///     base: Base::default(),
-///     gravity: Gravity::default(),
-///     hinges: None,
+///     ..Building::default()
 /// };
 /// let model = Model {
 ///     title: "one step".to_owned(),
 ///     buildings: vec![building],
-///     gaps: Vec::new(),
-///     links: Vec::new(),
-///     walls: Vec::new(),
-///     soil: None,
-///     analysis: Analysis::default(),
+///     ..Model::default()
 /// };
 /// let system = System::assemble(&model).map_err(|faults| faults[0].to_string())?;
 ///

@@ -7,9 +7,9 @@ use std::ops::ControlFlow;
 use jostle::model::{CapacityLine, MemberCapacity, RuleCapacity, ShearCapacity};
 use jostle::results::summary::RatioSummary;
 use jostle::{
-    Analysis, Axial, Base, Building, ContactLaw, Damping, Frame, Gap, Gravity, GroundMotion, Joint,
-    LawKind, MemberRequest, Model, Plan, RestitutionIs, Section, Settings, Solver, Structure,
-    Summary, System, simulate,
+    Analysis, Axial, Building, ContactLaw, Damping, Frame, Gap, GroundMotion, Joint, LawKind,
+    MemberRequest, Model, Plan, RestitutionIs, Section, Settings, Solver, Structure, Summary,
+    System, simulate,
 };
 
 const HEIGHT: f64 = 4.0;
@@ -48,9 +48,7 @@ fn portal(name: &str) -> Building {
             ratio: 0.05,
             modes: Vec::new(),
         },
-        base: Base::default(),
-        gravity: Gravity::default(),
-        hinges: None,
+        ..Building::default()
     }
 }
 
@@ -107,15 +105,13 @@ fn ratios(
         title: "Portal".to_owned(),
         buildings: vec![portal("A"), portal("B")],
         gaps: vec![Gap::after(0, 5.0, law)],
-        links: Vec::new(),
-        walls: Vec::new(),
-        soil: None,
         analysis: Analysis {
             members,
             solver: Some(solver),
             step,
             ..Analysis::default()
         },
+        ..Model::default()
     };
     let system = System::assemble(&model).expect("sound");
     let plan = Plan::choose(&system, motion, &model.analysis).expect("planned");

@@ -8,9 +8,9 @@ use jostle::model::{CapacityLine, MemberCapacity, RuleCapacity, ShearCapacity};
 use jostle::stiffness::DirectStiffness;
 use jostle::structure::{MemberPlace, SectionAt, solve_once};
 use jostle::{
-    Analysis, Axial, Base, Building, ContactLaw, Damping, Frame, Gap, Gravity, GroundMotion, Joint,
-    JointRequest, LawKind, MemberRequest, Model, Outcome, Plan, RestitutionIs, RunEnd, Section,
-    Settings, Solver, State, Structure, Summary, System, simulate,
+    Analysis, Axial, Building, ContactLaw, Damping, Frame, Gap, GroundMotion, Joint, JointRequest,
+    LawKind, MemberRequest, Model, Outcome, Plan, RestitutionIs, RunEnd, Section, Settings, Solver,
+    State, Structure, Summary, System, simulate,
 };
 
 fn section(rigidity: f64) -> Section {
@@ -48,9 +48,7 @@ fn building(
             ratio: 0.05,
             modes: Vec::new(),
         },
-        base: Base::default(),
-        gravity: Gravity::default(),
-        hinges: None,
+        ..Building::default()
     }
 }
 
@@ -108,13 +106,11 @@ fn model(buildings: Vec<Building>, gaps: Vec<Gap>) -> Model {
         title: "Joints".to_owned(),
         buildings,
         gaps,
-        links: Vec::new(),
-        walls: Vec::new(),
-        soil: None,
         analysis: Analysis {
             members: MemberRequest::all(),
             ..Analysis::default()
         },
+        ..Model::default()
     };
     let all = 0..model.buildings.len();
     model.analysis.members.joints = all.flat_map(|index| joints(&model, index)).collect();

@@ -4,9 +4,9 @@ use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use jostle::{
-    Analysis, Axial, Base, Building, ContactLaw, Damping, Frame, Gap, Gravity, GroundMotion, Joint,
-    LawKind, MemberRequest, Model, Plan, RestitutionIs, Section, Settings, Solver, Structure,
-    System, simulate,
+    Analysis, Axial, Building, ContactLaw, Damping, Frame, Gap, GroundMotion, Joint, LawKind,
+    MemberRequest, Model, Plan, RestitutionIs, Section, Settings, Solver, Structure, System,
+    simulate,
 };
 
 fn building(name: &str, storeys: usize) -> Building {
@@ -34,9 +34,7 @@ fn building(name: &str, storeys: usize) -> Building {
             ratio: 0.05,
             modes: Vec::new(),
         },
-        base: Base::default(),
-        gravity: Gravity::default(),
-        hinges: None,
+        ..Building::default()
     }
 }
 
@@ -52,13 +50,11 @@ fn model(members: MemberRequest) -> Model {
         title: "Five and ten storeys".to_owned(),
         buildings: vec![building("J1", 5), building("J2", 10)],
         gaps: vec![Gap::after(0, 0.03, law)],
-        links: Vec::new(),
-        walls: Vec::new(),
-        soil: None,
         analysis: Analysis {
             members,
             ..Analysis::default()
         },
+        ..Model::default()
     }
 }
 

@@ -6,9 +6,9 @@ use jostle::linear::StepMatrix;
 use jostle::stiffness::DirectStiffness;
 use jostle::structure::{MemberPlace, SectionAt, solve_once};
 use jostle::{
-    Analysis, Axial, Base, Building, ContactLaw, Damping, FloorPairs, Frame, Gap, Gravity,
-    GroundMotion, Joint, LawKind, Level, Link, MemberRequest, Model, Outcome, Plan, RestitutionIs,
-    RunEnd, Section, Settings, Solver, State, Structure, System, simulate,
+    Analysis, Axial, Building, ContactLaw, Damping, FloorPairs, Frame, Gap, Gravity, GroundMotion,
+    Joint, LawKind, Level, Link, MemberRequest, Model, Outcome, Plan, RestitutionIs, RunEnd,
+    Section, Settings, Solver, State, Structure, System, simulate,
 };
 
 const GRAVITY: f64 = 9.806_65;
@@ -45,9 +45,7 @@ fn building(name: &str, frame: Frame) -> Building {
             ratio: 0.05,
             modes: Vec::new(),
         },
-        base: Base::default(),
-        gravity: Gravity::default(),
-        hinges: None,
+        ..Building::default()
     }
 }
 
@@ -85,13 +83,11 @@ fn neighbours() -> Model {
             ]),
             ..Gap::after(0, 0.005, law())
         }],
-        links: Vec::new(),
-        walls: Vec::new(),
-        soil: None,
         analysis: Analysis {
             members: MemberRequest::all(),
             ..Analysis::default()
         },
+        ..Model::default()
     }
 }
 
@@ -364,13 +360,11 @@ fn portal(columns: f64, beam: f64, height: f64, span: f64) -> System {
         title: "Portal".to_owned(),
         buildings: vec![building("P", frame)],
         gaps: vec![wall([None, Some(0)]), wall([Some(0), None])],
-        links: Vec::new(),
-        walls: Vec::new(),
-        soil: None,
         analysis: Analysis {
             members: MemberRequest::all(),
             ..Analysis::default()
         },
+        ..Model::default()
     };
     System::assemble(&model).expect("sound")
 }
@@ -590,14 +584,11 @@ fn columns_carry_the_overturning_moment() {
     let model = Model {
         title: "Overturning".to_owned(),
         buildings: vec![building("A", frame(4, &spans))],
-        gaps: Vec::new(),
-        links: Vec::new(),
-        walls: Vec::new(),
-        soil: None,
         analysis: Analysis {
             members: MemberRequest::all(),
             ..Analysis::default()
         },
+        ..Model::default()
     };
     let system = System::assemble(&model).expect("sound");
     let push = [30e3, 50e3, 20e3, 80e3];

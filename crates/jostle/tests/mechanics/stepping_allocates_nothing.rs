@@ -4,8 +4,8 @@ use std::ops::ControlFlow;
 
 use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
 use jostle::{
-    Analysis, Building, ContactLaw, Damping, FloorPairs, Gap, GroundMotion, Isolation, Isolator,
-    LawKind, Level, Link, LinkLaw, Model, Plan, Pounding, RestitutionIs, Settings, Shear, Solver,
+    Building, ContactLaw, Damping, FloorPairs, Gap, GroundMotion, Isolation, Isolator, LawKind,
+    Level, Link, LinkLaw, Model, Plan, Pounding, RestitutionIs, Settings, Shear, Solver,
     SpeedFriction, Stop, Structure, System, Wall, simulate,
 };
 
@@ -21,9 +21,7 @@ fn towers() -> Model {
             ratio: 0.05,
             modes: vec![1, 2],
         },
-        base: Default::default(),
-        gravity: Default::default(),
-        hinges: None,
+        ..Building::default()
     };
     let law = ContactLaw {
         kind: LawKind::HertzDamp,
@@ -35,10 +33,7 @@ fn towers() -> Model {
         title: "towers".into(),
         buildings: vec![tower("soft", 4e4, 2e7), tower("stiff", 6e4, 9e7)],
         gaps: vec![Gap::after(0, 0.03, law)],
-        links: Vec::new(),
-        walls: Vec::new(),
-        soil: None,
-        analysis: Analysis::default(),
+        ..Model::default()
     }
 }
 

@@ -1,6 +1,6 @@
 //! Modes and closings at a share of a step, exactly.
 
-use faer::c64;
+use crate::certify::C64;
 use jostle::motion::Wave;
 
 use super::super::linear::Component;
@@ -43,7 +43,7 @@ impl Run<'_> {
     }
 
     /// Closing less width, and its rate, of a contact.
-    pub(super) fn closing(&self, contact: usize, q: &[Vec<c64>]) -> (f64, f64) {
+    pub(super) fn closing(&self, contact: usize, q: &[Vec<C64>]) -> (f64, f64) {
         let contact_state = &self.contact_states[contact];
         let mut sum = (contact_state.rest - contact_state.width, 0.0);
         for side in &contact_state.sides {
@@ -54,7 +54,7 @@ impl Run<'_> {
     }
 
     /// The modes of a component at a share of the step.
-    pub(super) fn at(&self, component: usize, s: f64, pushes: &Pushes, out: &mut Vec<c64>) {
+    pub(super) fn at(&self, component: usize, s: f64, pushes: &Pushes, out: &mut Vec<C64>) {
         let inputs = self.inputs(component, pushes);
         let own = &self.components[component];
         let last = if inputs.is_empty() {
@@ -85,7 +85,7 @@ impl Run<'_> {
         &'b self,
         component: usize,
         pushes: &'b Pushes,
-    ) -> Vec<(&'b [c64], &'b Poly)> {
+    ) -> Vec<(&'b [C64], &'b Poly)> {
         let forces = pushes.forces.iter();
         forces
             .flat_map(|(contact, poly)| {
@@ -98,7 +98,7 @@ impl Run<'_> {
     }
 
     /// All modes at the end of a whole step of a level, or at a share of it.
-    pub(super) fn advanced(&mut self, level: usize, s: f64, pushes: &Pushes) -> Vec<Vec<c64>> {
+    pub(super) fn advanced(&mut self, level: usize, s: f64, pushes: &Pushes) -> Vec<Vec<C64>> {
         let mut all = Vec::with_capacity(self.components.len());
         for component in 0..self.components.len() {
             let mut out = Vec::with_capacity(self.q[component].len());
@@ -148,15 +148,15 @@ impl Run<'_> {
 /// q at the end of a step.
 #[allow(clippy::too_many_arguments, reason = "the innermost loop")]
 fn advance(
-    q: c64,
-    exp: c64,
-    moment: &[c64; NODES],
+    q: C64,
+    exp: C64,
+    moment: &[C64; NODES],
     mode: usize,
     component: &Component,
-    inputs: &[(&[c64], &Poly)],
+    inputs: &[(&[C64], &Poly)],
     pushes: &Pushes,
     last: usize,
-) -> c64 {
+) -> C64 {
     let mut sum = exp * q;
     let ground = component.ground[mode];
     if inputs.is_empty() {

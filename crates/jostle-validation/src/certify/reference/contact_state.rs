@@ -1,6 +1,6 @@
 //! Contacts between buildings.
 
-use faer::c64;
+use crate::certify::C64;
 use jostle::System;
 
 use super::super::laws::Law;
@@ -10,9 +10,9 @@ use super::watch::Watch;
 
 pub(super) struct Side {
     pub(super) component: usize,
-    pub(super) row: Vec<c64>,
-    pub(super) rate: Vec<c64>,
-    pub(super) push: Vec<c64>,
+    pub(super) row: Vec<C64>,
+    pub(super) rate: Vec<C64>,
+    pub(super) push: Vec<C64>,
     /// Jump of the accelerations of floors per force, and of their slopes.
     pub(super) accelerates: Vec<f64>,
     pub(super) jerks: Vec<f64>,

@@ -1,6 +1,6 @@
 //! First contacts, momentum impacts, corners and releases.
 
-use faer::c64;
+use crate::certify::C64;
 
 use super::super::laws::{Closed, Next};
 use super::polynomial::{Poly, hermite_top, horner, slope};
@@ -68,7 +68,7 @@ impl Run<'_> {
     pub(super) fn touch_within(
         &self,
         reach: f64,
-        after: &[Vec<c64>],
+        after: &[Vec<C64>],
         pushes: &Pushes,
     ) -> Option<(f64, usize)> {
         let h = reach * pushes.step;

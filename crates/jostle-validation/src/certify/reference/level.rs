@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::rc::Rc;
 
-use faer::c64;
+use crate::certify::C64;
 
 use super::super::phi::{DEGREE, Phi, moments, phi};
 use super::Run;
@@ -11,9 +11,9 @@ use super::contact_state::Side;
 use super::polynomial::{NODES, Poly, ZERO};
 
 /// By mode and node.
-pub(super) type Exponentials = Vec<[c64; NODES]>;
+pub(super) type Exponentials = Vec<[C64; NODES]>;
 /// By mode, node and power.
-pub(super) type Moments = Vec<[[c64; NODES]; NODES]>;
+pub(super) type Moments = Vec<[[C64; NODES]; NODES]>;
 /// Of closing and rate, by node and by power or node of what pushes.
 pub(super) type Response = [[[f64; NODES]; NODES]; 2];
 
@@ -60,7 +60,7 @@ impl Run<'_> {
         let mut all = Vec::new();
         let mut work: Phi = [ZERO; DEGREE + 2];
         for l in &self.components[component].lambda {
-            let mut exp = [c64::new(1.0, 0.0); NODES];
+            let mut exp = [C64::new(1.0, 0.0); NODES];
             let mut moment = [[ZERO; NODES]; NODES];
             for i in 1..NODES {
                 phi(*l * (self.nodes[i] * step), DEGREE + 1, &mut work);
@@ -144,8 +144,8 @@ impl Run<'_> {
 fn add_response(
     response: &mut Response,
     side: &Side,
-    input: &[c64],
-    moment: &[[[c64; NODES]; NODES]],
+    input: &[C64],
+    moment: &[[[C64; NODES]; NODES]],
 ) {
     for j in 0..input.len() {
         let (x, v) = (side.row[j] * input[j], side.rate[j] * input[j]);

@@ -12,7 +12,7 @@ mod storeys;
 mod take;
 mod watch;
 
-use faer::c64;
+use crate::certify::C64;
 use jostle::motion::Wave;
 use jostle::{GroundMotion, System};
 
@@ -63,7 +63,7 @@ struct Run<'a> {
     ground_degree: usize,
     /// Length of the pieces of the ground motion.
     piece: f64,
-    q: Vec<Vec<c64>>,
+    q: Vec<Vec<C64>>,
     signals: Vec<Vec<(f64, f64)>>,
     closed: Vec<Option<Closed>>,
     /// Closing less width of every contact, and its rate, now.

@@ -1,11 +1,12 @@
 //! Polynomials of the share of a step, by their coefficients or by their values at the Chebyshev points.
 
-use faer::c64;
+use nalgebra::SMatrix;
 
+use super::super::C64;
 use super::super::phi::{DEGREE, FACTORIAL};
 
 pub(super) const NODES: usize = DEGREE + 1;
-pub(super) const ZERO: c64 = c64::new(0.0, 0.0);
+pub(super) const ZERO: C64 = C64::new(0.0, 0.0);
 pub(super) type Poly = [f64; NODES];
 
 pub(super) fn horner(poly: &Poly, s: f64) -> f64 {
@@ -18,7 +19,7 @@ pub(super) fn slope(poly: &Poly, s: f64) -> f64 {
         .fold(0.0, |sum, k| sum * s + k as f64 * poly[k])
 }
 
-pub(super) fn real_dot(row: &[c64], q: &[c64]) -> f64 {
+pub(super) fn real_dot(row: &[C64], q: &[C64]) -> f64 {
     row.iter()
         .zip(q)
         .map(|(c, q)| c.re * q.re - c.im * q.im)
@@ -26,11 +27,8 @@ pub(super) fn real_dot(row: &[c64], q: &[c64]) -> f64 {
 }
 
 pub(super) fn inverse(matrix: &[[f64; NODES]; NODES]) -> [[f64; NODES]; NODES] {
-    use faer::Mat;
-    use faer::linalg::solvers::DenseSolveCore;
-    let inverse = Mat::from_fn(NODES, NODES, |i, j| matrix[i][j])
-        .full_piv_lu()
-        .inverse();
+    let matrix = SMatrix::<f64, NODES, NODES>::from_fn(|i, j| matrix[i][j]);
+    let inverse = matrix.full_piv_lu().try_inverse().expect("distinct nodes");
     std::array::from_fn(|i| std::array::from_fn(|j| inverse[(i, j)]))
 }
 

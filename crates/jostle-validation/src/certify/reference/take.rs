@@ -1,6 +1,6 @@
 //! Peaks between the ends of steps.
 
-use faer::c64;
+use crate::certify::C64;
 
 use super::polynomial::{hermite_top, horner, slope};
 use super::{Pushes, Run};
@@ -10,7 +10,7 @@ const ROUGH: f64 = 1e-6;
 
 impl Run<'_> {
     /// Goes on to a share of the step, and takes the peaks on the way.
-    pub(super) fn accept(&mut self, reach: f64, after: Vec<Vec<c64>>, pushes: &Pushes) {
+    pub(super) fn accept(&mut self, reach: f64, after: Vec<Vec<C64>>, pushes: &Pushes) {
         let h = reach * pushes.step;
         if h > 0.0 {
             for (contact, poly) in &pushes.forces {
@@ -79,7 +79,7 @@ impl Run<'_> {
     }
 
     /// Takes the greatest closing of a contact on the way to a share of the step.
-    fn take_closing(&mut self, contact: usize, reach: f64, pushes: &Pushes, after: &[Vec<c64>]) {
+    fn take_closing(&mut self, contact: usize, reach: f64, pushes: &Pushes, after: &[Vec<C64>]) {
         let h = reach * pushes.step;
         let width = self.contact_states[contact].width;
         let (x0, v0) = self.closings[contact];

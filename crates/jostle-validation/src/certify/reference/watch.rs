@@ -1,6 +1,6 @@
 //! Outputs of the buildings of a component that are followed.
 
-use faer::c64;
+use crate::certify::C64;
 use jostle::System;
 
 use super::super::linear::Component;
@@ -9,13 +9,13 @@ use super::storeys::storeys;
 
 /// A linear form of the modes with its slope.
 struct Form {
-    value: Vec<c64>,
-    slope: Vec<c64>,
+    value: Vec<C64>,
+    slope: Vec<C64>,
     constant: f64,
 }
 
 impl Form {
-    fn new(value: Vec<c64>, component: &Component, constant: f64) -> Self {
+    fn new(value: Vec<C64>, component: &Component, constant: f64) -> Self {
         let slope = times(&value, component, 1);
         Self {
             value,
@@ -24,7 +24,7 @@ impl Form {
         }
     }
 
-    fn value(&self, q: &[c64]) -> (f64, f64) {
+    fn value(&self, q: &[C64]) -> (f64, f64) {
         (
             real_dot(&self.value, q) + self.constant,
             real_dot(&self.slope, q),
@@ -65,13 +65,13 @@ pub(super) struct WatchedLink {
 }
 
 /// A row after differentiating `power` times.
-fn times(row: &[c64], component: &Component, power: i32) -> Vec<c64> {
+fn times(row: &[C64], component: &Component, power: i32) -> Vec<C64> {
     let terms = row.iter().zip(&component.lambda);
     terms.map(|(c, l)| c * l.powi(power)).collect()
 }
 
 /// What an input does to an output at once.
-fn at_once(row: &[c64], input: &[c64]) -> f64 {
+fn at_once(row: &[C64], input: &[C64]) -> f64 {
     row.iter().zip(input).map(|(c, b)| (c * b).re).sum()
 }
 
@@ -171,8 +171,8 @@ impl Watch {
 
     /// What a force does at once to the accelerations of floors, to their slopes, and to the slopes of the forces of
     /// links.
-    pub(super) fn struck(&self, push: &[c64]) -> [Vec<f64>; 3] {
-        let by = |rows: &mut dyn Iterator<Item = &Vec<c64>>| -> Vec<f64> {
+    pub(super) fn struck(&self, push: &[C64]) -> [Vec<f64>; 3] {
+        let by = |rows: &mut dyn Iterator<Item = &Vec<C64>>| -> Vec<f64> {
             rows.map(|row| at_once(row, push)).collect()
         };
         [
@@ -182,7 +182,7 @@ impl Watch {
         ]
     }
 
-    pub(super) fn displacement(&self, floor: usize) -> &[c64] {
+    pub(super) fn displacement(&self, floor: usize) -> &[C64] {
         &self.displacements[floor].value
     }
 
@@ -227,7 +227,7 @@ impl Watch {
 
     /// Displacements, total accelerations, base shears, drifts, storey shears, overturning moments and forces of links
     /// with their slopes, without what the ground and contacts do at once.
-    pub(super) fn values(&self, q: &[c64]) -> Vec<(f64, f64)> {
+    pub(super) fn values(&self, q: &[C64]) -> Vec<(f64, f64)> {
         let mut all = Vec::with_capacity(self.len());
         all.extend(self.displacements.iter().map(|form| form.value(q)));
         all.extend(self.accelerations.iter().map(|form| form.value(q)));

@@ -31,7 +31,6 @@ use crate::stepping::gap_forces::StepForce;
 use crate::stepping::outcome::{Accuracy, Observer, Outcome, RunEnd, Settings, StepError};
 use crate::stepping::plan::Plan;
 use crate::stepping::recorder::{Instant, Recorder};
-use crate::stepping::refined::Refined;
 use crate::stepping::runner::{ContactTrial, Jump, LinkTouch, RunState, Runner, Stepper};
 use crate::stepping::step_friction::FrictionPath;
 use crate::structure::StepEquations;
@@ -183,8 +182,8 @@ impl<E: StepEquations> Direct<E> {
             contact_step,
             state: self.state,
             accuracy,
-            refined: Refined::default(),
             end,
+            ..Outcome::default()
         }
     }
 

@@ -4,10 +4,8 @@ use super::estimate::Estimate;
 use super::stepper::ModalStepper;
 use crate::history::{FoundationPeaks, SupportPeaks};
 use crate::state::State;
-use crate::stepping::acceleration_parts::AccelerationParts;
 use crate::stepping::member_ratios::MemberRatios;
 use crate::stepping::outcome::{Observer, Outcome, RunEnd};
-use crate::stepping::refined::Refined;
 use crate::stepping::runner::{RunState, Runner};
 
 /// Share of the tolerance below which an error of shapes needs no further shapes.
@@ -78,7 +76,6 @@ impl ModalStepper<'_> {
         let (floors, in_plan) = self.peaks.take_floors(run.system);
         Outcome {
             impacts: run.impacts,
-            acceleration_parts: AccelerationParts::default(),
             floors,
             in_plan,
             supports: vec![SupportPeaks::default(); run.system.buildings.len()],
@@ -87,23 +84,19 @@ impl ModalStepper<'_> {
             gap_forces: run.gap_forces.peaks,
             face_impacts: run.face_forces.impacts,
             base_shear: std::mem::take(&mut self.peaks.base_shear),
-            spring_history: None,
             members,
             member_history,
             member_ratios: ratios.greatest,
             worst_instants: ratios.worst,
             history: self.peaks.into_history(),
-            spring_events: Vec::new(),
-            springs: Vec::new(),
             links: self.links.totals,
             energy,
             work: run.work,
             free_step: Some(step_of(self.least_division)),
             contact_step,
             state,
-            accuracy: None,
-            refined: Refined::default(),
             end,
+            ..Outcome::default()
         }
     }
 

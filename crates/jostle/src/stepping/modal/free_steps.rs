@@ -533,9 +533,7 @@ mod tests {
                 ratio: 0.05,
                 modes: vec![1, 2],
             },
-            base: Default::default(),
-            gravity: Default::default(),
-            hinges: None,
+            ..Building::default()
         };
         let law = ContactLaw {
             kind: LawKind::HertzDamp,
@@ -551,13 +549,11 @@ mod tests {
                 tower("last", 5, 6e7),
             ],
             gaps: vec![Gap::after(0, 0.02, law), Gap::after(1, 0.04, law)],
-            links: Vec::new(),
-            walls: Vec::new(),
-            soil: None,
             analysis: Analysis {
                 solver: Some(Solver::Modal),
                 ..Analysis::default()
             },
+            ..Model::default()
         }
     }
 

@@ -36,9 +36,7 @@ fn building(name: &str, storeys: usize, axial: Option<f64>, damping: &Damping) -
             joint: Joint::default(),
         }),
         damping: damping.clone(),
-        base: Base::default(),
-        gravity: Gravity::default(),
-        hinges: None,
+        ..Building::default()
     }
 }
 
@@ -79,13 +77,12 @@ fn models() -> Vec<Model> {
         ],
         gaps: vec![gap],
         links,
-        walls: Vec::new(),
-        soil: None,
         analysis: Analysis {
             solver: Some(Solver::Modal),
             members: MemberRequest::all(),
             ..Analysis::default()
         },
+        ..Model::default()
     };
     let ratio = Damping::Ratio {
         ratio: 0.05,
@@ -142,13 +139,8 @@ fn tiers(at: f64, storeys: usize) -> Tiers {
     let plan: Vec<PlanPoint> = plan.iter().map(|[x, y]| [at + x, *y]).collect();
     Tiers {
         floors: vec![Tier::uniform(90e3, plan).expect("an area"); storeys],
-        storeys: Vec::new(),
         storey_heights: vec![3.2; storeys],
-        frames: Vec::new(),
-        space_frame: None,
-        yielding: Vec::new(),
-        element_names: Vec::new(),
-        bearings: Vec::new(),
+        ..Tiers::default()
     }
 }
 

@@ -3,7 +3,7 @@
 use super::building_motion::{BuildingMotion, GAUSS, GroundLine, Push};
 use super::peaks::SeriesPeaks;
 use crate::contact::momentum;
-use crate::history::{FoundationPeaks, MemberHistory, SpringEvent, SpringTotals};
+use crate::history::{FoundationPeaks, SpringEvent, SpringTotals};
 use crate::hysteresis::Stage;
 use crate::interface::InterfaceGraph;
 use crate::motion::{Ground, GroundMotion};
@@ -23,7 +23,6 @@ use crate::stepping::outcome::{
 use crate::stepping::plan::Plan;
 use crate::stepping::predicted_force::{AHEAD, PredictedForce};
 use crate::stepping::recorder::{Instant, Recorder, greatest_in_step};
-use crate::stepping::refined::Refined;
 use crate::stepping::runner::{ContactTrial, Jump, RunState, Runner, Stepper};
 use crate::system::System;
 
@@ -172,13 +171,11 @@ impl SeriesStepper {
             acceleration_parts: self.peaks.parts,
             spring_history: self.recorder.springs.take(),
             members: vec![Vec::new(); system.buildings.len()],
-            member_history: None::<MemberHistory>,
             member_ratios: ratios.greatest,
             worst_instants: ratios.worst,
             history: self.recorder.into_history(),
             spring_events: self.events,
             springs: self.peaks.springs,
-            links: Vec::new(),
             energy,
             work: run.work,
             free_step: Some(step_of(self.least_division)),
@@ -190,8 +187,8 @@ impl SeriesStepper {
                 doubtful_from: self.near.doubtful_from,
                 sensitive_from: None,
             }),
-            refined: Refined::default(),
             end,
+            ..Outcome::default()
         }
     }
 

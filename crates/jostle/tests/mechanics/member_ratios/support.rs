@@ -6,9 +6,9 @@ use jostle::model::{
     CapacityLine, MemberCapacity, RotationLimits, RotationMeasure, RuleCapacity, ShearCapacity,
 };
 use jostle::{
-    Analysis, Axial, Base, Building, ContactLaw, Damping, FloorPairs, Frame, Gap, Gravity,
-    GroundMotion, Joint, LawKind, Level, MemberRequest, Model, Outcome, Plan, RestitutionIs,
-    RunEnd, Section, Settings, Solver, Structure, Summary, System, simulate,
+    Analysis, Axial, Building, ContactLaw, Damping, FloorPairs, Frame, Gap, GroundMotion, Joint,
+    LawKind, Level, MemberRequest, Model, Outcome, Plan, RestitutionIs, RunEnd, Section, Settings,
+    Solver, Structure, Summary, System, simulate,
 };
 
 fn section(rigidity: f64) -> Section {
@@ -41,9 +41,7 @@ pub(crate) fn building(name: &str, storeys: usize, first: f64, rigidity: f64) ->
             ratio: 0.05,
             modes: Vec::new(),
         },
-        base: Base::default(),
-        gravity: Gravity::default(),
-        hinges: None,
+        ..Building::default()
     }
 }
 
@@ -129,13 +127,11 @@ pub(crate) fn model() -> Model {
                 },
             )
         }],
-        links: Vec::new(),
-        walls: Vec::new(),
-        soil: None,
         analysis: Analysis {
             members,
             ..Analysis::default()
         },
+        ..Model::default()
     }
 }
 

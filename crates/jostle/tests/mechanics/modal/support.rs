@@ -1,21 +1,22 @@
 //! Buildings whose modes are known or compared.
 
-use faer::{Mat, Side};
 use jostle::eigen::{Mode, modes_dense};
 use jostle::linear::NotPositive;
 use jostle::structure::{Discretization, Hinge, Member, Node, Spring, StickModel, Support};
 use jostle::system::BuildingSystem;
 use jostle::{Axial, Building, Damping, Frame, Joint, Section, Structure};
+use nalgebra::DMatrix;
 use serde_json::Value;
 
 /// All modes from the eigenvalue solver of a library.
 pub(crate) fn library_modes(building: &BuildingSystem) -> Result<Vec<Mode>, NotPositive> {
     modes_dense(building, |lower| {
         let n = lower.len();
-        let matrix = Mat::from_fn(n, n, |i, j| lower[i.max(j)][i.min(j)]);
-        let eigen = matrix.self_adjoint_eigen(Side::Lower).ok()?;
-        let vector = |k: usize| (0..n).map(|i| eigen.U()[(i, k)]).collect();
-        Some((0..n).map(|k| (eigen.S()[k], vector(k))).collect())
+        let matrix = DMatrix::from_fn(n, n, |i, j| lower[i.max(j)][i.min(j)]);
+        let eigen = matrix.symmetric_eigen();
+        let vectors = eigen.eigenvectors.column_iter();
+        let vectors = vectors.map(|vector| vector.iter().copied().collect());
+        Some(eigen.eigenvalues.iter().copied().zip(vectors).collect())
     })
 }
 
@@ -82,20 +83,11 @@ pub(crate) fn stored_frame(frame: &Value, compressed: f64) -> BuildingSystem {
 
 pub(crate) fn assembled(stick_model: StickModel, floors: Vec<usize>) -> BuildingSystem {
     let discretization = Discretization {
-        foot: None,
-        mat: None,
-        spring_places: Vec::new(),
-        members: Vec::new(),
-        centres: Vec::new(),
-        frames: Vec::new(),
-        shared_columns: Vec::new(),
-        space_frame: None,
-        jointed_frame: None,
-        element_names: Vec::new(),
         stick_model,
         left_face: floors.clone(),
         right_face: floors.clone(),
         floors,
+        ..Discretization::default()
     };
     BuildingSystem::new("building", discretization)
 }
@@ -174,9 +166,7 @@ pub(crate) fn framed(frame: Frame) -> BuildingSystem {
             alpha: 0.0,
             beta: 0.0,
         },
-        base: Default::default(),
-        gravity: Default::default(),
-        hinges: None,
+        ..Building::default()
     };
     BuildingSystem::new("frame", Discretization::new(&building))
 }

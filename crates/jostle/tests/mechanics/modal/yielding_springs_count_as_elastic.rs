@@ -24,12 +24,12 @@ fn hinged(frame: Frame, columns: Option<f64>, beams: f64, base: Base) -> Buildin
             beta: 0.0,
         },
         base,
-        gravity: Default::default(),
         hinges: Some(Hinges::Frame(FrameHinges {
             columns: columns.map_or_else(Vec::new, |k| vec![vec![hinge(k); bays + 1]; storeys]),
             beams: vec![vec![hinge(beams); bays]; storeys],
             ..FrameHinges::default()
         })),
+        ..Building::default()
     };
     BuildingSystem::new("hinged", Discretization::new(&building))
 }

@@ -243,19 +243,7 @@ fn clamped_beam(length: f64, mass: f64, moment: f64) -> BuildingSystem {
     };
     let discretization = Discretization {
         stick_model,
-        foot: None,
-        mat: None,
-        floors: Vec::new(),
-        left_face: Vec::new(),
-        right_face: Vec::new(),
-        spring_places: Vec::new(),
-        members: Vec::new(),
-        centres: Vec::new(),
-        frames: Vec::new(),
-        shared_columns: Vec::new(),
-        space_frame: None,
-        jointed_frame: None,
-        element_names: Vec::new(),
+        ..Discretization::default()
     };
     BuildingSystem::new("beam", discretization)
 }

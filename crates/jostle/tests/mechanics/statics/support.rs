@@ -77,9 +77,8 @@ pub(crate) fn hinged(
             alpha: 0.0,
             beta: 0.0,
         },
-        base: Default::default(),
-        gravity: Gravity::default(),
         hinges: Some(Hinges::Frame(hinges)),
+        ..Building::default()
     }
 }
 
@@ -91,9 +90,8 @@ pub(crate) fn storeys(shear: Shear, springs: Vec<Hysteresis>) -> Building {
             alpha: 0.0,
             beta: 0.0,
         },
-        base: Default::default(),
-        gravity: Gravity::default(),
         hinges: Some(Hinges::Storeys(springs)),
+        ..Building::default()
     }
 }
 

@@ -67,9 +67,7 @@ pub(crate) fn frame(variant: Variant, spans: &[f64], storeys: usize, depth: f64)
             alpha: 0.0,
             beta: 0.0,
         },
-        base: Default::default(),
-        gravity: Default::default(),
-        hinges: None,
+        ..Building::default()
     };
     let mut discretization = Discretization::new(&building);
     let stick_model = &mut discretization.stick_model;
@@ -120,9 +118,7 @@ pub(crate) fn tower(storeys: usize) -> BuildingSystem {
             alpha: 0.0,
             beta: 0.0,
         },
-        base: Default::default(),
-        gravity: Default::default(),
-        hinges: None,
+        ..Building::default()
     };
     BuildingSystem::new(&building.name, Discretization::new(&building))
 }

@@ -3,8 +3,6 @@
 
 use std::f64::consts::PI;
 
-use faer::Mat;
-use faer::linalg::solvers::Solve;
 use jostle::linear::SparseSymmetric;
 use jostle::linear::StepMatrix;
 use jostle::statics::STANDARD_GRAVITY;
@@ -16,6 +14,7 @@ use jostle::transfer::{ElementwiseRiccati, ProductEquations};
 use jostle::{
     Base, Building, Column, Damping, Gravity, Integrator, LawKind, RiccatiSweep, Structure, System,
 };
+use nalgebra::{DMatrix, DVector};
 
 use crate::verification::support::{
     Random, assembled, column, frame, framed, law, random_frame, row, run, shaking, steps, still,
@@ -60,9 +59,9 @@ fn alone(building: Building) -> System {
     assembled(&row(vec![building], 0.0, law(LawKind::Hertz, 1.0)))
 }
 
-fn dense(matrix: &SparseSymmetric) -> Mat<f64> {
+fn dense(matrix: &SparseSymmetric) -> DMatrix<f64> {
     let n = matrix.diagonal.len();
-    let mut full = Mat::zeros(n, n);
+    let mut full = DMatrix::zeros(n, n);
     for column in 0..n {
         full[(column, column)] = matrix.diagonal[column];
         for entry in matrix.starts[column]..matrix.starts[column + 1] {
@@ -88,8 +87,8 @@ fn textbook(
     let all = &stiffness + &dense(&equations.undamped);
     let dashpots = dense(&equations.dashpots);
     let n = equations.len();
-    let mass = Mat::from_fn(n, n, |i, j| if i == j { equations.mass[i] } else { 0.0 });
-    let damping = Mat::from_fn(n, n, |i, j| {
+    let mass = DMatrix::from_fn(n, n, |i, j| if i == j { equations.mass[i] } else { 0.0 });
+    let damping = DMatrix::from_fn(n, n, |i, j| {
         equations.alpha * mass[(i, j)] + equations.beta * stiffness[(i, j)] + dashpots[(i, j)]
     });
     let Integrator {
@@ -99,15 +98,14 @@ fn textbook(
         alpha_f,
     } = integrator;
     let (at_m, at_f) = (1.0 - alpha_m, 1.0 - alpha_f);
-    let left = Mat::from_fn(n, n, |i, j| {
+    let left = DMatrix::from_fn(n, n, |i, j| {
         at_m * mass[(i, j)]
             + at_f * (step * gamma * damping[(i, j)] + step * step * beta * all[(i, j)])
     });
-    let left = left.partial_piv_lu();
-    let column = |values: &[f64]| Mat::from_fn(n, 1, |i, _| values[i]);
-    let driven = column(&equations.driven_mass);
-    let (mut u, mut v) = (Mat::<f64>::zeros(n, 1), Mat::<f64>::zeros(n, 1));
-    let mut a = Mat::from_fn(n, 1, |i, _| {
+    let left = left.lu();
+    let driven = DVector::from_column_slice(&equations.driven_mass);
+    let (mut u, mut v) = (DVector::<f64>::zeros(n), DVector::<f64>::zeros(n));
+    let mut a = DVector::from_fn(n, |i, _| {
         if equations.mass[i] > 0.0 {
             -equations.driven_mass[i] / equations.mass[i] * ground[0]
         } else {
@@ -124,10 +122,10 @@ fn textbook(
             - alpha_m * (&mass * &a)
             - &damping * (at_f * &v_next + alpha_f * &v)
             - &all * (at_f * &u_next + alpha_f * &u);
-        a = left.solve(&right);
+        a = left.solve(&right).expect("a matrix that is not singular");
         u = u_next + step * step * beta * &a;
         v = v_next + step * gamma * &a;
-        path.push(u[(floor, 0)]);
+        path.push(u[floor]);
     }
     path
 }

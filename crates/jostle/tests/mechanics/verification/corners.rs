@@ -54,19 +54,13 @@ impl Site {
                 floors: vec![tier],
                 storeys: vec![storey],
                 storey_heights: vec![3.0],
-                frames: Vec::new(),
-                space_frame: None,
-                yielding: Vec::new(),
-                bearings: Vec::new(),
-                element_names: Vec::new(),
+                ..Tiers::default()
             }),
             damping: Damping::Rayleigh {
                 alpha: 0.5,
                 beta: 3e-3,
             },
-            base: Default::default(),
-            gravity: Default::default(),
-            hinges: None,
+            ..Building::default()
         }
     }
 
@@ -101,14 +95,12 @@ fn run(buildings: Vec<Building>, gaps: Vec<Gap>, site: Site, tolerance: f64) -> 
         title: "corners".to_owned(),
         buildings,
         gaps,
-        links: Vec::new(),
-        walls: Vec::new(),
-        soil: None,
         analysis: Analysis {
             solver: Some(Solver::Modal),
             tolerance,
             ..Analysis::default()
         },
+        ..Model::default()
     };
     let system = System::assemble(&model).unwrap_or_else(|faults| panic!("{faults:?}"));
     let motion = site.motion();

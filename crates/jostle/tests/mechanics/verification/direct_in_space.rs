@@ -51,19 +51,13 @@ fn tower(
             floors: vec![tier; storeys],
             storeys: vec![storey; storeys],
             storey_heights: vec![3.0; storeys],
-            frames: Vec::new(),
-            yielding: Vec::new(),
-            bearings: Vec::new(),
-            element_names: Vec::new(),
-            space_frame: None,
+            ..Tiers::default()
         }),
         damping: Damping::Ratio {
             ratio: 0.05,
             modes: Vec::new(),
         },
-        base: Default::default(),
-        gravity: Default::default(),
-        hinges: None,
+        ..Building::default()
     }
 }
 
@@ -89,10 +83,7 @@ pub(crate) fn around_a_corner(law: ContactLaw) -> (Model, GroundMotion) {
         title: "corner".to_owned(),
         buildings,
         gaps: vec![gap(0, 1), gap(0, 2)],
-        links: Vec::new(),
-        walls: Vec::new(),
-        soil: None,
-        analysis: Analysis::default(),
+        ..Model::default()
     };
     (model, motion)
 }

@@ -128,9 +128,7 @@ fn by_matrices(building: &BuildingSystem) -> Building {
             alpha: 0.0,
             beta: 0.0,
         },
-        base: Base::default(),
-        gravity: Default::default(),
-        hinges: None,
+        ..Building::default()
     }
 }
 

@@ -33,19 +33,13 @@ fn beside_a_wall(polar_share: f64, friction: f64) -> Model {
             floors: vec![tier],
             storeys: vec![storey],
             storey_heights: vec![3.0],
-            frames: Vec::new(),
-            space_frame: None,
-            yielding: Vec::new(),
-            bearings: Vec::new(),
-            element_names: Vec::new(),
+            ..Tiers::default()
         }),
         damping: Damping::Ratio {
             ratio: 0.05,
             modes: Vec::new(),
         },
-        base: Default::default(),
-        gravity: Default::default(),
-        hinges: None,
+        ..Building::default()
     };
     let mut gap = Gap::between([Some(0), Some(1)], 0.02, LAW);
     gap.in_plan.friction = friction;
@@ -53,7 +47,6 @@ fn beside_a_wall(polar_share: f64, friction: f64) -> Model {
         title: "friction beside a wall".to_owned(),
         buildings: vec![building],
         gaps: vec![gap],
-        links: Vec::new(),
         // Solid on the right of the way upwards.
         walls: vec![Wall {
             name: "boundary".to_owned(),
@@ -62,11 +55,11 @@ fn beside_a_wall(polar_share: f64, friction: f64) -> Model {
             mass: 0.0,
             line: Some([[a + 0.02, -1.0], [a + 0.02, b + 1.0]]),
         }],
-        soil: None,
         analysis: Analysis {
             solver: Some(Solver::Modal),
             ..Analysis::default()
         },
+        ..Model::default()
     }
 }
 

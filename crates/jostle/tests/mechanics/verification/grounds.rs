@@ -34,9 +34,7 @@ fn tower(name: &str, storeys: usize, stiffness: f64) -> Building {
             alpha: 0.4,
             beta: 1e-3,
         },
-        base: Default::default(),
-        gravity: Default::default(),
-        hinges: None,
+        ..Building::default()
     }
 }
 
@@ -54,10 +52,7 @@ fn model(buildings: Vec<Building>, gaps: Vec<Gap>) -> Model {
         title: "grounds".to_owned(),
         buildings,
         gaps,
-        links: Vec::new(),
-        walls: Vec::new(),
-        soil: None,
-        analysis: Analysis::default(),
+        ..Model::default()
     }
 }
 

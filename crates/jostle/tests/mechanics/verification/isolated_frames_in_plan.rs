@@ -9,11 +9,10 @@ use jostle::linear::StepMatrix;
 use jostle::structure::{MemberPlace, SectionAt, solve_once};
 use jostle::system::BuildingSystem;
 use jostle::{
-    Analysis, Axial, Base, Bearing, Building, Column, Damping, Frame, FrameHinges, Gravity,
-    GroundMotion, Hinges, Isolation, Isolator, IsolatorDamping, Joint, MemberRequest, Model,
-    Outcome, Plan, PlanFrame, PlanPoint, RiccatiSweep, RunEnd, Section, Settings, Solver,
-    SpaceFrame, SpaceMember, SpacePlace, SpaceSection, SpeedFriction, Structure, System, Tier,
-    Tiers, simulate,
+    Analysis, Axial, Base, Bearing, Building, Column, Damping, Frame, FrameHinges, GroundMotion,
+    Hinges, Isolation, Isolator, IsolatorDamping, Joint, MemberRequest, Model, Outcome, Plan,
+    PlanFrame, PlanPoint, RiccatiSweep, RunEnd, Section, Settings, Solver, SpaceFrame, SpaceMember,
+    SpacePlace, SpaceSection, SpeedFriction, Structure, System, Tier, Tiers, simulate,
 };
 
 use jostle::pushover::{CannotPush, PushSettings, pushover};
@@ -80,13 +79,9 @@ fn standing(name: &str, at: PlanPoint, angle: f64, frame: Frame) -> PlanFrame {
 fn held_by(floors: Vec<Tier>, heights: Vec<f64>, frames: Vec<PlanFrame>) -> Tiers {
     Tiers {
         floors,
-        storeys: Vec::new(),
         storey_heights: heights,
         frames,
-        space_frame: None,
-        yielding: Vec::new(),
-        element_names: Vec::new(),
-        bearings: Vec::new(),
+        ..Tiers::default()
     }
 }
 
@@ -108,19 +103,16 @@ fn model(
                 isolation: Some(isolation),
                 ..Base::default()
             },
-            gravity: Gravity::default(),
             hinges,
+            ..Building::default()
         }],
-        gaps: Vec::new(),
-        links: Vec::new(),
-        walls: Vec::new(),
-        soil: None,
         analysis: Analysis {
             step: Some(step),
             solver: Some(solver),
             members: MemberRequest::all(),
             ..Analysis::default()
         },
+        ..Model::default()
     }
 }
 

@@ -38,20 +38,11 @@ fn between_stops(mass: f64, stiffness: f64, stop: Stop) -> System {
         ..StickModel::default()
     };
     let discretization = Discretization {
-        foot: None,
-        mat: None,
-        spring_places: Vec::new(),
-        members: Vec::new(),
-        centres: Vec::new(),
-        frames: Vec::new(),
-        shared_columns: Vec::new(),
-        space_frame: None,
-        jointed_frame: None,
-        element_names: Vec::new(),
         stick_model,
         floors: vec![1],
         left_face: vec![1],
         right_face: vec![1],
+        ..Discretization::default()
     };
     System::of_buildings(vec![BuildingSystem::new("mass", discretization)])
 }

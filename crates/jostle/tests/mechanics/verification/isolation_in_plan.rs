@@ -6,10 +6,10 @@ use std::ops::ControlFlow;
 
 use jostle::model::STANDARD_GRAVITY;
 use jostle::{
-    Analysis, Base, Bearing, Building, Column, ContactLaw, Damping, FloorPairs, Gap, Gravity,
-    GroundMotion, Isolation, Isolator, IsolatorDamping, LawKind, Level, Model, Outcome, Plan,
-    PlanArea, PlanPoint, RestitutionIs, RunEnd, Settings, Shear, Solver, SpeedFriction, Stop,
-    Structure, System, Tier, TierStorey, Tiers, Wall, simulate,
+    Analysis, Base, Bearing, Building, Column, ContactLaw, Damping, FloorPairs, Gap, GroundMotion,
+    Isolation, Isolator, IsolatorDamping, LawKind, Level, Model, Outcome, Plan, PlanArea,
+    PlanPoint, RestitutionIs, RunEnd, Settings, Shear, Solver, SpeedFriction, Stop, Structure,
+    System, Tier, TierStorey, Tiers, Wall, simulate,
 };
 
 use crate::verification::support::{column, difference, largest};
@@ -71,11 +71,7 @@ fn tiers(
             storeys
         ],
         storey_heights: vec![3.0; storeys],
-        frames: Vec::new(),
-        space_frame: None,
-        yielding: Vec::new(),
-        bearings: Vec::new(),
-        element_names: Vec::new(),
+        ..Tiers::default()
     }
 }
 
@@ -88,8 +84,7 @@ fn building(structure: Structure, damping: Damping, isolation: Isolation) -> Bui
             isolation: Some(isolation),
             ..Base::default()
         },
-        gravity: Gravity::default(),
-        hinges: None,
+        ..Building::default()
     }
 }
 
@@ -97,15 +92,12 @@ fn model(building: Building, step: f64) -> Model {
     Model {
         title: "isolated in plan".to_owned(),
         buildings: vec![building],
-        gaps: Vec::new(),
-        links: Vec::new(),
-        walls: Vec::new(),
-        soil: None,
         analysis: Analysis {
             step: Some(step),
             solver: Some(Solver::Riccati),
             ..Analysis::default()
         },
+        ..Model::default()
     }
 }
 

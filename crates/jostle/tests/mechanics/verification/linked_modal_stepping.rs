@@ -2,8 +2,8 @@
 //! against Riccati's recursion.
 
 use jostle::{
-    Base, Building, Column, Damping, FloorPairs, Gravity, GroundMotion, LawKind, Link, Model,
-    Outcome, Plan, Shear, Solver, Structure,
+    Base, Building, Column, Damping, FloorPairs, GroundMotion, LawKind, Link, Model, Outcome, Plan,
+    Shear, Solver, Structure,
 };
 
 use crate::verification::support::{
@@ -27,9 +27,7 @@ fn shear(name: &str, mass: &[f64], stiffness: &[f64]) -> Building {
             alpha: ALPHA,
             beta: BETA,
         },
-        base: Base::default(),
-        gravity: Gravity::default(),
-        hinges: None,
+        ..Building::default()
     }
 }
 

@@ -1,11 +1,10 @@
 //! All buildings, contacts, links and yielding springs as one system of full matrices: Newton's method on all
 //! displacements at once, without condensation, increments or events.
 
-use faer::Mat;
-use faer::linalg::solvers::Solve;
 use jostle::hysteresis::HysteresisMemory;
 use jostle::interface::PortPair;
 use jostle::{GroundMotion, System};
+use nalgebra::{DMatrix, DVector};
 
 use crate::verification::support::largest;
 
@@ -15,7 +14,7 @@ fn push(
     force: f64,
     slope: f64,
     residual: &mut [f64],
-    tangent: &mut Option<Mat<f64>>,
+    tangent: &mut Option<DMatrix<f64>>,
 ) {
     for (port, sign) in ports.sides() {
         port.row.push(sign * force, residual);
@@ -50,7 +49,7 @@ pub(crate) fn monolith(
 ) -> (Vec<f64>, Vec<f64>) {
     let n = system.len();
     let (mut mass, mut driven) = (vec![0.0; n], vec![0.0; n]);
-    let (mut stiffness, mut damping) = (Mat::<f64>::zeros(n, n), Mat::<f64>::zeros(n, n));
+    let (mut stiffness, mut damping) = (DMatrix::<f64>::zeros(n, n), DMatrix::<f64>::zeros(n, n));
     let mut springs = Vec::new();
     for building in &system.buildings {
         let (equations, offset) = (&building.equations, building.offset);
@@ -108,18 +107,18 @@ pub(crate) fn monolith(
         let mut next = u.clone();
         let mut forces = vec![0.0; peaks.len()];
         // What is left over at trial displacements, with its tangent where wanted.
-        let left_over = |next: &[f64], tangent: &mut Option<Mat<f64>>, forces: &mut [f64]| {
+        let left_over = |next: &[f64], tangent: &mut Option<DMatrix<f64>>, forces: &mut [f64]| {
             let velocity: Vec<f64> = (0..n).map(|i| 2.0 / h * (next[i] - u[i]) - v[i]).collect();
             let acceleration: Vec<f64> = (0..n)
                 .map(|i| 4.0 / (h * h) * (next[i] - u[i]) - 4.0 / h * v[i] - a[i])
                 .collect();
-            let column = |values: &[f64]| Mat::from_fn(n, 1, |i, _| values[i]);
+            let column = DVector::from_column_slice;
             let resisted = &stiffness * column(next) + &damping * column(&velocity);
             let mut residual: Vec<f64> = (0..n)
-                .map(|i| -driven[i] * ground - mass[i] * acceleration[i] - resisted[(i, 0)])
+                .map(|i| -driven[i] * ground - mass[i] * acceleration[i] - resisted[i])
                 .collect();
             if let Some(tangent) = tangent {
-                *tangent = Mat::from_fn(n, n, |i, j| {
+                *tangent = DMatrix::from_fn(n, n, |i, j| {
                     let inertia = if i == j { 4.0 / (h * h) * mass[i] } else { 0.0 };
                     stiffness[(i, j)] + 2.0 / h * damping[(i, j)] + inertia
                 });
@@ -162,14 +161,14 @@ pub(crate) fn monolith(
         };
         let mut previous = f64::INFINITY;
         for round in 0..200 {
-            let mut tangent = Some(Mat::zeros(0, 0));
+            let mut tangent = Some(DMatrix::zeros(0, 0));
             let residual = left_over(&next, &mut tangent, &mut forces);
-            let right = Mat::from_fn(n, 1, |i, _| residual[i]);
-            let update = tangent.expect("wanted").partial_piv_lu().solve(&right);
-            let moved = |share: f64| -> Vec<f64> {
-                (0..n).map(|i| next[i] + share * update[(i, 0)]).collect()
-            };
-            let size = (0..n).fold(0.0_f64, |most, i| most.max(update[(i, 0)].abs()));
+            let factor = tangent.expect("wanted").lu();
+            let update = factor.solve(&DVector::from_vec(residual));
+            let update = update.expect("a tangent that is not singular");
+            let moved =
+                |share: f64| -> Vec<f64> { (0..n).map(|i| next[i] + share * update[i]).collect() };
+            let size = (0..n).fold(0.0_f64, |most, i| most.max(update[i].abs()));
             let small = size <= 1e-14 * largest(&next)
                 || (size <= 1e-11 * largest(&next) && size >= previous);
             previous = size;
@@ -177,7 +176,7 @@ pub(crate) fn monolith(
             let along = |share: f64| -> f64 {
                 let mut unused = forces.clone();
                 let residual = left_over(&moved(share), &mut None, &mut unused);
-                (0..n).map(|i| update[(i, 0)] * residual[i]).sum()
+                (0..n).map(|i| update[i] * residual[i]).sum()
             };
             let (mut low, mut high) = (0.0, 1.0);
             if !small && round > 4 && along(1.0) < 0.0 {

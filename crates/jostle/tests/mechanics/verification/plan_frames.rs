@@ -57,13 +57,9 @@ fn in_plan(slab: f64, plan: &[PlanPoint], storeys: usize, frames: Vec<PlanFrame>
     let tier = Tier::uniform(slab, plan.to_vec()).expect("an area");
     Structure::Tiers(Tiers {
         floors: vec![tier; storeys],
-        storeys: Vec::new(),
         storey_heights: vec![3.2; storeys],
         frames,
-        space_frame: None,
-        yielding: Vec::new(),
-        bearings: Vec::new(),
-        element_names: Vec::new(),
+        ..Tiers::default()
     })
 }
 
@@ -72,9 +68,7 @@ fn building(name: &str, structure: Structure, damping: Damping) -> Building {
         name: name.to_owned(),
         structure,
         damping,
-        base: Base::default(),
-        gravity: Default::default(),
-        hinges: None,
+        ..Building::default()
     }
 }
 
@@ -90,15 +84,13 @@ fn model(buildings: Vec<Building>, gaps: Vec<Gap>) -> Model {
         title: "frames in plan".to_owned(),
         buildings,
         gaps,
-        links: Vec::new(),
-        walls: Vec::new(),
-        soil: None,
         analysis: Analysis {
             solver: Some(Solver::Modal),
             tolerance: 1e-6,
             members: MemberRequest::all(),
             ..Analysis::default()
         },
+        ..Model::default()
     }
 }
 
@@ -509,10 +501,7 @@ fn without_symmetry(columns_flexible: bool) -> (Tiers, Vec<PlanFrame>) {
         storeys: vec![core; n],
         storey_heights: vec![3.2; n],
         frames: frames.clone(),
-        space_frame: None,
-        yielding: Vec::new(),
-        bearings: Vec::new(),
-        element_names: Vec::new(),
+        ..Tiers::default()
     };
     (tiers, frames)
 }

@@ -37,9 +37,7 @@ pub(crate) fn building(name: &str, structure: Structure) -> Building {
             ratio: 0.05,
             modes: Vec::new(),
         },
-        base: Default::default(),
-        gravity: Default::default(),
-        hinges: None,
+        ..Building::default()
     }
 }
 
@@ -70,11 +68,7 @@ pub(crate) fn tower(
             floors: vec![tier; storeys],
             storeys: vec![storey; storeys],
             storey_heights: vec![3.0; storeys],
-            frames: Vec::new(),
-            space_frame: None,
-            yielding: Vec::new(),
-            bearings: Vec::new(),
-            element_names: Vec::new(),
+            ..Tiers::default()
         }),
     )
 }
@@ -84,13 +78,11 @@ pub(crate) fn model(buildings: Vec<Building>, gaps: Vec<Gap>) -> Model {
         title: "space".to_owned(),
         buildings,
         gaps,
-        links: Vec::new(),
-        walls: Vec::new(),
-        soil: None,
         analysis: Analysis {
             solver: Some(Solver::Modal),
             ..Analysis::default()
         },
+        ..Model::default()
     }
 }
 

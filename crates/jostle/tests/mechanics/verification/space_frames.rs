@@ -7,10 +7,10 @@ use jostle::linear::StepMatrix;
 use jostle::structure::{MemberPlace, solve_once};
 use jostle::system::BuildingSystem;
 use jostle::{
-    Analysis, Axial, Base, Building, ContactLaw, Damping, Frame, FrameHinges, Gap, Gravity,
-    GroundMotion, Joint, LawKind, MemberRequest, Model, Outcome, Plan, PlanFrame, PlanPoint,
-    RestitutionIs, RiccatiSweep, RunEnd, Section, Settings, Solver, SpaceFrame, SpaceMember,
-    SpacePlace, SpaceSection, State, Structure, System, Tier, TierStorey, Tiers, simulate,
+    Analysis, Axial, Base, Building, ContactLaw, Damping, Frame, FrameHinges, Gap, GroundMotion,
+    Joint, LawKind, MemberRequest, Model, Outcome, Plan, PlanFrame, PlanPoint, RestitutionIs,
+    RiccatiSweep, RunEnd, Section, Settings, Solver, SpaceFrame, SpaceMember, SpacePlace,
+    SpaceSection, State, Structure, System, Tier, TierStorey, Tiers, simulate,
 };
 
 const E: f64 = 30e9;
@@ -126,13 +126,9 @@ fn without_symmetry(flexible: Flexible) -> Tiers {
             floor(92e3, &l_shape),
             floor(50e3, &part),
         ],
-        storeys: Vec::new(),
         storey_heights: vec![4.0, 3.2, 3.2],
-        frames: Vec::new(),
         space_frame: Some(frame),
-        yielding: Vec::new(),
-        bearings: Vec::new(),
-        element_names: Vec::new(),
+        ..Tiers::default()
     }
 }
 
@@ -141,9 +137,7 @@ fn building(name: &str, tiers: Tiers, damping: Damping) -> Building {
         name: name.to_owned(),
         structure: Structure::Tiers(tiers),
         damping,
-        base: Base::default(),
-        gravity: Gravity::default(),
-        hinges: None,
+        ..Building::default()
     }
 }
 
@@ -157,15 +151,13 @@ fn model(buildings: Vec<Building>, gaps: Vec<Gap>) -> Model {
         title: "space frames".to_owned(),
         buildings,
         gaps,
-        links: Vec::new(),
-        walls: Vec::new(),
-        soil: None,
         analysis: Analysis {
             solver: Some(Solver::Modal),
             tolerance: 1e-5,
             members: MemberRequest::all(),
             ..Analysis::default()
         },
+        ..Model::default()
     }
 }
 
@@ -248,13 +240,9 @@ fn columns_without_beams_are_cantilevers() {
         let plan = vec![[0.0, 0.0], [6.0, 0.0], [6.0, 5.0], [0.0, 5.0]];
         let system = single(Tiers {
             floors: vec![Tier::uniform(60e3, plan).expect("an area")],
-            storeys: Vec::new(),
             storey_heights: vec![h],
-            frames: Vec::new(),
             space_frame: Some(frame),
-            yielding: Vec::new(),
-            bearings: Vec::new(),
-            element_names: Vec::new(),
+            ..Tiers::default()
         });
         let [kx, ky] = [0, 1].map(|plane| {
             let bent = h.powi(3) / (3.0 * section.flexural_rigidity[plane]);
@@ -310,9 +298,7 @@ fn a_pair_of_frames_is_its_plane_limit() {
             storey_heights: heights.to_vec(),
             frames,
             space_frame,
-            yielding: Vec::new(),
-            bearings: Vec::new(),
-            element_names: Vec::new(),
+            ..Tiers::default()
         };
         let own = |section: SpaceSection| Section {
             flexural_rigidity: section.flexural_rigidity[0],

@@ -8,9 +8,9 @@ use jostle::stepping::{ContactSteps, simulate_from};
 use jostle::structure::{Discretization, Node, Spring, StickModel, Support};
 use jostle::system::BuildingSystem;
 use jostle::{
-    Analysis, Axial, Building, Column, ContactLaw, Damping, Frame, Gap, GroundMotion, Joint,
-    LawKind, Model, Outcome, Plan, Pounding, RestitutionIs, RunEnd, Section, Settings, Shear,
-    Solver, State, Structure, System, simulate,
+    Axial, Building, Column, ContactLaw, Damping, Frame, Gap, GroundMotion, Joint, LawKind, Model,
+    Outcome, Plan, Pounding, RestitutionIs, RunEnd, Section, Settings, Shear, Solver, State,
+    Structure, System, simulate,
 };
 
 /// All contact laws.
@@ -119,9 +119,7 @@ pub(crate) fn framed(name: &str, frame: Frame) -> Building {
             ratio: 0.05,
             modes: vec![1, 2],
         },
-        base: Default::default(),
-        gravity: Default::default(),
-        hinges: None,
+        ..Building::default()
     }
 }
 
@@ -140,9 +138,7 @@ pub(crate) fn tower(name: &str, storeys: usize, mass: f64, period: f64) -> Build
             ratio: 0.05,
             modes: if storeys > 1 { vec![1, 2] } else { vec![1] },
         },
-        base: Default::default(),
-        gravity: Default::default(),
-        hinges: None,
+        ..Building::default()
     }
 }
 
@@ -163,11 +159,8 @@ pub(crate) fn row(buildings: Vec<Building>, width: f64, law: ContactLaw) -> Mode
         gaps: (0..buildings.len() - 1)
             .map(|left| Gap::after(left, width, law))
             .collect(),
-        links: Vec::new(),
-        walls: Vec::new(),
-        soil: None,
         buildings,
-        analysis: Analysis::default(),
+        ..Model::default()
     }
 }
 
@@ -306,20 +299,11 @@ pub(crate) fn slider(name: &str, mass: f64, stiffness: Option<f64>) -> BuildingS
         ..StickModel::default()
     };
     let discretization = Discretization {
-        foot: None,
-        mat: None,
-        spring_places: Vec::new(),
-        members: Vec::new(),
-        centres: Vec::new(),
-        frames: Vec::new(),
-        shared_columns: Vec::new(),
-        space_frame: None,
-        jointed_frame: None,
-        element_names: Vec::new(),
         stick_model,
         floors: vec![1],
         left_face: vec![1],
         right_face: vec![1],
+        ..Discretization::default()
     };
     BuildingSystem::new(name, discretization)
 }

@@ -51,12 +51,12 @@ fn building(name: &str, structure: Structure, hinges: Option<Hinges>) -> Buildin
             ratio: 0.04,
             modes: Vec::new(),
         },
-        base: Default::default(),
         gravity: Gravity {
             preload: false,
             p_delta: true,
         },
         hinges,
+        ..Building::default()
     }
 }
 
@@ -65,14 +65,12 @@ fn model(buildings: Vec<Building>, gaps: Vec<Gap>) -> Model {
         title: "yielding in space".to_owned(),
         buildings,
         gaps,
-        links: Vec::new(),
-        walls: Vec::new(),
-        soil: None,
         analysis: Analysis {
             step: Some(1e-3),
             contact_step: Some(5e-5),
             ..Analysis::default()
         },
+        ..Model::default()
     }
 }
 
@@ -129,11 +127,8 @@ fn tiers(
             storeys
         ],
         storey_heights: vec![3.0; storeys],
-        frames: Vec::new(),
         yielding: springs.collect(),
-        bearings: Vec::new(),
-        element_names: Vec::new(),
-        space_frame: None,
+        ..Tiers::default()
     }
 }
 
@@ -281,13 +276,10 @@ fn eccentric_storey() -> (Model, Vec<([f64; 3], f64, f64)>) {
     let rows = rows.collect();
     let tiers = Tiers {
         floors: vec![tier],
-        storeys: Vec::new(),
         storey_heights: vec![3.0],
-        frames: Vec::new(),
         yielding,
-        bearings: Vec::new(),
         element_names: vec![None; 4],
-        space_frame: None,
+        ..Tiers::default()
     };
     let mut own = building("eccentric", Structure::Tiers(tiers), None);
     own.damping = Damping::Rayleigh {
@@ -567,7 +559,6 @@ fn two_equal_frames_in_plan_yield_as_one_in_the_plane() {
     let tier = Tier::uniform(160e3, rectangle(0.0, 0.0, 11.0, 11.0)).expect("an area");
     let tiers = Tiers {
         floors: vec![tier; 3],
-        storeys: Vec::new(),
         storey_heights: vec![3.2; 3],
         frames: vec![
             standing("1", [0.0, 1.0], [1.0, 0.0], hinges.clone()),
@@ -575,10 +566,7 @@ fn two_equal_frames_in_plan_yield_as_one_in_the_plane() {
             standing("A", [0.0, 0.0], [0.0, 1.0], across()),
             standing("C", [11.0, 0.0], [0.0, 1.0], across()),
         ],
-        yielding: Vec::new(),
-        bearings: Vec::new(),
-        element_names: Vec::new(),
-        space_frame: None,
+        ..Tiers::default()
     };
     let mut space = building("frames", Structure::Tiers(tiers), None);
     space.gravity = Gravity::default();

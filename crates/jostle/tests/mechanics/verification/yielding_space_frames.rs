@@ -9,10 +9,9 @@ use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
 use jostle::structure::MemberPlace;
 use jostle::{
     Analysis, Axial, Base, Bearing, Building, ContactLaw, Damping, Frame, FrameHinges, Gap,
-    Gravity, GroundMotion, Hinges, Joint, LawKind, MemberRequest, Model, Outcome, Plan, PlanAxis,
-    PlanFrame, PlanPoint, PlanSpring, RestitutionIs, RunEnd, Section, Settings, Shear, Solver,
-    SpaceFrame, SpaceMember, SpacePlace, SpaceSection, Structure, System, Tier, TierStorey, Tiers,
-    simulate,
+    GroundMotion, Hinges, Joint, LawKind, MemberRequest, Model, Outcome, Plan, PlanAxis, PlanFrame,
+    PlanPoint, PlanSpring, RestitutionIs, RunEnd, Section, Settings, Shear, Solver, SpaceFrame,
+    SpaceMember, SpacePlace, SpaceSection, Structure, System, Tier, TierStorey, Tiers, simulate,
 };
 
 const E: f64 = 30e9;
@@ -151,13 +150,9 @@ impl Grid<'_> {
 fn held_by(frame: SpaceFrame, floors: Vec<Tier>, heights: &[f64]) -> Tiers {
     Tiers {
         floors,
-        storeys: Vec::new(),
         storey_heights: heights.to_vec(),
-        frames: Vec::new(),
         space_frame: Some(frame),
-        yielding: Vec::new(),
-        element_names: Vec::new(),
-        bearings: Vec::new(),
+        ..Tiers::default()
     }
 }
 
@@ -171,9 +166,8 @@ fn building(name: &str, structure: Structure, hinges: Option<Hinges>) -> Buildin
         name: name.to_owned(),
         structure,
         damping: DAMPING,
-        base: Base::default(),
-        gravity: Gravity::default(),
         hinges,
+        ..Building::default()
     }
 }
 
@@ -183,15 +177,13 @@ fn model(buildings: Vec<Building>, gaps: Vec<Gap>) -> Model {
         title: "yielding space frames".to_owned(),
         buildings,
         gaps,
-        links: Vec::new(),
-        walls: Vec::new(),
-        soil: None,
         analysis: Analysis {
             solver: Some(Solver::Riccati),
             step: Some(2e-3),
             contact_step,
             ..Analysis::default()
         },
+        ..Model::default()
     }
 }
 
@@ -602,11 +594,9 @@ fn an_eccentric_storey_yields_as_springs_at_points_of_the_plan() {
             centre: [0.0, 0.0],
         }],
         storey_heights: vec![HEIGHT],
-        frames: Vec::new(),
-        space_frame: None,
         yielding: springs,
         element_names: vec![None; 4],
-        bearings: Vec::new(),
+        ..Tiers::default()
     };
     let of_columns = held_by(frame, vec![tier], &[HEIGHT]);
     let across = shaking("across", 5.0, 0.9);
