@@ -10,7 +10,7 @@ use tungstenite::{Message, WebSocket};
 /// Longest wait for an answer: the machine may be busy.
 pub(super) const PATIENCE: Duration = Duration::from_secs(120);
 
-/// A connection to the browser. It has a page of its own, which closes with it.
+/// A connection to the browser, with a tab in a context of its own, which closes with it.
 #[derive(Debug)]
 pub(super) struct Connection {
     socket: WebSocket<TcpStream>,
@@ -21,7 +21,7 @@ pub(super) struct Connection {
 }
 
 impl Connection {
-    /// Connects to a browser, and creates an empty page in a context of its own.
+    /// Connects to a browser, and opens an empty tab.
     pub(super) fn new(browser: &str) -> Self {
         let host = browser.trim_start_matches("ws://");
         let host = host.split('/').next().unwrap_or_default();
@@ -54,6 +54,14 @@ impl Connection {
             json!({ "targetId": target["targetId"], "flatten": true }),
         );
         new.session = session["sessionId"].as_str().map(str::to_owned);
+        for domain in ["Runtime", "Log"] {
+            new.call(&format!("{domain}.enable"), json!({}));
+        }
+        // Every page has the focus, however many are open.
+        new.call(
+            "Emulation.setFocusEmulationEnabled",
+            json!({ "enabled": true }),
+        );
         new
     }
 

@@ -1,8 +1,8 @@
 //! Pages in a real browser, by the [DevTools protocol](https://chromedevtools.github.io/devtools-protocol/).
 //!
 //! Needs a Chromium on the machine. If `JOSTLE_SKIP_BROWSER` is set, [`open_page`] and [`open_address`] return `None`, and
-//! the test is left out. All tests of a process share one Chromium; every page has a context of its own, so pages share no
-//! storage and do not see each other.
+//! the test is left out. All tests of a process share one Chromium. Pages that are open at the same time have contexts of their
+//! own: they share no storage and do not see each other.
 
 mod connection;
 mod page;

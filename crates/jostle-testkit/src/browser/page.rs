@@ -1,6 +1,7 @@
 //! An open page: what it shows, what it answers, what it complains about.
 
-use std::cell::RefCell;
+use std::cell::{RefCell, RefMut};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use base64::Engine as _;
@@ -19,28 +20,33 @@ pub enum Mouse {
     Release,
 }
 
+/// Empty tabs of a browser. A page takes one and returns it: another context, window and process would cost more than most
+/// pages do.
+pub(super) type Tabs = Arc<Mutex<Vec<Connection>>>;
+
 /// An open page; dropped, it closes.
 ///
 /// Methods panic if the browser refuses a command, and if a script of the test throws.
 #[derive(Debug)]
 pub struct Page {
-    connection: RefCell<Connection>,
+    /// `None` only while it is dropped.
+    connection: RefCell<Option<Connection>>,
+    tabs: Tabs,
     /// Folder of the file that the page was opened from.
     folder: Option<tempfile::TempDir>,
 }
 
 impl Page {
-    pub(super) fn open(mut connection: Connection, address: &str, size: [u32; 2]) -> Self {
-        for domain in ["Runtime", "Log"] {
-            connection.call(&format!("{domain}.enable"), json!({}));
-        }
-        // Every page has the focus, however many are open.
-        connection.call(
-            "Emulation.setFocusEmulationEnabled",
-            json!({ "enabled": true }),
-        );
+    pub(super) fn open(
+        tabs: &Tabs,
+        address: &str,
+        size: [u32; 2],
+        new_tab: impl FnOnce() -> Connection,
+    ) -> Self {
+        let empty = tabs.lock().unwrap_or_else(PoisonError::into_inner).pop();
         let page = Self {
-            connection: RefCell::new(connection),
+            connection: RefCell::new(Some(empty.unwrap_or_else(new_tab))),
+            tabs: Arc::clone(tabs),
             folder: None,
         };
         page.resize(size[0], size[1]);
@@ -57,9 +63,15 @@ impl Page {
         self
     }
 
+    fn connection(&self) -> RefMut<'_, Connection> {
+        RefMut::map(self.connection.borrow_mut(), |connection| {
+            connection.as_mut().expect("it is not dropped yet")
+        })
+    }
+
     /// Runs any command of the protocol.
     pub fn call(&self, method: &str, parameters: Value) -> Value {
-        self.connection.borrow_mut().call(method, parameters)
+        self.connection().call(method, parameters)
     }
 
     /// Gives the window another size \[px\]; below 500 px it is that of a phone.
@@ -90,7 +102,7 @@ impl Page {
     }
 
     fn attempt(&self, script: &str) -> Result<Value, String> {
-        let mut answer = self.connection.borrow_mut().attempt(
+        let mut answer = self.connection().attempt(
             "Runtime.evaluate",
             json!({ "expression": script, "awaitPromise": true }),
         )?;
@@ -240,7 +252,7 @@ impl Page {
     pub fn complaints(&self) -> Vec<String> {
         // Answers come after earlier events.
         self.value("0");
-        self.connection.borrow().complaints.clone()
+        self.connection().complaints.clone()
     }
 
     /// Nothing was complained about.
@@ -265,5 +277,25 @@ impl Page {
             content <= window,
             "{content} px wide in a window of {window} px"
         );
+    }
+}
+
+impl Drop for Page {
+    fn drop(&mut self) {
+        // The tab of a test that failed closes.
+        if std::thread::panicking() {
+            return;
+        }
+        // Others leave theirs as if it were new.
+        self.call("Page.navigate", json!({ "url": "about:blank" }));
+        self.wait("location.href === 'about:blank'");
+        self.emulate("", &[]);
+        self.mouse(Mouse::Move, 0.0, 0.0);
+        if let Some(mut connection) = self.connection.take() {
+            connection.complaints.clear();
+            let tabs = self.tabs.lock();
+            tabs.unwrap_or_else(PoisonError::into_inner)
+                .push(connection);
+        }
     }
 }

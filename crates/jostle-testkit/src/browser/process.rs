@@ -6,7 +6,7 @@ use std::process::{Child, Command, Stdio};
 use std::sync::mpsc;
 
 use super::connection::{Connection, PATIENCE};
-use super::page::Page;
+use super::page::{Page, Tabs};
 
 const NAMES: [&str; 4] = [
     "chromium",
@@ -15,7 +15,7 @@ const NAMES: [&str; 4] = [
     "google-chrome-stable",
 ];
 
-const ARGUMENTS: [&str; 20] = [
+const ARGUMENTS: [&str; 21] = [
     "--headless",
     "--no-sandbox",
     "--remote-debugging-port=0",
@@ -33,6 +33,8 @@ const ARGUMENTS: [&str; 20] = [
     "--disable-extensions",
     "--disable-quic",
     "--disable-sync",
+    // No process in advance for a page that may come, and no page that was left.
+    "--disable-features=SpareRendererForSitePerProcess,BackForwardCache",
     // Containers have little shared memory.
     "--disable-dev-shm-usage",
     // Every page runs as if it were the one in front.
@@ -59,6 +61,7 @@ rm -rf "$profile" || { sleep 1; rm -rf "$profile"; }
 pub struct Browser {
     guard: Child,
     address: String,
+    tabs: Tabs,
 }
 
 impl Browser {
@@ -77,7 +80,7 @@ impl Browser {
         let profile = tempfile::tempdir()
             .expect("a folder for the profile")
             .keep();
-        let mut guard = Command::new("sh")
+        let guard = Command::new("sh")
             .args(["-c", GUARD, "sh"])
             .arg(profile)
             .arg(&program)
@@ -87,7 +90,12 @@ impl Browser {
             .stderr(Stdio::piped())
             .spawn()
             .expect("a shell");
-        let errors = guard.stderr.take().expect("it is piped");
+        let mut new = Self {
+            guard,
+            address: String::new(),
+            tabs: Tabs::default(),
+        };
+        let errors = new.guard.stderr.take().expect("it is piped");
         let (send, lines) = mpsc::channel();
         // Reads to the end: a full pipe would stop the browser.
         std::thread::spawn(move || {
@@ -101,8 +109,8 @@ impl Browser {
                 panic!("{} does not start: {said:#?}", program.display());
             };
             if let Some(address) = line.strip_prefix("DevTools listening on ") {
-                let address = address.to_owned();
-                return Self { guard, address };
+                address.clone_into(&mut new.address);
+                return new;
             }
             said.push(line);
         }
@@ -111,7 +119,9 @@ impl Browser {
     /// Opens an address in a window of this size \[px\].
     #[must_use]
     pub fn open(&self, address: &str, width: u32, height: u32) -> Page {
-        Page::open(Connection::new(&self.address), address, [width, height])
+        Page::open(&self.tabs, address, [width, height], || {
+            Connection::new(&self.address)
+        })
     }
 
     /// Opens the text of a page, from a file, in a window of this size \[px\].

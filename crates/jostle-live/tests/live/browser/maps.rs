@@ -1,10 +1,10 @@
 //! Maps over two keys.
 
-use super::{open, paper};
+use super::{open, short};
 
 #[test]
 fn two_keys_make_a_map_and_a_click_sets_both() {
-    let Some(page) = open(paper(), 1400, 1000) else {
+    let Some(page) = open(short(), 1400, 1000) else {
         return;
     };
     let cells = "document.querySelectorAll('.cells rect').length";

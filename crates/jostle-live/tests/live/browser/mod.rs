@@ -25,10 +25,22 @@ fn serve(model: &str) -> Server {
     Server::start(Engine::open(Path::new(model)).unwrap(), 0).unwrap()
 }
 
-/// The server of the built-in example that most tests share: pages do not disturb each other.
+/// The server of the built-in example, for many tests: pages do not disturb each other.
 fn paper() -> &'static Server {
     static PAPER: OnceLock<Server> = OnceLock::new();
     PAPER.get_or_init(|| serve("paper"))
+}
+
+/// The same for tests without numbers of the built-in example: 8 s of its motion, with its first impact, take a quarter of
+/// the time.
+fn short() -> &'static Server {
+    static SHORT: OnceLock<Server> = OnceLock::new();
+    SHORT.get_or_init(|| {
+        let text = jostle_io::model_text("paper").unwrap();
+        let text = text.replacen("[motion]\n", "[motion]\nduration = \"8 s\"\n", 1);
+        let engine = Engine::from_text("paper", &text, Path::new("")).unwrap();
+        Server::start(engine, 0).unwrap()
+    })
 }
 
 fn open(server: &Server, width: u32, height: u32) -> Option<LivePage> {

@@ -2,11 +2,11 @@
 
 use jostle_testkit::browser::open_address;
 
-use super::{LivePage, open, paper, serve};
+use super::{LivePage, open, serve, short};
 
 #[test]
 fn pages_fit_phones_and_dark_is_dark() {
-    let Some(page) = open(paper(), 375, 760) else {
+    let Some(page) = open(short(), 375, 760) else {
         return;
     };
     page.wait("document.querySelectorAll('.curve-line').length === 1");
@@ -23,7 +23,7 @@ fn pages_fit_phones_and_dark_is_dark() {
     );
     page.glance("live-phone-dark");
     page.assert_content();
-    let wide = open(paper(), 1400, 1000).unwrap();
+    let wide = open(short(), 1400, 1000).unwrap();
     wide.value("document.getElementById('theme').click()");
     wide.wait("document.querySelectorAll('.curve-line').length === 1");
     wide.glance("live-dark");
@@ -31,7 +31,7 @@ fn pages_fit_phones_and_dark_is_dark() {
 
 #[test]
 fn the_keyboard_is_enough() {
-    let Some(page) = open(paper(), 1400, 1000) else {
+    let Some(page) = open(short(), 1400, 1000) else {
         return;
     };
     page.value("document.getElementById('search').focus()");
@@ -195,7 +195,7 @@ fn a_row_of_shear_buildings_and_a_list_of_records() {
 
 #[test]
 fn nothing_moves_by_itself() {
-    let Some(page) = open(paper(), 1400, 1000) else {
+    let Some(page) = open(short(), 1400, 1000) else {
         return;
     };
     page.emulate("", &[("prefers-reduced-motion", "reduce")]);

@@ -2,11 +2,11 @@
 
 use jostle_testkit::browser::open_address;
 
-use super::{LivePage, open, paper};
+use super::{LivePage, open, short};
 
 #[test]
 fn runs_are_pinned_compared_undone_and_redone() {
-    let Some(page) = open(paper(), 1400, 1000) else {
+    let Some(page) = open(short(), 1400, 1000) else {
         return;
     };
     let first = page.headline();
@@ -42,7 +42,7 @@ const STATE: &str = "async (hash) => { const text = atob(hash.slice(1).replaceAl
 
 #[test]
 fn the_address_restores_the_state_and_pages_do_not_disturb_each_other() {
-    let Some(page) = open(paper(), 1400, 1000) else {
+    let Some(page) = open(short(), 1400, 1000) else {
         return;
     };
     page.type_into("gap[0].width", "47 mm");
