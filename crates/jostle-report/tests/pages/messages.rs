@@ -6,7 +6,8 @@ use std::sync::LazyLock;
 use jostle_report::message::{self, ENGLISH, Messages};
 use jostle_report::render;
 
-use crate::sources::{Literal, pages, rust_literals, script_literals, scripts};
+use crate::fixture;
+use crate::sources::{self, Literal, pages, rust_literals, script_literals, scripts};
 
 /// Literals that look like texts and are none: classes, anchors, styles, commands, names of columns.
 const NO_TEXT: &[&str] = &[

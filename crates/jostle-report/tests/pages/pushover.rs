@@ -1,9 +1,5 @@
-//! The page of capacity curves: what its text promises, and what it shows in a browser.
+//! The page of capacity curves: what its text promises.
 
-use std::path::PathBuf;
-use std::time::Duration;
-
-use headless_chrome::{Browser, LaunchOptions};
 use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
 use jostle::pushover::{
     EquivalentOscillator, LoadPattern, PushDirection, PushSettings, PushedBuilding, Pushover,
@@ -18,7 +14,7 @@ use jostle_motion::Accelerogram;
 use jostle_report::{Demand, render_pushover};
 
 /// A frame of two storeys and two unequal bays, under its weight.
-fn frame(name: &str) -> BuildingSystem {
+pub(crate) fn frame(name: &str) -> BuildingSystem {
     let section = Section {
         flexural_rigidity: 1.2e8,
         axial_rigidity: Some(8e9),
@@ -68,7 +64,7 @@ fn frame(name: &str) -> BuildingSystem {
     system
 }
 
-fn pushed(building: &BuildingSystem) -> PushedBuilding<'_> {
+pub(crate) fn pushed(building: &BuildingSystem) -> PushedBuilding<'_> {
     let curve = |direction| -> Pushover {
         let settings = PushSettings {
             pattern: LoadPattern::FirstMode,
@@ -188,74 +184,4 @@ fn demand_stands_beside_capacity() {
     let (one, two) = (ductility(&weak), ductility(&page(2e-3)));
     assert!(one < 0.1 && (two / one - 2.0).abs() < 0.02, "{one}, {two}");
     assert!(ductility(&page(6.0)) > 1.0);
-}
-
-fn chromium() -> Option<PathBuf> {
-    if std::env::var_os("JOSTLE_SKIP_BROWSER").is_some() {
-        return None;
-    }
-    let folders = std::env::var_os("PATH").unwrap_or_default();
-    let found = std::env::split_paths(&folders)
-        .flat_map(|folder| {
-            ["chromium", "chromium-browser", "google-chrome"].map(|name| folder.join(name))
-        })
-        .find(|path| path.is_file());
-    Some(found.expect("no chromium found: install it, or set JOSTLE_SKIP_BROWSER=1"))
-}
-
-#[test]
-fn hinges_change_colour_along_the_push() {
-    let Some(chromium) = chromium() else { return };
-    let building = frame("J1");
-    let pushed = pushed(&building);
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("pushover.html");
-    std::fs::write(
-        &file,
-        render_pushover("two storeys", std::slice::from_ref(&pushed), None),
-    )
-    .unwrap();
-    let options = LaunchOptions::default_builder()
-        .path(Some(chromium))
-        .sandbox(false)
-        .window_size(Some((1100, 900)))
-        .idle_browser_timeout(Duration::from_secs(120))
-        .build()
-        .unwrap();
-    let browser = Browser::new(options).unwrap();
-    let tab = browser.new_tab().unwrap();
-    tab.navigate_to(&format!("file://{}", file.display()))
-        .unwrap();
-    tab.wait_until_navigated().unwrap();
-    let count = |share: f64, which: usize| -> Vec<u64> {
-        let script = format!(
-            r#"(() => {{
-                const set = (role, value, event) => {{
-                    const element = document.querySelector(`[data-role="${{role}}"]`);
-                    element.value = value;
-                    element.dispatchEvent(new Event(event));
-                }};
-                set("which", {which}, "change");
-                set("slider", {share}, "input");
-                const all = (name) => document.querySelectorAll(`.deformed .hinge${{name}}`).length;
-                return [all(""), all(".cracked"), all(".yielded")].join(" ");
-            }})()"#
-        );
-        let answer = tab.evaluate(&script, false).unwrap().value.unwrap();
-        let text = answer.as_str().unwrap().to_owned();
-        text.split(' ')
-            .map(|number| number.parse().unwrap())
-            .collect()
-    };
-    let springs = building.equations.springs.len();
-    for (which, curve) in pushed.curves.iter().enumerate() {
-        let [cracked, yielded] = curve.counts(springs);
-        let at_rest = curve.points[0].events.len();
-        assert!(at_rest > 0 && yielded > 0);
-        assert_eq!(count(0.0, which), [springs as u64, at_rest as u64, 0]);
-        assert_eq!(
-            count(1.0, which),
-            [springs, cracked - yielded, yielded].map(|number| number as u64)
-        );
-    }
 }

@@ -1,9 +1,6 @@
 //! Colours of one palette stay apart for every kind of colour vision, on light and on dark paper.
 
-use jostle_report::render;
-
-use crate::browser::opened::open_page;
-use crate::fixture::two_frames;
+use super::TWO_FRAMES;
 
 /// Matrices on linear RGB for full vision and for full protanopia, deuteranopia and tritanopia: G. M. Machado,
 /// M. M. Oliveira, L. A. F. Fernandes (2009), IEEE Trans. Visualization and Computer Graphics 15, 1291–1298, Table 1.
@@ -68,7 +65,7 @@ fn lab(rgb: [f64; 3]) -> [f64; 3] {
 
 #[test]
 fn palettes_suit_every_colour_vision() {
-    let Some(page) = open_page(&render(&two_frames(0.1).page()), 1280, 900) else {
+    let Some(page) = TWO_FRAMES.open(1280, 900) else {
         return;
     };
     let names = |stem: &str, ends: &[&str]| -> Vec<String> {

@@ -1,15 +1,11 @@
 //! The pages of a motion and of a set of motions.
 
-use std::time::Duration;
-
-use headless_chrome::protocol::cdp::Input;
 use jostle_motion::{
     Accelerogram, Candidate, Gb50011, GbGroup, GbIntensity, GbLevel, GbSite, MainPeriod, Origin,
     TargetKind, TargetSpectrum, check_selection, measures,
 };
 use jostle_report::{MotionPage, SelectionPage, render_motion, render_selection};
-
-use crate::browser::opened::{Opened, open_page};
+use jostle_testkit::browser::{Mouse, Page, open_page};
 
 /// Twenty seconds of waves that come and go.
 fn wave(speed: f64) -> Accelerogram {
@@ -21,7 +17,7 @@ fn wave(speed: f64) -> Accelerogram {
     Accelerogram::new(0.01, (0..2000).map(value).collect()).unwrap()
 }
 
-fn motion_page(width: u32, height: u32) -> Option<Opened> {
+fn motion_page(width: u32, height: u32) -> Option<Page> {
     let motion = wave(1.0);
     let measures = measures(&motion).unwrap();
     let page = MotionPage {
@@ -32,7 +28,7 @@ fn motion_page(width: u32, height: u32) -> Option<Opened> {
     open_page(&render_motion(&page).unwrap(), width, height)
 }
 
-fn selection_page(width: u32, height: u32) -> Option<Opened> {
+fn selection_page(width: u32, height: u32) -> Option<Page> {
     let target = TargetSpectrum::new(TargetKind::Gb50011(Gb50011 {
         intensity: GbIntensity::Seven,
         site: GbSite::II,
@@ -63,32 +59,28 @@ fn selection_page(width: u32, height: u32) -> Option<Opened> {
 }
 
 /// Lines of a chart that are no lines: too few points, or numbers that are none.
-fn bad_lines(page: &Opened) -> String {
+fn bad_lines(page: &Page) -> String {
     page.text("[...document.querySelectorAll('.chart .line')].map((l) => l.getAttribute('d') ?? '').filter((d) => /NaN|Infinity|undefined/.test(d) || (d.match(/L/g) ?? []).length < 40).join(' ; ')")
 }
 
-fn pause() {
-    std::thread::sleep(Duration::from_millis(200));
-}
-
 /// Puts the pointer over the middle of a chart.
-fn point_at(page: &Opened, chart: &str) {
+fn point_at(page: &Page, chart: &str) {
     page.value(&format!(
         "document.querySelector('{chart}').scrollIntoView({{block: 'center'}})"
     ));
-    pause();
+    page.drawn();
     let at = |of: &str| {
         page.number(&format!(
             "(() => {{ const r = document.querySelector('{chart}').getBoundingClientRect(); return {of}; }})()"
         ))
     };
     let (x, y) = (at("r.left + r.width / 2"), at("r.top + r.height / 2"));
-    page.mouse(Input::DispatchMouseEventTypeOption::MouseMoved, x, y);
-    pause();
+    page.mouse(Mouse::Move, x, y);
+    page.drawn();
 }
 
 /// What the outputs of a figure say.
-fn said(page: &Opened, figure: &str) -> String {
+fn said(page: &Page, figure: &str) -> String {
     page.text(&format!(
         "[...document.querySelectorAll('{figure} output')].map((o) => o.textContent).join('|')"
     ))
@@ -128,13 +120,13 @@ fn histories_of_a_motion_zoom_together_and_tell_their_values() {
     for button in ["zoom-strong", "zoom-in"] {
         let before = page.text(TIME_LABELS);
         page.value(&format!("document.getElementById('{button}').click()"));
-        pause();
+        page.drawn();
         assert_ne!(page.text(TIME_LABELS), before, "{button} did nothing");
     }
     let all = "new Set([...document.querySelectorAll('#time-charts svg')].map((s) => [...s.querySelectorAll('.grid text')].map((t) => t.textContent).filter((t) => / s$/.test(t)).join())).size";
     assert_eq!(page.number(all), 1.0, "one chart shows other instants");
     page.value("document.getElementById('zoom-all').click()");
-    pause();
+    page.drawn();
     assert_eq!(page.text(TIME_LABELS), whole, "not the whole motion");
     let before = said(&page, "#time-charts");
     point_at(&page, "#time-charts .chart svg");
@@ -154,7 +146,7 @@ fn spectra_of_a_motion_change_quantity_and_axes_and_tell_their_values() {
     let line = "document.querySelector('#spectra .line').getAttribute('d')";
     let choose = |id: &str, value: &str| {
         page.value(&format!("{{ const s = document.getElementById('{id}'); s.value = '{value}'; s.dispatchEvent(new Event('change')); }}"));
-        pause();
+        page.drawn();
     };
     let mut seen = vec![page.text(line)];
     for (value, unit) in [
@@ -198,7 +190,7 @@ fn spectra_of_a_motion_change_quantity_and_axes_and_tell_their_values() {
 #[test]
 fn motion_pages_turn_dark_and_fit_a_phone() {
     for (name, open) in [
-        ("motion", motion_page as fn(u32, u32) -> Option<Opened>),
+        ("motion", motion_page as fn(u32, u32) -> Option<Page>),
         ("selection", selection_page),
     ] {
         let Some(page) = open(375, 740) else {
@@ -240,7 +232,7 @@ fn a_selection_shows_verdict_spectra_and_numbers() {
     assert!((number(5) / number(4) - 0.8).abs() < 0.01, "{read}");
     let labels = page.text(SPECTRUM_LABELS);
     page.value("{ const s = document.getElementById('axes'); s.value = 'log'; s.dispatchEvent(new Event('change')); }");
-    pause();
+    page.drawn();
     assert_ne!(page.text(SPECTRUM_LABELS), labels);
     assert_eq!(bad_lines(&page), "");
     page.assert_fits(1280.0);

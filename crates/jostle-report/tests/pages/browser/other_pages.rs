@@ -5,8 +5,7 @@ use jostle_report::{
     CollidedLaw, Collisions, StudyPage, render_collisions, render_method, render_sections,
     render_study,
 };
-
-use crate::browser::opened::open_page;
+use jostle_testkit::browser::open_page;
 
 fn collisions() -> Collisions {
     let laws = [LawKind::Hertz, LawKind::HertzDamp].map(|kind| {

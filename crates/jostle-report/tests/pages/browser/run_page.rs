@@ -1,22 +1,11 @@
 //! The page of a run.
 
-use std::time::Duration;
+use jostle_testkit::browser::Mouse;
 
-use headless_chrome::protocol::cdp::Input;
-use jostle_report::render;
+use super::{ALONE, ROW_OF_THREE, Shown, TWO_FRAMES, YIELDING};
+use crate::fixture::walled;
 
-use crate::browser::opened::{Opened, open_page};
-use crate::fixture::{Run, alone, row_of_three, two_frames, walled, yielding};
-
-fn open(run: &Run, width: u32, height: u32) -> Option<Opened> {
-    open_page(&render(&run.page()), width, height)
-}
-
-impl Opened {
-    fn clock(&self) -> f64 {
-        self.number("parseFloat(document.getElementById('clock').textContent)")
-    }
-}
+const CLOCK: &str = "parseFloat(document.getElementById('clock').textContent)";
 
 const FIRST_CHART: &str = "document.querySelector('.chart svg').getBoundingClientRect()";
 const TIME_LABELS: &str =
@@ -24,38 +13,38 @@ const TIME_LABELS: &str =
 
 #[test]
 fn playing_moves_time_and_buildings() {
-    let Some(page) = open(&two_frames(0.1), 1280, 900) else {
+    let Some(page) = TWO_FRAMES.open(1280, 900) else {
         return;
     };
     let shape = "document.querySelector('.building .columns').getAttribute('d')";
-    let (clock, before) = (page.clock(), page.text(shape));
+    let (clock, before) = (page.number(CLOCK), page.text(shape));
     page.value("document.body.dispatchEvent(new KeyboardEvent('keydown', {key: ' ', bubbles: true, cancelable: true}))");
-    std::thread::sleep(Duration::from_millis(700));
+    page.wait(&format!("{CLOCK} > {}", clock + 0.1));
     page.value("document.getElementById('play').click()");
-    let (later, after) = (page.clock(), page.text(shape));
+    let (later, after) = (page.number(CLOCK), page.text(shape));
     assert!(
         later > clock + 0.1,
         "played from {clock} s to {later} s only"
     );
     assert_ne!(before, after, "the building stood still");
-    std::thread::sleep(Duration::from_millis(150));
-    assert_eq!(page.clock(), later, "paused, but time went on");
+    page.frames_pass(10);
+    assert_eq!(page.number(CLOCK), later, "paused, but time went on");
     page.assert_content();
 }
 
 #[test]
 fn scrubbing_and_jumping_find_their_instants() {
-    let Some(page) = open(&two_frames(0.1), 1280, 900) else {
+    let Some(page) = TWO_FRAMES.open(1280, 900) else {
         return;
     };
     page.value("{ const s = document.getElementById('scrub'); s.value = 3; s.dispatchEvent(new Event('input')); }");
     assert!(
-        (page.clock() - 3.0).abs() < 0.01,
+        (page.number(CLOCK) - 3.0).abs() < 0.01,
         "scrubbed to {}",
-        page.clock()
+        page.number(CLOCK)
     );
     page.value("document.getElementById('next').click()");
-    let first = page.clock();
+    let first = page.number(CLOCK);
     assert!(
         first > 6.0 && first < 6.4,
         "the first impact is near 6.2 s, not at {first} s"
@@ -63,34 +52,30 @@ fn scrubbing_and_jumping_find_their_instants() {
     let force = page.text("document.getElementById('force-now').textContent");
     assert!(force.ends_with("kN"), "no force at the impact: {force:?}");
     page.value("document.getElementById('next').click()");
-    assert!(page.clock() > first, "the second impact comes later");
+    assert!(page.number(CLOCK) > first, "the second impact comes later");
     page.picture("jumped");
     page.assert_content();
 }
 
 #[test]
 fn charts_zoom_together_and_come_back() {
-    let Some(page) = open(&two_frames(0.1), 1280, 900) else {
+    let Some(page) = TWO_FRAMES.open(1280, 900) else {
         return;
     };
     page.value("document.querySelector('.chart').scrollIntoView({block: 'start'})");
-    std::thread::sleep(Duration::from_millis(200));
+    page.drawn();
     let whole = page.text(TIME_LABELS);
     let [left, top] = ["left", "top"].map(|side| page.number(&format!("{FIRST_CHART}.{side}")));
     let y = top + 60.0;
-    use Input::DispatchMouseEventTypeOption::{MouseMoved, MousePressed, MouseReleased};
-    page.mouse(MousePressed, left + 300.0, y);
-    page.mouse(MouseMoved, left + 350.0, y);
-    page.mouse(MouseMoved, left + 400.0, y);
-    page.mouse(MouseReleased, left + 400.0, y);
-    // A busy machine draws late.
-    let zooms = (0..50).any(|_| {
-        std::thread::sleep(Duration::from_millis(200));
-        page.text(TIME_LABELS) != whole
-    });
-    assert!(zooms, "dragging did not zoom");
+    page.mouse(Mouse::Press, left + 300.0, y);
+    page.mouse(Mouse::Move, left + 350.0, y);
+    page.mouse(Mouse::Move, left + 400.0, y);
+    page.mouse(Mouse::Release, left + 400.0, y);
+    // Dragging zooms, and so does the wheel.
+    let zoomed = format!("{TIME_LABELS} !== {whole:?}");
+    page.wait(&zoomed);
     page.value("document.getElementById('zoom-impact').click()");
-    std::thread::sleep(Duration::from_millis(200));
+    page.drawn();
     page.picture("impact");
     let bends = page
         .text("document.querySelectorAll('.chart')[1].querySelector('.line').getAttribute('d')");
@@ -99,24 +84,17 @@ fn charts_zoom_together_and_come_back() {
         "an impact should show its shape: {bends}"
     );
     page.value("document.querySelector('.chart svg').dispatchEvent(new MouseEvent('dblclick'))");
-    std::thread::sleep(Duration::from_millis(200));
+    page.drawn();
     assert_eq!(page.text(TIME_LABELS), whole, "double-click did not reset");
     page.value("document.querySelector('.chart svg').dispatchEvent(new WheelEvent('wheel', {deltaY: -300, shiftKey: true, clientX: 500, cancelable: true}))");
-    // A busy machine draws later.
-    for _ in 0..20 {
-        std::thread::sleep(Duration::from_millis(200));
-        if page.text(TIME_LABELS) != whole {
-            break;
-        }
-    }
-    assert_ne!(page.text(TIME_LABELS), whole, "the wheel did not zoom");
+    page.wait(&zoomed);
     page.assert_content();
 }
 
 #[test]
 fn every_place_has_its_charts() {
-    for run in [two_frames(0.1), alone(), row_of_three(), yielding()] {
-        let Some(page) = open(&run, 1280, 900) else {
+    for shown in [&TWO_FRAMES, &ALONE, &ROW_OF_THREE, &YIELDING] {
+        let Some(page) = shown.open(1280, 900) else {
             return;
         };
         let places = page.number("document.getElementById('place').options.length");
@@ -129,7 +107,7 @@ fn every_place_has_its_charts() {
 
 #[test]
 fn dark_is_dark_and_light_is_light() {
-    let Some(page) = open(&two_frames(0.1), 1280, 900) else {
+    let Some(page) = TWO_FRAMES.open(1280, 900) else {
         return;
     };
     let paper = "getComputedStyle(document.body).backgroundColor";
@@ -142,7 +120,7 @@ fn dark_is_dark_and_light_is_light() {
 
 #[test]
 fn impacts_sort_and_unfold() {
-    let Some(page) = open(&row_of_three(), 1280, 900) else {
+    let Some(page) = ROW_OF_THREE.open(1280, 900) else {
         return;
     };
     let shown = "[...document.querySelectorAll('#impact-table tbody tr')].filter(r => r.offsetParent).length";
@@ -162,10 +140,11 @@ fn impacts_sort_and_unfold() {
 
 #[test]
 fn a_row_of_the_impact_table_shows_its_impact() {
-    for run in [two_frames(0.1), row_of_three()] {
-        let Some(page) = open(&run, 1280, 900) else {
+    for shown in [&TWO_FRAMES, &ROW_OF_THREE] {
+        let Some(page) = shown.open(1280, 900) else {
             return;
         };
+        let run = &shown.run;
         // The greatest forces first: rows have to keep their impact when they are sorted.
         page.value("document.querySelectorAll('#impact-table th button')[3].click()");
         let contacts = run.summary.gaps.iter().flat_map(|gap| &gap.contacts);
@@ -178,7 +157,7 @@ fn a_row_of_the_impact_table_shows_its_impact() {
             page.value(&format!(
                 "document.querySelectorAll('#impact-table tbody tr')[{row}].cells[2].click()"
             ));
-            let clock = page.clock();
+            let clock = page.number(CLOCK);
             assert!(
                 (clock - impact.peak_force_at_s).abs() <= rounding,
                 "row {row} jumps to {clock} s; its peak force is at {} s",
@@ -200,8 +179,8 @@ fn a_row_of_the_impact_table_shows_its_impact() {
 
 #[test]
 fn every_impact_has_a_panel_and_the_hardest_opens() {
-    let run = row_of_three();
-    let Some(page) = open(&run, 1280, 900) else {
+    let run = &ROW_OF_THREE.run;
+    let Some(page) = ROW_OF_THREE.open(1280, 900) else {
         return;
     };
     let contacts = run.summary.gaps.iter().flat_map(|gap| &gap.contacts);
@@ -233,7 +212,7 @@ fn every_impact_has_a_panel_and_the_hardest_opens() {
     page.picture("impact-panels");
     // A panel goes to its impact in scene and charts; so does a row of the table, and the row says which one it is.
     page.value("document.querySelectorAll('.impact-panel')[3].click()");
-    let clock = page.clock();
+    let clock = page.number(CLOCK);
     assert!(
         impacts
             .iter()
@@ -264,8 +243,8 @@ fn every_impact_has_a_panel_and_the_hardest_opens() {
 
 #[test]
 fn impacts_stand_at_their_instant_and_height() {
-    let run = row_of_three();
-    let Some(page) = open(&run, 1280, 900) else {
+    let run = &ROW_OF_THREE.run;
+    let Some(page) = ROW_OF_THREE.open(1280, 900) else {
         return;
     };
     let contacts = run.summary.gaps.iter().flat_map(|gap| &gap.contacts);
@@ -309,14 +288,13 @@ fn impacts_stand_at_their_instant_and_height() {
     }
     // A click on one goes to its impact.
     page.value("document.querySelector('.disc').scrollIntoView({block: 'center'})");
-    std::thread::sleep(Duration::from_millis(200));
+    page.drawn();
     let [x, y] = ["left + r.width / 2", "top + r.height / 2"].map(|side| {
         page.number(&format!("(() => {{ const r = document.querySelector('.disc:last-child').getBoundingClientRect(); return r.{side}; }})()"))
     });
-    use Input::DispatchMouseEventTypeOption::{MousePressed, MouseReleased};
-    page.mouse(MousePressed, x, y);
-    page.mouse(MouseReleased, x, y);
-    let clock = page.clock();
+    page.mouse(Mouse::Press, x, y);
+    page.mouse(Mouse::Release, x, y);
+    let clock = page.number(CLOCK);
     assert!(
         heights.iter().any(|(_, at)| (at - clock).abs() < 6e-4),
         "the click led to {clock} s"
@@ -326,7 +304,7 @@ fn impacts_stand_at_their_instant_and_height() {
 
 #[test]
 fn drawings_have_their_dimensions() {
-    let Some(page) = open(&two_frames(0.1), 1280, 900) else {
+    let Some(page) = TWO_FRAMES.open(1280, 900) else {
         return;
     };
     let said = page.text(
@@ -347,8 +325,8 @@ fn drawings_have_their_dimensions() {
 
 #[test]
 fn yielded_places_are_coloured_by_their_ductility() {
-    let run = yielding();
-    let Some(page) = open(&run, 1280, 900) else {
+    let run = &YIELDING.run;
+    let Some(page) = YIELDING.open(1280, 900) else {
         return;
     };
     page.value("{ const s = document.getElementById('scrub'); s.value = s.max; s.dispatchEvent(new Event('input')); }");
@@ -379,7 +357,7 @@ fn yielded_places_are_coloured_by_their_ductility() {
 
 #[test]
 fn marks_and_loops_follow_the_clock() {
-    let Some(page) = open(&yielding(), 1180, 900) else {
+    let Some(page) = YIELDING.open(1180, 900) else {
         return;
     };
     let at = |t: f64| {
@@ -427,13 +405,13 @@ fn marks_and_loops_follow_the_clock() {
 #[test]
 fn nothing_overflows_a_phone() {
     let runs = [
-        ("two-frames", two_frames(0.1)),
-        ("alone", alone()),
-        ("row-of-three", row_of_three()),
-        ("yielding", yielding()),
+        ("two-frames", &TWO_FRAMES),
+        ("alone", &ALONE),
+        ("row-of-three", &ROW_OF_THREE),
+        ("yielding", &YIELDING),
     ];
-    for (name, run) in runs {
-        let Some(page) = open(&run, 375, 740) else {
+    for (name, shown) in runs {
+        let Some(page) = shown.open(375, 740) else {
             return;
         };
         page.assert_fits(375.0);
@@ -444,7 +422,7 @@ fn nothing_overflows_a_phone() {
 
 #[test]
 fn walls_and_links_are_drawn_where_they_are() {
-    let Some(page) = open(&walled(), 1280, 900) else {
+    let Some(page) = Shown::new(walled()).open(1280, 900) else {
         return;
     };
     assert_eq!(
@@ -462,7 +440,7 @@ fn walls_and_links_are_drawn_where_they_are() {
     };
     // At rest the last link ends at the face of the wall on the right.
     page.value("{ const s = document.getElementById('scrub'); s.value = 0; s.dispatchEvent(new Event('input')); }");
-    std::thread::sleep(Duration::from_millis(200));
+    page.drawn();
     let face =
         page.number("[...document.querySelectorAll('.wall')].at(-1).getBoundingClientRect().left");
     assert!((right("path.link") - face).abs() < 2.0);
@@ -474,7 +452,7 @@ fn walls_and_links_are_drawn_where_they_are() {
         "{before}"
     );
     page.value("{ const s = document.getElementById('scrub'); s.value = 5; s.dispatchEvent(new Event('input')); }");
-    std::thread::sleep(Duration::from_millis(200));
+    page.drawn();
     assert_ne!(page.text(shapes), before, "links move with their floors");
     page.picture("walled");
     page.assert_fits(1280.0);

@@ -1,15 +1,7 @@
 //! The scene in space and the paths of corners.
 
-use std::time::Duration;
-
-use jostle_report::render;
-
-use crate::browser::opened::{Opened, open_page};
-use crate::fixture::{in_space, isolated_in_space};
-
-fn open(width: u32, height: u32) -> Option<Opened> {
-    open_page(&render(&in_space().page()), width, height)
-}
+use super::{IN_SPACE, Shown};
+use crate::fixture::isolated_in_space;
 
 /// The picture of the scene.
 const PICTURE: &str = "document.querySelector('#space canvas').toDataURL()";
@@ -19,17 +11,13 @@ const DRAWN: &str = "(() => { const s = document.querySelector('#space canvas');
 /// Number of pixels in the colour of contacts.
 const MARKED: &str = "(() => { const s = document.querySelector('#space canvas'); const g = s.getContext('2d'); const d = g.getImageData(0, 0, s.width, s.height).data; let n = 0; for (let i = 0; i < d.length; i += 4) if (d[i + 3] > 200 && d[i] > 140 && d[i + 1] < 90 && d[i + 2] < 90) n++; return n; })()";
 
-fn settle() {
-    std::thread::sleep(Duration::from_millis(250));
-}
-
 #[test]
 fn the_scene_turns_zooms_and_follows_the_time() {
-    let Some(page) = open(1280, 900) else {
+    let Some(page) = IN_SPACE.open(1280, 900) else {
         return;
     };
     page.value("document.getElementById('space').scrollIntoView()");
-    settle();
+    page.drawn();
     assert!(page.number(DRAWN) > 5000.0, "hardly anything is drawn");
     let first = page.text(PICTURE);
     page.value("{ const s = document.getElementById('scrub'); s.value = 3; s.dispatchEvent(new Event('input')); }");
@@ -53,7 +41,7 @@ fn the_scene_turns_zooms_and_follows_the_time() {
         "158×"
     );
     page.value("document.getElementById('space-play').click()");
-    settle();
+    page.drawn();
     assert_eq!(
         page.text("document.getElementById('space-play').textContent"),
         "Pause"
@@ -65,7 +53,7 @@ fn the_scene_turns_zooms_and_follows_the_time() {
 /// The path of a corner is that of its floor: u = (u_x − θ r_y, u_y + θ r_x).
 #[test]
 fn paths_are_those_of_the_chosen_corners() {
-    let Some(page) = open(1280, 900) else {
+    let Some(page) = IN_SPACE.open(1280, 900) else {
         return;
     };
     assert_eq!(
@@ -93,19 +81,18 @@ fn paths_are_those_of_the_chosen_corners() {
 /// The mat, and a wall below the ground before it: contacts are marked at both.
 #[test]
 fn the_scene_shows_a_moat_wall_before_a_mat() {
-    let run = isolated_in_space();
-    let Some(page) = open_page(&render(&run.page()), 1280, 900) else {
+    let Some(page) = Shown::new(isolated_in_space()).open(1280, 900) else {
         return;
     };
     page.value("document.getElementById('space').scrollIntoView()");
-    settle();
+    page.drawn();
     let marked = page.number(MARKED);
     assert!(marked > 100.0, "{marked} pixels of contacts");
 }
 
 #[test]
 fn the_scene_fits_a_phone() {
-    let Some(page) = open(390, 800) else {
+    let Some(page) = IN_SPACE.open(390, 800) else {
         return;
     };
     assert!(page.number("document.documentElement.scrollWidth") <= 390.0);

@@ -1,12 +1,11 @@
 //! Files of the page.
 
-use super::{open, serve};
+use super::{open, short};
 use std::path::Path;
 
 #[test]
 fn files_are_kept() {
-    let server = serve("paper");
-    let Some(page) = open(&server, 1400, 1000) else {
+    let Some(page) = open(short(), 1400, 1000) else {
         return;
     };
     page.value("window.files = []; URL.createObjectURL = (blob) => { blob.text().then((text) => window.files.push(text)); return 'about:blank#'; }; HTMLAnchorElement.prototype.click = function () { window.files.name = this.download; }");

@@ -1,6 +1,6 @@
 //! A lost connection.
 
-use super::{open, serve};
+use super::{open, paper, serve};
 
 #[test]
 fn a_lost_connection_is_said_and_the_page_still_plays() {
@@ -18,8 +18,7 @@ fn a_lost_connection_is_said_and_the_page_still_plays() {
 
 #[test]
 fn a_page_connects_again_and_goes_on() {
-    let server = serve("paper");
-    let Some(page) = open(&server, 1400, 1000) else {
+    let Some(page) = open(paper(), 1400, 1000) else {
         return;
     };
     page.value("{ window.sockets = []; const send = WebSocket.prototype.send; WebSocket.prototype.send = function (text) { if (window.sockets.at(-1) !== this) window.sockets.push(this); send.call(this, text); }; }");

@@ -1,13 +1,12 @@
 //! Runs that are pinned, compared, undone, and restored from the address.
 
-use super::opened::open_address;
-use super::{open, serve};
-use std::time::Duration;
+use jostle_testkit::browser::open_address;
+
+use super::{LivePage, open, short};
 
 #[test]
 fn runs_are_pinned_compared_undone_and_redone() {
-    let server = serve("paper");
-    let Some(page) = open(&server, 1400, 1000) else {
+    let Some(page) = open(short(), 1400, 1000) else {
         return;
     };
     let first = page.headline();
@@ -38,18 +37,23 @@ fn runs_are_pinned_compared_undone_and_redone() {
     page.assert_content();
 }
 
+/// The state in the hash of an address: JSON, deflated, as base64 for addresses.
+const STATE: &str = "async (hash) => { const text = atob(hash.slice(1).replaceAll('-', '+').replaceAll('_', '/')); const bytes = Uint8Array.from(text, (c) => c.charCodeAt(0)); return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate-raw'))).json(); }";
+
 #[test]
 fn the_address_restores_the_state_and_pages_do_not_disturb_each_other() {
-    let server = serve("paper");
-    let Some(page) = open(&server, 1400, 1000) else {
+    let Some(page) = open(short(), 1400, 1000) else {
         return;
     };
     page.type_into("gap[0].width", "47 mm");
     page.value("{ const m = document.getElementById('measure'); m.value = '2'; m.dispatchEvent(new Event('change')); }");
-    page.wait("location.hash.length > 200");
-    std::thread::sleep(Duration::from_millis(900));
+    // The address follows a moment after the last change.
+    page.wait(&format!(
+        "({STATE})(location.hash).then((state) => state.text.includes('width = \"47 mm\"') && state.curve.measure === '2')"
+    ));
+    assert!(page.number("location.hash.length") > 200.0);
     let address = page.text("location.href");
-    let other = open_address(&address, 1400, 1000).unwrap();
+    let other = LivePage(open_address(&address, 1400, 1000).unwrap());
     other.wait("Number(document.body.dataset.frames) >= 1");
     assert_eq!(other.headline(), page.headline());
     assert!(other.model().contains("width = \"47 mm\""));
@@ -73,8 +77,12 @@ fn the_address_restores_the_state_and_pages_do_not_disturb_each_other() {
         other.model()
     );
     // An address that was cut off changes nothing.
-    other.value(&format!("location.hash = {:?}", &hash[..hash.len() / 2]));
-    std::thread::sleep(Duration::from_millis(300));
+    let cut = &hash[..hash.len() / 2];
+    let read = other.value(&format!(
+        "new Promise((done) => {{ addEventListener('hashchange', () => ({STATE})(location.hash).then(() => done(true), () => done(false)), {{ once: true }}); location.hash = {cut:?}; }})"
+    ));
+    assert_eq!(read, false, "half an address holds a state");
+    other.settled();
     assert!(other.model().contains("width = \"300 mm\""));
     page.assert_content();
     other.assert_content();

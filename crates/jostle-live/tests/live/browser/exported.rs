@@ -1,11 +1,12 @@
 //! Pages with their engine inside. They need the engine that `packaging/wasm` builds, so these tests run only when asked
-//! for: `cargo test --workspace --test live exported -- --ignored`.
+//! for: `cargo test --workspace --test live browser::exported -- --ignored`.
 
 use std::path::{Path, PathBuf};
 
 use jostle_live::{Engine, export};
+use jostle_testkit::browser::open_page;
 
-use crate::opened::{Opened, open_page};
+use super::LivePage;
 
 /// Greatest size of the page of the built-in example \[bytes\].
 const MOST_BYTES: usize = 1_600_000;
@@ -16,10 +17,10 @@ fn exported(model: &Path) -> String {
     export(&Engine::open(model).unwrap(), &module).unwrap()
 }
 
-fn open_exported(model: &Path) -> Option<Opened> {
+fn open_exported(model: &Path) -> Option<LivePage> {
     let page = open_page(&exported(model), 1400, 1000)?;
     page.wait("Number(document.body.dataset.frames) >= 1");
-    Some(page)
+    Some(LivePage(page))
 }
 
 /// Peak force of the first gap \[kN\], computed here.
@@ -100,6 +101,7 @@ fn exported_page_holds_the_records_of_its_model() {
     let Some(page) = open_page(&page, 1400, 1000) else {
         return;
     };
+    let page = LivePage(page);
     page.wait(
         "Number(document.body.dataset.frames) >= 1 || document.body.classList.contains('faulty')",
     );

@@ -1,11 +1,10 @@
 //! Knobs: sliders, typed values, faults beside their fields.
 
-use super::{open, serve};
+use super::{open, serve, short};
 
 #[test]
 fn a_slider_changes_the_run_and_nothing_flashes() {
-    let server = serve("paper");
-    let Some(page) = open(&server, 1400, 1000) else {
+    let Some(page) = open(short(), 1400, 1000) else {
         return;
     };
     assert!(
@@ -49,8 +48,7 @@ fn a_slider_changes_the_run_and_nothing_flashes() {
 
 #[test]
 fn every_kind_of_value_can_be_typed() {
-    let server = serve("paper");
-    let Some(page) = open(&server, 1400, 1000) else {
+    let Some(page) = open(short(), 1400, 1000) else {
         return;
     };
     let typed = [
@@ -114,8 +112,7 @@ fn every_kind_of_value_can_be_typed() {
 
 #[test]
 fn faults_stand_beside_their_field_in_the_words_of_the_reader() {
-    let server = serve("paper");
-    let Some(page) = open(&server, 1400, 1000) else {
+    let Some(page) = open(short(), 1400, 1000) else {
         return;
     };
     page.type_into("gap[0].width", "3 kg");

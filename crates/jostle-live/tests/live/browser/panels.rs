@@ -1,6 +1,6 @@
 //! Panels of contacts, impacts and ports.
 
-use super::{open, serve};
+use super::{open, paper, serve};
 
 #[test]
 fn ports_of_given_buildings_have_knobs() {
@@ -70,8 +70,7 @@ width = "10 mm"
 
 #[test]
 fn panels_of_impacts_follow_the_run() {
-    let server = serve("paper");
-    let Some(page) = open(&server, 1400, 1000) else {
+    let Some(page) = open(paper(), 1400, 1000) else {
         return;
     };
     page.value("document.getElementById('charts').scrollIntoView()");

@@ -1,12 +1,14 @@
 //! The curve of force over the gap, and estimates that come after the frame.
 
-use super::{open, serve};
 use std::ops::ControlFlow;
+
+use jostle_testkit::browser::Mouse;
+
+use super::{open, paper};
 
 #[test]
 fn the_curve_shows_the_smallest_gap_and_its_line_can_be_moved() {
-    let server = serve("paper");
-    let Some(page) = open(&server, 1400, 1000) else {
+    let Some(page) = open(paper(), 1400, 1000) else {
         return;
     };
     page.type_into("motion.pga", "70 cm/s2");
@@ -39,25 +41,22 @@ fn the_curve_shows_the_smallest_gap_and_its_line_can_be_moved() {
     assert!(page.headline().contains("hit"), "{}", page.headline());
     // By keyboard, and by dragging.
     page.value("document.querySelector('.handle').focus()");
-    page.key("ArrowRight");
+    page.press("ArrowRight");
     page.settled();
     let moved =
         page.number("Number(document.querySelector('.handle').getAttribute('aria-valuenow'))");
     assert!(moved > needed - 0.5, "{moved}");
     page.wait("document.querySelector('.handle') !== null");
-    use headless_chrome::protocol::cdp::Input::DispatchMouseEventTypeOption::{
-        MouseMoved, MousePressed, MouseReleased,
-    };
     page.value("document.getElementById('curve-picture').scrollIntoView({ block: 'center' })");
     let [left, top, width] = ["left", "top", "width"].map(|side| {
         page.number(&format!(
             "document.getElementById('curve-picture').getBoundingClientRect().{side}"
         ))
     });
-    page.mouse(MousePressed, left + 0.2 * width, top + 100.0);
-    page.mouse(MouseMoved, left + 0.25 * width, top + 100.0);
-    page.mouse(MouseMoved, left + 0.3 * width, top + 100.0);
-    page.mouse(MouseReleased, left + 0.3 * width, top + 100.0);
+    page.mouse(Mouse::Press, left + 0.2 * width, top + 100.0);
+    page.mouse(Mouse::Move, left + 0.25 * width, top + 100.0);
+    page.mouse(Mouse::Move, left + 0.3 * width, top + 100.0);
+    page.mouse(Mouse::Release, left + 0.3 * width, top + 100.0);
     page.settled();
     assert!(page.headline().contains("hit"), "{}", page.headline());
     let dragged =
@@ -75,8 +74,7 @@ fn the_curve_shows_the_smallest_gap_and_its_line_can_be_moved() {
 /// What somebody does who has never seen the page: types the acceleration where the page says so, and reads the gap.
 #[test]
 fn the_gap_without_pounding_is_in_sight_after_one_change() {
-    let server = serve("paper");
-    let Some(page) = open(&server, 1280, 800) else {
+    let Some(page) = open(paper(), 1280, 800) else {
         return;
     };
     page.value("{ const l = [...document.querySelectorAll('.knob-name')].find((l) => l.textContent.includes('acceleration')); const f = document.getElementById(l.htmlFor); f.scrollIntoView({ block: 'nearest' }); f.value = '70 cm/s2'; f.dispatchEvent(new Event('change')); }");
@@ -118,8 +116,7 @@ pub(crate) fn accuracy_of(width: &str) -> [String; 2] {
 
 #[test]
 fn sensitive_results_are_found_after_the_frame() {
-    let server = serve("paper");
-    let Some(page) = open(&server, 1400, 1000) else {
+    let Some(page) = open(paper(), 1400, 1000) else {
         return;
     };
     let shown = "document.getElementById('accuracy').textContent";

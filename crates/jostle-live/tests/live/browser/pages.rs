@@ -1,13 +1,12 @@
 //! Sizes, colours, the keyboard, models with faults.
 
-use super::opened::open_address;
-use super::{open, serve};
-use std::time::Duration;
+use jostle_testkit::browser::open_address;
+
+use super::{LivePage, open, serve, short};
 
 #[test]
 fn pages_fit_phones_and_dark_is_dark() {
-    let server = serve("paper");
-    let Some(page) = open(&server, 375, 760) else {
+    let Some(page) = open(short(), 375, 760) else {
         return;
     };
     page.wait("document.querySelectorAll('.curve-line').length === 1");
@@ -24,7 +23,7 @@ fn pages_fit_phones_and_dark_is_dark() {
     );
     page.glance("live-phone-dark");
     page.assert_content();
-    let wide = open(&server, 1400, 1000).unwrap();
+    let wide = open(short(), 1400, 1000).unwrap();
     wide.value("document.getElementById('theme').click()");
     wide.wait("document.querySelectorAll('.curve-line').length === 1");
     wide.glance("live-dark");
@@ -32,13 +31,12 @@ fn pages_fit_phones_and_dark_is_dark() {
 
 #[test]
 fn the_keyboard_is_enough() {
-    let server = serve("paper");
-    let Some(page) = open(&server, 1400, 1000) else {
+    let Some(page) = open(short(), 1400, 1000) else {
         return;
     };
     page.value("document.getElementById('search').focus()");
     for key in ["Tab", "Tab"] {
-        page.key(key);
+        page.press(key);
     }
     // The first knob after the search is the width of the gap: its field, then its slider.
     assert_eq!(
@@ -49,7 +47,7 @@ fn the_keyboard_is_enough() {
     );
     let before = page.headline();
     for _ in 0..8 {
-        page.key("ArrowLeft");
+        page.press("ArrowLeft");
     }
     page.settled();
     assert_ne!(page.headline(), before);
@@ -63,7 +61,7 @@ fn the_keyboard_is_enough() {
         "document.querySelector('.knob input[type=text]').focus(); document.activeElement.select()",
     );
     for key in ["5", "5", "m", "m", "Enter"] {
-        page.key(key);
+        page.press(key);
     }
     page.settled();
     assert!(
@@ -99,7 +97,7 @@ fn the_keyboard_is_enough() {
         return `${ring} ${e.id || e.className?.baseVal || e.className || e.tagName}`; })()";
     let mut reached = Vec::new();
     for _ in 0..120 {
-        page.key("Tab");
+        page.press("Tab");
         let answer = page.text(focused);
         let (ring, name) = answer.split_once(' ').unwrap_or_default();
         assert_eq!(ring, "true", "no focus ring: {name}");
@@ -114,7 +112,7 @@ fn the_keyboard_is_enough() {
         "{wanted:?} are not reached by Tab: {reached:?}"
     );
     page.value("document.getElementById('undo').focus()");
-    page.key("Enter");
+    page.press("Enter");
     page.settled();
     assert!(!page.model().contains("width = \"55mm\""));
     let names = "[...document.querySelectorAll('button, input, select, textarea, [role=slider]')].filter((e) => !(e.labels?.length || e.getAttribute('aria-label') || e.textContent.trim() || e.title)).map((e) => e.outerHTML).join()";
@@ -134,6 +132,7 @@ fn a_model_with_a_fault_opens_and_can_be_mended() {
     let Some(page) = open_address(&server.address(), 1400, 1000) else {
         return;
     };
+    let page = LivePage(page);
     page.wait("document.body.classList.contains('faulty')");
     assert!(page.fault_of("gap[0].width").contains("expected a length"));
     page.glance("live-broken");
@@ -183,7 +182,7 @@ fn a_row_of_shear_buildings_and_a_list_of_records() {
     page.settled();
     assert_ne!(page.headline(), first, "the other record shakes otherwise");
     page.value("document.querySelector('.handle').focus()");
-    page.key("ArrowRight");
+    page.press("ArrowRight");
     page.settled();
     let model = page.model();
     assert!(
@@ -196,14 +195,13 @@ fn a_row_of_shear_buildings_and_a_list_of_records() {
 
 #[test]
 fn nothing_moves_by_itself() {
-    let server = serve("paper");
-    let Some(page) = open(&server, 1400, 1000) else {
+    let Some(page) = open(short(), 1400, 1000) else {
         return;
     };
-    page.emulate_reduced_motion();
+    page.emulate("", &[("prefers-reduced-motion", "reduce")]);
     let shape = "document.querySelector('.building .columns').getAttribute('d')";
     let before = page.text(shape);
-    std::thread::sleep(Duration::from_millis(400));
+    page.frames_pass(25);
     assert_eq!(
         page.text(shape),
         before,

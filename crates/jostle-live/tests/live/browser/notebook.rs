@@ -1,11 +1,9 @@
 //! The page in the frame of a notebook.
 
 use std::path::Path;
-use std::time::Duration;
 
 use jostle_live::Engine;
-
-use crate::opened;
+use jostle_testkit::browser::open_page;
 
 /// The page of a notebook, in a frame like that of the widget; the engine answers by messages.
 #[test]
@@ -17,7 +15,7 @@ fn a_page_in_a_frame_sends_its_requests_to_the_notebook() {
     let outer = format!(
         "<!DOCTYPE html><title>notebook</title><body><script>window.asked = []; addEventListener('message', (event) => window.asked.push(JSON.parse(event.data.jostle))); const frame = document.createElement('iframe'); frame.setAttribute('sandbox', 'allow-scripts allow-downloads'); frame.style = 'width: 1200px; height: 820px'; frame.srcdoc = {quoted}; document.body.append(frame); window.tell = (text, binary) => frame.contentWindow.postMessage({{ answer: binary ? Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer : text }}, '*');</script></body>"
     );
-    let Some(page) = opened::open_page(&outer, 1300, 900) else {
+    let Some(page) = open_page(&outer, 1300, 900) else {
         return;
     };
     let mut local = jostle_live::Local::new(Engine::open(Path::new("paper")).unwrap());
@@ -45,7 +43,7 @@ fn a_page_in_a_frame_sends_its_requests_to_the_notebook() {
     while let Some(answer) = local.more() {
         tell(answer);
     }
-    std::thread::sleep(Duration::from_millis(200));
+    page.drawn();
     page.glance("live-notebook");
     // Whether results are sensitive comes later, once: here at a gap that the buildings just graze.
     let run = |width: &str| {
@@ -65,7 +63,7 @@ fn a_page_in_a_frame_sends_its_requests_to_the_notebook() {
         panic!("nothing was found");
     };
     let found: serde_json::Value = serde_json::from_str(&text).unwrap();
-    let [before, after] = crate::gap_curve::accuracy_of("136.5 mm");
+    let [before, after] = super::gap_curve::accuracy_of("136.5 mm");
     let [before, after] =
         [before, after].map(|words| words.replacen("Accuracy: ", "accuracy: ", 1));
     assert_ne!(before, after, "the graze makes no difference");

@@ -1,7 +1,22 @@
 //! Memory and speed over many changes.
 
-use super::{open, serve};
 use std::time::Duration;
+
+use jostle_live::Server;
+use jostle_testkit::browser::{Browser, skipped};
+
+use super::{LivePage, serve};
+
+/// Opens the page in a browser of its own, which nothing else keeps busy.
+fn open_alone(server: &Server) -> Option<(Browser, LivePage)> {
+    if skipped() {
+        return None;
+    }
+    let browser = Browser::start();
+    let page = browser.open(&server.address(), 1280, 900);
+    page.wait("Number(document.body.dataset.frames) >= 1");
+    Some((browser, LivePage(page)))
+}
 
 /// Memory of this process, the server included \[bytes\]; zero where it cannot be read.
 fn resident() -> f64 {
@@ -12,6 +27,9 @@ fn resident() -> f64 {
         .map_or(0.0, |pages| 4096.0 * pages)
 }
 
+/// Longest wait for a part of the changes.
+const HOURS: Duration = Duration::from_secs(4 * 3600);
+
 /// Most that server and page may grow over all changes after the first fifth \[bytes\].
 const MOST_GROWTH: [f64; 2] = [30e6, 6e6];
 
@@ -20,7 +38,7 @@ const MOST_GROWTH: [f64; 2] = [30e6, 6e6];
 #[ignore = "takes many minutes"]
 fn memory_stays_steady_over_ten_thousand_changes() {
     let server = serve("paper");
-    let Some(page) = open(&server, 1280, 900) else {
+    let Some((_browser, page)) = open_alone(&server) else {
         return;
     };
     page.wait("document.querySelectorAll('.curve-line').length === 1");
@@ -34,9 +52,7 @@ fn memory_stays_steady_over_ten_thousand_changes() {
         page.value(&format!(
             "window.done = false; (async () => {{ const pga = [...document.querySelectorAll('.knob-name')].find((l) => l.title.startsWith('motion.pga:')).parentElement.querySelector('.knob-slider'); const gap = document.querySelector('.knob-slider'); for (let i = 0; i < {count}; i++) {{ const f = document.body.dataset.frames; const s = i % 50 === 49 ? pga : gap; s.value = 0.1 + 0.4 * (((i + {part}) * 0.618) % 1); s.dispatchEvent(new Event('input')); const end = performance.now() + 20000; while (document.body.dataset.frames === f && performance.now() < end) await new Promise((r) => setTimeout(r, 0)); }} window.done = true; }})(); 0"
         ));
-        while page.value("window.done") != true {
-            std::thread::sleep(Duration::from_millis(500));
-        }
+        page.wait_for("window.done", HOURS);
         page.settled();
         let now = [resident(), page.heap()];
         let elements = page.number("document.querySelectorAll('*').length");
@@ -65,7 +81,7 @@ fn memory_stays_steady_over_ten_thousand_changes() {
 #[ignore = "a measurement"]
 fn speed_of_changes() {
     let server = serve("paper");
-    let Some(page) = open(&server, 1280, 900) else {
+    let Some((_browser, page)) = open_alone(&server) else {
         return;
     };
     page.wait("document.querySelectorAll('.curve-line').length === 1");
@@ -79,9 +95,7 @@ fn speed_of_changes() {
         page.value(&format!(
             "window.times = []; (async () => {{ const s = document.querySelector('.knob-slider'); for (let i = 0; i < {count}; i++) {{ const f = document.body.dataset.frames; const t = performance.now(); s.value = 0.1 + 0.4 * ((i * 0.618) % 1); s.dispatchEvent(new Event('input')); while (document.body.dataset.frames === f) await new Promise((r) => setTimeout(r, 0)); await new Promise((r) => requestAnimationFrame(r)); window.times.push(performance.now() - t); }} window.done = true; }})(); window.done = false"
         ));
-        while page.value("window.done") != true {
-            std::thread::sleep(Duration::from_millis(200));
-        }
+        page.wait_for("window.done", HOURS);
         let at = |p: f64| {
             page.number(&format!(
                 "window.times.sort((a, b) => a - b)[Math.floor({p} * (window.times.length - 1))]"

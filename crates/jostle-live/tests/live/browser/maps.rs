@@ -1,11 +1,10 @@
 //! Maps over two keys.
 
-use super::{open, serve};
+use super::{open, short};
 
 #[test]
 fn two_keys_make_a_map_and_a_click_sets_both() {
-    let server = serve("paper");
-    let Some(page) = open(&server, 1400, 1000) else {
+    let Some(page) = open(short(), 1400, 1000) else {
         return;
     };
     let cells = "document.querySelectorAll('.cells rect').length";
@@ -61,8 +60,8 @@ fn two_keys_make_a_map_and_a_click_sets_both() {
         page.model()
     );
     page.value("document.querySelector('.cross').focus()");
-    page.key("ArrowUp");
-    page.key("ArrowLeft");
+    page.press("ArrowUp");
+    page.press("ArrowLeft");
     page.settled();
     assert!(!page.model().contains("width = \"100 mm\""));
     assert_eq!(

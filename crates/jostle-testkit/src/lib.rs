@@ -1,0 +1,3 @@
+//! What tests of several crates need. Not published.
+
+pub mod browser;
