@@ -129,7 +129,7 @@ fn storeys_of_a_condensed_cantilever_bear_the_forces_above_them() {
     building.storeys.for_each(
         &displacement,
         |_| 0.0,
-            |_| 0.0,
+        |_| 0.0,
         |storey, found| {
             close(found.shear, expected[storey].0 * CANTILEVER_K, "shear");
             close(found.moment, expected[storey].1 * CANTILEVER_K, "moment");
