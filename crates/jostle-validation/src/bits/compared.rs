@@ -214,7 +214,7 @@ mod tests {
         );
         let text = moved.to_string();
         assert!(
-            text.starts_with("towers modal: 2 numbers, 4 texts and digests of 14 moved"),
+            text.starts_with("towers modal: 2 numbers, 4 texts and digests of 11 moved"),
             "{text}"
         );
         assert!(

@@ -19,6 +19,15 @@ struct Kept {
     last: f64,
 }
 
+/// Digests of all columns together, span by span.
+pub(super) fn describe_in_short(outcome: &Outcome) -> Value {
+    let mut whole = describe(outcome);
+    if let Some(keys) = whole.as_object_mut() {
+        keys.remove("columns");
+    }
+    whole
+}
+
 /// Everything over time, shortened; `null` where nothing was recorded.
 pub(super) fn describe(outcome: &Outcome) -> Value {
     let Some(history) = outcome

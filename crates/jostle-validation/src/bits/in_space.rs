@@ -177,7 +177,7 @@ fn space_frames(random: &mut Random, yields: bool) -> Value {
     let width = apart(random);
     let mut office = json!({
         "name": "A", "kind": "space-frame", "lines_x": [0, 6, 11], "lines_y": [0, 5], "at": [0, 0],
-        "storey_height": [3.6, STOREY], "mass": [8e4, 7e4], "mass_centre": [5.2, 2.8], "elastic_modulus": 2.8e10,
+        "storey_height": STOREY, "mass": [8e4, 7e4], "mass_centre": [5.2, 2.8], "elastic_modulus": 2.8e10,
         "torsion_factor": 0.2, "shear": "flexible",
         "column": [{"size": [0.45, 0.4]}, {"size": [0.6, 0.55], "x": 1, "y": 1}],
         "beam_x": {"width": 0.3, "depth": 0.5}, "beam_y": {"width": 0.25, "depth": 0.45},

@@ -46,7 +46,7 @@ fn row(random: &mut Random, number: usize) -> Value {
     let floors = match random.below(3) {
         0 => json!("common"),
         1 => json!([[2, 2], [3, 3]]),
-        _ => json!([[3, 2], [2, 1]]),
+        _ => json!([[1, 1], [3, 3]]),
     };
     link["between"] = json!(["A", "B"]);
     link["floors"] = floors;

@@ -7,7 +7,7 @@ use serde_json::{Number, Value};
 use super::digest::Bits;
 
 /// Lists longer than this are recorded column by column.
-const LONG: usize = 16;
+const LONG: usize = 8;
 /// Parts of a long list that have a digest each.
 const PARTS: usize = 4;
 /// Key of the digests of a column, part by part.

@@ -38,8 +38,12 @@ fn row(random: &mut Random, number: usize) -> Value {
         if number > 9 && index == 0 {
             own["hinges"] = storey_hinges(random, "bilinear");
         }
+        // The foundation of a frame is no longer than the frame, lest it reach below a neighbour.
+        let spans = own["spans"].as_array().map_or(12.0, |spans| {
+            spans.iter().filter_map(Value::as_f64).sum::<f64>()
+        });
         own["foundation"] = json!({
-            "length": digits(random.between(8.0, 14.0)), "width": digits(random.between(8.0, 14.0)),
+            "length": digits(spans * random.between(0.7, 0.95)), "width": digits(random.between(8.0, 14.0)),
             "mass": random.scaled(6e4, 2e5),
         });
         if still && index == 0 {

@@ -24,7 +24,7 @@ pub(super) fn run(input: &Input, solver: Solver) -> Value {
     leave_out(&mut tree);
     tree["history"] = histories::describe(&ran.outcome);
     if let Some(without) = &ran.without_contact {
-        tree["history_without_contact"] = histories::describe(without);
+        tree["history_without_contact"] = histories::describe_in_short(without);
     }
     tree
 }

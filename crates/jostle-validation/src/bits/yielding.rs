@@ -103,12 +103,14 @@ fn reinforced(random: &mut Random, rule: &str, number: usize) -> Value {
     }
     buildings[0]["hinges"] = json!({"rule": "takeda", "from": "section"});
     buildings[0]["shear_failure"] = json!({"rule": rule, "residual": 0.1});
-    buildings[1]["storey_height"] = json!(3.7);
+    let all = number % 2 == 1;
+    if all {
+        buildings[1]["storey_height"] = json!(3.7);
+    }
     let mut tree = whole(random, &buildings, DURATION_OF_FRAMES);
-    if number % 2 == 1 {
+    if all {
         tree["gap"][0]["floors"] = json!("all");
     }
-    tree["motion"]["duration"] = json!(DURATION_OF_FRAMES);
     tree["output"] = json!({"capacity": [rule]});
     tree
 }
