@@ -121,6 +121,17 @@ pub(super) fn in_plan(
     })
 }
 
+/// Shortens the motion of a model that has contacts of the momentum law, whose buildings may come to rest against each other
+/// in very many impacts.
+pub(super) fn shorten_if_lasting(tree: &mut Value, duration: f64) {
+    let gaps = tree["gap"].as_array();
+    let lasting =
+        gaps.is_some_and(|gaps| gaps.iter().any(|gap| gap["law"] == json!("restitution")));
+    if lasting {
+        tree["motion"]["duration"] = json!(duration);
+    }
+}
+
 /// A gap between neighbours in one plane, with any law.
 pub(super) fn gap_in_plane(random: &mut Random, between: [&str; 2]) -> Value {
     let law = LAWS[random.below(LAWS.len())];

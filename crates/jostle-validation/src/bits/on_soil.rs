@@ -3,18 +3,23 @@
 use jostle::Solver;
 use serde_json::{Value, json};
 
-use super::drawing::{frame, gap_in_plane, random, shaking, shear, storey_hinges};
+use super::drawing::{
+    frame, gap_in_plane, random, shaking, shear, shorten_if_lasting, storey_hinges,
+};
 use super::pinned::Pinned;
 use crate::certify::{Random, digits};
 
 /// Length of the motion \[s\].
 const DURATION: f64 = 3.0;
+/// The same with contacts of the momentum law \[s\].
+const DURATION_IF_LASTING: f64 = 1.2;
 
 /// Every model.
 pub(super) fn models() -> Vec<Pinned> {
     let models = (1..=12).map(|number| {
         let mut random = random(3, number);
-        let tree = row(&mut random, number);
+        let mut tree = row(&mut random, number);
+        shorten_if_lasting(&mut tree, DURATION_IF_LASTING);
         let solvers = [Solver::Riccati, Solver::Stiffness];
         let solvers = &solvers[..if number.is_multiple_of(2) { 2 } else { 1 }];
         Pinned::drawn(format!("soil-{number}"), &tree, solvers)

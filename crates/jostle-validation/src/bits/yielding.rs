@@ -4,7 +4,8 @@ use jostle::Solver;
 use serde_json::{Value, json};
 
 use super::drawing::{
-    RULES, frame, frame_hinges, gap_in_plane, random, shaking, shear, storey_hinges,
+    RULES, frame, frame_hinges, gap_in_plane, random, shaking, shear, shorten_if_lasting,
+    storey_hinges,
 };
 use super::pinned::Pinned;
 use crate::certify::Random;
@@ -13,6 +14,8 @@ use crate::certify::Random;
 const DURATION: f64 = 3.0;
 /// The same for frames \[s\].
 const DURATION_OF_FRAMES: f64 = 2.0;
+/// The same with contacts of the momentum law \[s\].
+const DURATION_IF_LASTING: f64 = 1.0;
 /// Rules for the shear strength of columns.
 const SHEAR_RULES: [&str; 5] = ["gb50010", "en1998-3", "asce41", "aci318", "sezen-moehle"];
 
@@ -42,7 +45,8 @@ pub(super) fn models() -> Vec<Pinned> {
         Pinned::drawn(format!("hinges-{rule}"), &tree, solvers)
     });
     let failing = SHEAR_RULES.iter().zip(1..).map(|(rule, number)| {
-        let tree = reinforced(&mut random(8, number), rule, number);
+        let mut tree = reinforced(&mut random(8, number), rule, number);
+        shorten_if_lasting(&mut tree, DURATION_IF_LASTING);
         Pinned::drawn(format!("reinforced-{rule}"), &tree, &[Solver::Riccati])
     });
     let elastic = (1..=2).map(|number| {
@@ -54,7 +58,7 @@ pub(super) fn models() -> Vec<Pinned> {
             }
         }
         tree["output"] = json!({"capacity": SHEAR_RULES});
-        let solvers = [Solver::Modal, Solver::Riccati, Solver::Stiffness];
+        let solvers = [Solver::Modal, Solver::Riccati];
         Pinned::drawn(format!("capacity-{number}"), &tree, &solvers)
     });
     let bases = (1..=3).map(|number| {
