@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use jostle::history::SECTION_FORCES;
 use jostle::{Column, Outcome};
 use serde_json::{Value, json};
 
@@ -17,6 +18,18 @@ const PARTS: usize = 4;
 struct Kept {
     parts: [Bits; PARTS],
     last: f64,
+}
+
+impl Kept {
+    fn add(&mut self, part: usize, value: f64) {
+        self.parts[part].number(value);
+        self.last = value;
+    }
+
+    fn tree(self) -> Value {
+        let digests = self.parts.map(|part| part.short(2)).join(" ");
+        json!({"digests": digests, "last": self.last})
+    }
 }
 
 /// Digests of all columns together, span by span.
@@ -56,18 +69,13 @@ pub(super) fn describe(outcome: &Outcome) -> Value {
         let span = ((share * SPANS as f64) as usize).min(SPANS - 1);
         for (value, place) in history.row(row).iter().zip(&places) {
             spans[span].number(*value);
-            let own = &mut kept[*place];
-            own.parts[span * PARTS / SPANS].number(*value);
-            own.last = *value;
+            kept[*place].add(span * PARTS / SPANS, *value);
         }
     }
     let columns: BTreeMap<String, Value> = sorted
         .into_iter()
         .zip(kept)
-        .map(|(name, own)| {
-            let digests = own.parts.map(|part| part.short(2)).join(" ");
-            (name, json!({"digests": digests, "last": own.last}))
-        })
+        .map(|(name, own)| (name, own.tree()))
         .collect();
     json!({
         "rows": history.len(),
@@ -106,17 +114,25 @@ fn springs(outcome: &Outcome) -> Option<String> {
     Some(bits.short(4))
 }
 
-/// Digest of the forces of members over time.
-fn members(outcome: &Outcome) -> Option<String> {
+/// Forces of members over time, one after the other at every section; absent where none were asked for.
+fn members(outcome: &Outcome) -> Option<Value> {
     let history = outcome.member_history.as_ref()?;
-    let mut bits = Bits::default();
-    for time in history.times() {
-        bits.number(*time);
-    }
-    for row in history.rows() {
-        for value in row.iter().flatten() {
-            bits.number(*value);
+    let count = history
+        .rows()
+        .next()
+        .map_or(0, |row| row.len() * SECTION_FORCES);
+    let mut kept = vec![Kept::default(); count];
+    let rows = history.times().len();
+    for (index, row) in history.rows().enumerate() {
+        for (own, value) in kept.iter_mut().zip(row.iter().flatten()) {
+            own.add(index * PARTS / rows, *value);
         }
     }
-    Some(bits.short(4))
+    let forces: Vec<Value> = kept.into_iter().map(Kept::tree).collect();
+    let sections: Vec<&[Value]> = forces.chunks(SECTION_FORCES).collect();
+    let mut times = Bits::default();
+    for time in history.times() {
+        times.number(*time);
+    }
+    Some(json!({"members": history.members(), "times": times.short(4), "sections": sections}))
 }

@@ -11,7 +11,7 @@ use crate::certify::draw;
 const DRAWN: u64 = 48;
 const SEED: u64 = 2024;
 /// Longest motion of a drawn model \[s\].
-const LONGEST: f64 = 2.5;
+const LONGEST: f64 = 2.0;
 /// The same of models with many short steps \[s\].
 const LONGEST_OF_SLOW: f64 = 1.2;
 /// Those models: buildings that come to rest against each other.

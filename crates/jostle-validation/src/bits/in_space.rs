@@ -189,7 +189,9 @@ fn space_frames(random: &mut Random, yields: bool) -> Value {
     let right = in_plan(random, "B", 2, [8.0, 7.0], [11.0 + width, -1.0]);
     let mut gap = gap_in_plan(random, ["A", "B"]);
     gap["friction"] = json!(0.3);
-    whole(random, DURATION_OF_FRAMES, &[office, right], &[gap])
+    let mut tree = whole(random, DURATION_OF_FRAMES, &[office, right], &[gap]);
+    tree["output"] = json!({"members": ["A.column.1.1.1", "A.column.2.2.2"]});
+    tree
 }
 
 /// A neighbour beside and one behind, with one gap for all.

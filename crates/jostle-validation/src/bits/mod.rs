@@ -164,8 +164,10 @@ fn compute(families: &[&Family]) -> Vec<Vec<Recorded>> {
 #[cfg(test)]
 mod tests {
     use std::collections::HashSet;
+    use std::path::Path;
 
     use super::families::FAMILIES;
+    use super::unpack;
 
     #[test]
     fn models_have_names_of_their_own() {
@@ -183,5 +185,23 @@ mod tests {
         let models = FAMILIES.iter().flat_map(|family| (family.models)());
         let problems: Vec<String> = models.filter_map(|model| model.input.err()).collect();
         assert!(problems.is_empty(), "{}", problems.join("\n\n"));
+    }
+
+    #[test]
+    fn every_model_is_run_by_some_solver() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/pins");
+        for family in FAMILIES.iter().filter(|family| family.name != "answers") {
+            let bytes = std::fs::read(folder.join(family.file())).expect("part of the repository");
+            let recorded = unpack(&bytes).expect("a file of results");
+            for model in (family.models)() {
+                let own = recorded.iter().filter(|own| {
+                    let name = own.name.strip_prefix(&model.name);
+                    name.is_some_and(|solver| solver.starts_with(' '))
+                });
+                let refused = |path: &str| path == ".refused" || path == ".unread";
+                let mut run = own.filter(|own| own.entries.iter().all(|(path, _)| !refused(path)));
+                assert!(run.next().is_some(), "{}", model.name);
+            }
+        }
     }
 }
