@@ -2,10 +2,13 @@
 
 use std::path::Path;
 
-use jostle_io::{Format, RecordFormat, RecordOptions, parse_info, parse_record, read_model_text};
+use jostle_io::{
+    Format, RecordContent, RecordFormat, RecordLayout, RecordOptions, parse_info, parse_record,
+    read_model_text,
+};
 
 /// Options that complete what a file may leave open, so that fuzzing reaches behind these questions.
-fn completing(format: Option<RecordFormat>) -> [RecordOptions; 2] {
+fn completing(format: Option<RecordFormat>) -> [RecordOptions; 3] {
     let bare = RecordOptions {
         format,
         ..RecordOptions::default()
@@ -18,8 +21,18 @@ fn completing(format: Option<RecordFormat>) -> [RecordOptions; 2] {
         scale: Some(1e-3),
         remove_mean: Some(true),
         format,
+        ..RecordOptions::default()
     };
-    [bare, full]
+    let lines = RecordOptions {
+        column: None,
+        layout: RecordLayout {
+            skip: Some(1),
+            content: Some(RecordContent::Values),
+            ..RecordLayout::default()
+        },
+        ..full.clone()
+    };
+    [bare, full, lines]
 }
 
 fn read(bytes: &[u8], format: Option<RecordFormat>) {

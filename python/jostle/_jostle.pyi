@@ -92,6 +92,10 @@ class Motion:
         unit: str | None = None,
         step: float | None = None,
         column: int | None = None,
+        component: str | None = None,
+        lines: tuple[
+            int | None, int | None, int | None, str | None, list[int] | None
+        ] = ...,
     ) -> Motion: ...
     @staticmethod
     def sampled(name: str, values: _Row, unit: str, step: float) -> Motion: ...

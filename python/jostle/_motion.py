@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -106,6 +106,8 @@ class Motion:
         unit: str | None = None,
         step: Quantity | None = None,
         column: int | None = None,
+        component: str | int | None = None,
+        read: Mapping[str, Any] | None = None,
     ) -> Motion:
         """Reads a record in a supported format, or returns a built-in one by its name.
 
@@ -114,6 +116,9 @@ class Motion:
             unit: unit of the values of a text file that does not state it.
             step: time step of a text file that does not state it.
             column: column of the acceleration in a text file, from 1.
+            component: channel of a file with several: its name, a direction such as ``"N-S"``, or its number.
+            read: how the lines of a text file are read, as ``read`` in model files: ``skip``, ``last``, ``per_line``,
+                ``content`` (``"values"``, ``"pairs"`` or ``"columns"``) and ``widths``, such as ``{"per_line": 8}``.
 
         Raises:
             MissingFileError: neither a file nor a built-in record; a ``ModelError`` and a ``FileNotFoundError``.
@@ -121,8 +126,16 @@ class Motion:
         """
         seconds = None if step is None else in_si("step", step, "time")
         name = os.fspath(path)
+        stated = dict(read or {})
+        keys = ("skip", "last", "per_line", "content", "widths")
+        unknown = sorted(set(stated) - set(keys))
+        if unknown:
+            raise TypeError(f"read: unknown key {unknown[0]!r}; known: {', '.join(keys)}")
+        skip, last, per_line, content, widths = (stated.get(key) for key in keys)
+        lines = (skip, last, per_line, content, None if widths is None else list(widths))
+        channel = None if component is None else str(component)
         try:
-            return cls._of(_jostle.Motion.record(name, unit, seconds, column))
+            return cls._of(_jostle.Motion.record(name, unit, seconds, column, channel, lines))
         except ModelError as error:
             if os.path.lexists(name) or "there is no record" not in str(error):
                 raise

@@ -43,6 +43,21 @@ def test_at2_files_are_read(tmp_path: Path) -> None:
         Motion.read(path)
 
 
+def test_lines_are_read_as_stated(tmp_path: Path) -> None:
+    values = 0.2 * np.sin(np.arange(160) * 0.1) * np.exp(-(((np.arange(160) - 80) / 40) ** 2))
+    path = tmp_path / "eight.acc"
+    path.write_text("\n".join("".join(f"{a:10.6f}" for a in line) for line in values.reshape(20, 8)) + "\n")
+    with pytest.raises(ModelError, match="per_line = 8"):
+        Motion.read(path, unit="g", step=0.01, column=2)
+    for read in ({"per_line": 8}, {"content": "values"}, {"content": "values", "widths": [10]}):
+        motion = Motion.read(path, unit="g", step=0.01, read=read)
+        assert motion.acceleration == pytest.approx(9.80665 * values, abs=1e-5)
+    with pytest.raises(TypeError, match="unknown key 'lines'"):
+        Motion.read(path, read={"lines": 8})
+    with pytest.raises(ModelError, match="content must be one of values, pairs, columns"):
+        Motion.read(path, read={"content": "rows"})
+
+
 def test_scaling() -> None:
     motion = Motion.el_centro()
     assert motion.scaled(pga="0.2 g").pga == pytest.approx(0.2 * 9.80665, rel=1e-15)

@@ -9,7 +9,7 @@ use jostle_motion::GoverningRule;
 use crate::baseline::Baseline;
 use crate::choices::{DesignKind, FragilityMethod, IntegratorMethod, Sampling, names};
 use crate::quantity::Dimension;
-use crate::record::RecordFormat;
+use crate::record::{RecordContent, RecordFormat};
 
 /// The table of the file that contains a key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -18,6 +18,8 @@ pub(crate) enum Section {
     Motion,
     /// Further keys of `[building.motion]`.
     OwnMotion,
+    /// Lines of the file of a record.
+    Read,
     Coherency,
     Match,
     Spectrum,
@@ -155,6 +157,8 @@ pub(crate) enum Kind {
     Component,
     /// A whole number, not negative.
     Count,
+    /// A list of whole numbers.
+    Counts,
     Flag,
     /// True or false, or a list of texts.
     FlagOrTexts,
@@ -292,6 +296,7 @@ pub(crate) const STEELS: &[&str] = &joined::<25>(&[
 ]);
 pub(crate) const STRENGTHS: &[&str] = &jostle_section::StrengthLevel::NAMES;
 pub(crate) const RECORD_FORMATS: &[&str] = names!(RecordFormat, key);
+pub(crate) const RECORD_CONTENTS: &[&str] = names!(RecordContent, key);
 /// Grades whose modulus is known.
 pub(crate) const CONCRETES: &[&str] = &joined::<27>(&[
     &[
@@ -369,10 +374,10 @@ pub(crate) const ISOLATORS: &[&str] = &["linear", "lead-rubber", "friction-pendu
 
 use Dimension as D;
 use Kind::{
-    Choice, ChoiceOrTable, Component, ContactStiffness, Count, CountPerSpan, Flag, FlagOrChoices,
-    FlagOrTexts, FloorPairs, GradeOr, LinkDamping, Modes, Neighbours, NumberOrTable, PerContact,
-    PerStorey, Quantities, Quantity, TablePerStorey, Tables, Text, TextOrTable, TextOrTexts,
-    WordOr, WordOrTable,
+    Choice, ChoiceOrTable, Component, ContactStiffness, Count, CountPerSpan, Counts, Flag,
+    FlagOrChoices, FlagOrTexts, FloorPairs, GradeOr, LinkDamping, Modes, Neighbours, NumberOrTable,
+    PerContact, PerStorey, Quantities, Quantity, TablePerStorey, Tables, Text, TextOrTable,
+    TextOrTexts, WordOr, WordOrTable,
 };
 use Section as S;
 
@@ -391,7 +396,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Root, "output", Kind::Table(S::Output), "What results hold beyond the usual."),
     optional(S::Root, "codes", Kind::Table(S::Codes), "Inputs of the separation rules of codes."),
 
-    optional(S::Motion, "record", TextOrTexts, "A built-in record, or a file relative to this file: PEER AT2, CSV or columns of text, COSMOS, CSMIP, K-NET, ESM, SMC, GeoNet, AFAD, NEES asc, miniSEED, SAC. A run, a study and jostle gap use all records of a list; the other keys apply to each."),
+    optional(S::Motion, "record", TextOrTexts, "A built-in record, or a file relative to this file: PEER AT2, CSV or columns of text, COSMOS, CSMIP, K-NET, ESM, SMC, GeoNet, AFAD, CWA, NEES asc, miniSEED, SAC. A run, a study and jostle gap use all records of a list; the other keys apply to each."),
     optional(S::Motion, "kind", Choice(WAVES), "An analytic motion instead of a record."),
     optional(S::Motion, "amplitude", Quantity(D::Acceleration), "Amplitude of the analytic motion."),
     optional(S::Motion, "period", Quantity(D::Time), "Period of the analytic motion."),
@@ -411,6 +416,12 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Motion, "record_scale", Quantity(D::Dimensionless), "1", "Size of one count of the file in unit: 1/sensitivity."),
     optional(S::Motion, "remove_mean", Flag, "Remove the mean of the record; required for counts with an instrument offset."),
     optional(S::Motion, "format", Choice(RECORD_FORMATS), "Format of the file, if auto-detection is wrong."),
+    optional(S::Motion, "read", Kind::Table(S::Read), "How the lines of a text record are read, such as `{ skip = 2, per_line = 8 }`."),
+    optional(S::Read, "skip", Count, "Lines at the top that are not read; the next line is data or names of columns."),
+    optional(S::Read, "last", Count, "Last line that is read, counted from 1."),
+    optional(S::Read, "per_line", Count, "Numbers on every line but the last, which continue from line to line."),
+    optional(S::Read, "content", Choice(RECORD_CONTENTS), "Accelerations that continue from line to line, pairs of time and acceleration that do, or one instant on a line; values by default with per_line."),
+    optional(S::Read, "widths", Counts, "Widths of numbers without separators: one that repeats, or one for every number of a line."),
 
     optional(S::Motion, "vertical", Kind::TextOrMotion, "For frames: vertical shaking, positive upwards: a record, or a table like [motion], such as `{ scale = 0.67 }` for that share of this motion. Without an amplitude or a scaling of its own it has the factor of this motion."),
     optional(S::Motion, "apparent_velocity", Quantity(D::Speed), "Speed of the waves along the row: the motion arrives at a building after position / this."),
@@ -582,18 +593,18 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Column, "concrete", Kind::ConcreteOr(SECTION_CONCRETES), "Concrete of the section: a grade of GB 50010 (C30) or EN 1992-1-1 (C30/37), the cylinder strength of ACI 318 (f'c = 4 ksi), or a prismatic strength; by default that of the building."),
     optional(S::Column, "steel", GradeOr(STEELS), "Steel of the bars: a grade of GB 50010 (HRB400), EN 10080 (B500, of ductility class B without a letter) or ASTM (Grade 60, in ksi, or Grade 420, in MPa), or its yield strength; needed with bars."),
     default(S::Column, "strength", Choice(STRENGTHS), "\"characteristic\"", "Strength level of a grade."),
-    optional(S::Column, "bars", TextOrTable(S::Bars), "Reinforcement, such as 12 d20 (around); diameters in mm."),
+    optional(S::Column, "bars", TextOrTable(S::Bars), "Reinforcement, such as \"12 d20 (around)\"; diameters in mm."),
     default(S::Column, "cover", Quantity(D::Length), "\"35 mm\"", "Concrete cover of the bars."),
-    optional(S::Column, "ties", Text, "Ties that confine the core and resist shear, such as d10 @ 100 mm, or 4 d10 @ 100 mm with four legs."),
+    optional(S::Column, "ties", Text, "Ties that confine the core and resist shear, such as \"d10 @ 100 mm\", or \"4 d10 @ 100 mm\" with four legs."),
     default(S::Column, "axial_load", WordOr("from gravity", D::Force), "\"from gravity\"", "Axial compression for which the yield moment is computed."),
     optional(S::Beam, "concrete", Kind::ConcreteOr(SECTION_CONCRETES), "Concrete of the section: a grade of GB 50010 (C30) or EN 1992-1-1 (C30/37), the cylinder strength of ACI 318 (f'c = 4 ksi), or a prismatic strength; by default that of the building."),
     optional(S::Beam, "steel", GradeOr(STEELS), "Steel of the bars: a grade of GB 50010 (HRB400), EN 10080 (B500, of ductility class B without a letter) or ASTM (Grade 60, in ksi, or Grade 420, in MPa), or its yield strength; needed with bars."),
     default(S::Beam, "strength", Choice(STRENGTHS), "\"characteristic\"", "Strength level of a grade."),
-    optional(S::Beam, "bars", TextOrTable(S::Bars), "Reinforcement, such as 4 d25 top, 4 d25 bottom; diameters in mm."),
+    optional(S::Beam, "bars", TextOrTable(S::Bars), "Reinforcement, such as \"4 d25 top, 4 d25 bottom\"; diameters in mm."),
     default(S::Beam, "cover", Quantity(D::Length), "\"35 mm\"", "Concrete cover of the bars."),
-    optional(S::Beam, "ties", Text, "Ties that confine the core and resist shear, such as d10 @ 100 mm, or 4 d10 @ 100 mm with four legs."),
+    optional(S::Beam, "ties", Text, "Ties that confine the core and resist shear, such as \"d10 @ 100 mm\", or \"4 d10 @ 100 mm\" with four legs."),
 
-    optional(S::Bars, "top", Text, "Bars in the upper row, such as 4 d25."),
+    optional(S::Bars, "top", Text, "Bars in the upper row, such as \"4 d25\"."),
     optional(S::Bars, "bottom", Text, "Bars in the lower row."),
     optional(S::Bars, "sides", Text, "Bars between these rows, half on either side."),
 

@@ -75,8 +75,8 @@ pub use quantities_page::{quantity_list, quantity_reference};
 pub use quantity::{Dimension, QuantityError, in_unit_of, parse_quantity};
 pub use record::measured::{MeasuredColumn, MeasuredTable};
 pub use record::{
-    Channel, Direction, Record, RecordError, RecordFormat, RecordInfo, RecordOptions,
-    describe_record, parse_info, parse_record, parse_record_and_info, read_record,
+    Channel, Direction, Record, RecordContent, RecordError, RecordFormat, RecordInfo, RecordLayout,
+    RecordOptions, describe_record, parse_info, parse_record, parse_record_and_info, read_record,
     read_record_and_info,
 };
 pub use record_text::{at2_text, csv_text};

@@ -15,6 +15,11 @@ const TABLES: &[(Section, &str, &str)] = &[
         "The ground motion: a record, or an analytic wave.",
     ),
     (
+        Section::Read,
+        "`motion.read`",
+        "For files that cannot be understood without help. See [Ground-motion records](records.md).",
+    ),
+    (
         Section::Coherency,
         "`motion.coherency`",
         "Ground motions that lose coherency with distance.",
@@ -331,6 +336,7 @@ fn value(key: &Key) -> String {
         Kind::Texts => "list of texts".into(),
         Kind::Component => "text or number".into(),
         Kind::Count => "whole number".into(),
+        Kind::Counts => "list of whole numbers".into(),
         Kind::Any => "value or list".into(),
         Kind::Named(_) => "table of tables".into(),
         Kind::TextOrMotion => "text, or a table like `[motion]`".into(),

@@ -145,6 +145,7 @@ fn kind(kind: Kind) -> Value {
             schema["examples"] = json!(["2 MN.s/m", "150 kN.(s/m)^0.35"]);
             schema
         }
+        Kind::Counts => json!({ "type": "array", "items": count }),
         Kind::CountPerSpan => one_or_list(count),
         Kind::Modes => {
             json!({ "anyOf": [{ "const": "all" }, one_or_list(count)] })

@@ -3,7 +3,10 @@
 use std::path::PathBuf;
 
 use jostle::{GroundMotion, Wave};
-use jostle_io::{MotionError, MotionSource, MotionSpec, Record, RecordOptions, Scaling};
+use jostle_io::{
+    MotionError, MotionSource, MotionSpec, Record, RecordContent, RecordLayout, RecordOptions,
+    Scaling,
+};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
@@ -42,6 +45,15 @@ impl Motion {
     }
 }
 
+/// Skip, last, per_line, content and widths.
+type StatedLines = (
+    Option<usize>,
+    Option<usize>,
+    Option<usize>,
+    Option<String>,
+    Option<Vec<usize>>,
+);
+
 /// Name, values and step of a record or numbers of a wave, scaling, sign, length.
 type State<'py> = (
     String,
@@ -63,18 +75,38 @@ impl Motion {
 
     /// A built-in record, or a file.
     #[staticmethod]
-    #[pyo3(signature = (name, unit=None, step=None, column=None))]
+    #[pyo3(signature = (name, unit=None, step=None, column=None, component=None, lines=(None, None, None, None, None)))]
     fn record(
         py: Python<'_>,
         name: &str,
         unit: Option<String>,
         step: Option<f64>,
         column: Option<usize>,
+        component: Option<String>,
+        lines: StatedLines,
     ) -> PyResult<Self> {
+        let (skip, last, per_line, content, widths) = lines;
+        let content = match content.as_deref() {
+            None => None,
+            Some(word) => Some(RecordContent::from_key(word).ok_or_else(|| {
+                let known = RecordContent::ALL.map(RecordContent::key).join(", ");
+                argument_error(format!(
+                    "read: content must be one of {known}; found {word:?}"
+                ))
+            })?),
+        };
         let options = RecordOptions {
             unit,
             step,
             column,
+            component,
+            layout: RecordLayout {
+                skip,
+                last,
+                per_line,
+                content,
+                widths: widths.unwrap_or_default(),
+            },
             ..RecordOptions::default()
         };
         let source = MotionSource::Record {

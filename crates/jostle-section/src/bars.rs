@@ -61,7 +61,8 @@ const MOST_BARS: usize = 400;
 const MOST_LEGS: usize = 12;
 
 impl Reinforcement {
-    /// Reads `"12 d20"`, `"4 d25 top, 4 d25 bottom"`, `"2 d25 + 2 d20 top, 4 d20 bottom, 4 d12 sides"`.
+    /// Reads `"12 d20"`, `"4 d25 top, 4 d25 bottom"`, `"2 d25 + 2 d20 top, 4 d20 bottom, 4 d12 sides"`. A place may
+    /// stand in brackets: `"12 d20 (around)"`.
     ///
     /// Bars without a place go around the section, evenly, with one in each corner. Diameters are in mm. Bars at
     /// the sides lie evenly between top and bottom, half on either face.
@@ -73,8 +74,17 @@ impl Reinforcement {
         for part in text.split(',') {
             let part = part.trim();
             let (groups, place) = match part.rsplit_once(char::is_whitespace) {
-                Some((groups, place)) if place.chars().all(char::is_alphabetic) => (groups, place),
-                _ => (part, "around"),
+                Some((groups, place)) => {
+                    let inside = place
+                        .strip_prefix('(')
+                        .and_then(|place| place.strip_suffix(')'));
+                    (groups, inside.unwrap_or(place))
+                }
+                None => (part, "around"),
+            };
+            let (groups, place) = match place.chars().all(char::is_alphabetic) {
+                true => (groups, place),
+                false => (part, "around"),
             };
             let groups = parse_groups(groups)?;
             read.place(place, groups)?;
@@ -337,6 +347,12 @@ mod tests {
             .expect("understood")
             .lay(0.5, 0.5, 0.03);
         assert_eq!(bars.len(), 12);
+        for written in ["12 d20 around", "12 d20 (around)"] {
+            let same = Reinforcement::parse(written).expect("understood");
+            assert_eq!(same.lay(0.5, 0.5, 0.03), bars, "{written}");
+        }
+        assert!(Reinforcement::parse("12 d20 (round)").is_err());
+        assert!(Reinforcement::parse("12 d20 (around").is_err());
         let levels = [0.04, 0.18, 0.32, 0.46];
         for (level, due) in levels.into_iter().zip([4, 2, 2, 4]) {
             let here = bars.iter().filter(|bar| (bar.depth - level).abs() < 1e-12);

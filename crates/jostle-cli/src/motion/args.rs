@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Subcommand, ValueEnum};
+use jostle_io::RecordContent;
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum MotionCommand {
@@ -50,6 +51,24 @@ pub(crate) struct RecordArgs {
     /// Format of the file, if auto-detection is wrong
     #[arg(long, value_name = "FORMAT", help_heading = READING)]
     pub(crate) format: Option<String>,
+    /// Leave out lines at the top of a text file
+    #[arg(long, value_name = "LINES", help_heading = READING)]
+    pub(crate) skip: Option<usize>,
+    /// Last line of a text file that is read, counted from 1
+    #[arg(long, value_name = "LINE", help_heading = READING)]
+    pub(crate) last: Option<usize>,
+    /// Values on a line of a text file, if they continue from line to line
+    #[arg(long, value_name = "N", help_heading = READING)]
+    pub(crate) per_line: Option<usize>,
+    /// What the lines of a text file hold: values, pairs of time and acceleration, or columns
+    #[arg(long, value_name = "CONTENT", value_parser = RecordContent::ALL.map(RecordContent::key), help_heading = READING)]
+    pub(crate) content: Option<String>,
+    /// The same as --content pairs
+    #[arg(long, conflicts_with = "content", help_heading = READING)]
+    pub(crate) pairs: bool,
+    /// Widths of numbers without separators, such as 10 for all, or 8,9
+    #[arg(long, value_delimiter = ',', value_name = "WIDTHS", help_heading = READING)]
+    pub(crate) widths: Vec<usize>,
 }
 
 #[derive(Debug, Args)]

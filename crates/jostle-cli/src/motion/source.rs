@@ -4,8 +4,8 @@ use std::path::Path;
 
 use jostle::GroundMotion;
 use jostle_io::{
-    Dimension, MotionSource, MotionSpec, RecordFormat, TargetWords, at2_text, csv_text,
-    parse_quantity, read_target_file, write_atomically,
+    Dimension, MotionSource, MotionSpec, RecordContent, RecordFormat, RecordLayout, TargetWords,
+    at2_text, csv_text, parse_quantity, read_target_file, write_atomically,
 };
 use jostle_motion::{Accelerogram, MotionFault, TargetSpectrum};
 
@@ -38,8 +38,25 @@ impl RecordArgs {
             options.format = format.transpose()?;
             options.scale = self.record_scale;
             options.remove_mean = self.remove_mean.then_some(true);
+            options.layout = self.layout();
         }
         resolve(&spec).map_err(|problem| Failure::Input(as_options(&problem)))
+    }
+}
+
+impl RecordArgs {
+    fn layout(&self) -> RecordLayout {
+        let content = match self.pairs {
+            true => Some(RecordContent::Pairs),
+            false => self.content.as_deref().and_then(RecordContent::from_key),
+        };
+        RecordLayout {
+            skip: self.skip,
+            last: self.last,
+            per_line: self.per_line,
+            content,
+            widths: self.widths.clone(),
+        }
     }
 }
 
@@ -64,6 +81,7 @@ fn as_options(problem: &str) -> String {
     if !problem.contains(BESIDE) {
         return problem.to_owned();
     }
+    let problem = tables_as_options(problem);
     let keys = [
         ("unit = \"", "--unit \""),
         ("step = \"", "--step \""),
@@ -73,9 +91,40 @@ fn as_options(problem: &str) -> String {
         ("remove_mean = true", "--remove-mean"),
         (BESIDE, ""),
     ];
-    keys.iter().fold(problem.to_owned(), |text, (key, option)| {
-        text.replace(key, option)
-    })
+    keys.iter()
+        .fold(problem, |text, (key, option)| text.replace(key, option))
+}
+
+/// `read = { skip = 1, widths = [8, 9] }` as `--skip 1 --widths 8,9`.
+fn tables_as_options(problem: &str) -> String {
+    const TABLE: &str = "read = {";
+    let mut text = String::new();
+    let mut rest = problem;
+    while let Some((before, table)) = rest.split_once(TABLE) {
+        let Some((keys, after)) = table.split_once('}') else {
+            break;
+        };
+        text.push_str(before);
+        let keys = keys.replace(", ", ",").replace(['"', '[', ']'], "");
+        let option = |key: &str| {
+            let (key, value) = key.split_once('=').unwrap_or((key, ""));
+            format!("--{} {}", key.trim().replace('_', "-"), value.trim())
+        };
+        // Commas between keys are followed by a name, those of widths by a number.
+        let mut options: Vec<String> = Vec::new();
+        for part in keys.split(',') {
+            match (part.contains('='), options.last_mut()) {
+                (false, Some(last)) => {
+                    last.push(',');
+                    last.push_str(part.trim());
+                }
+                _ => options.push(option(part)),
+            }
+        }
+        text.push_str(&options.join(" "));
+        rest = after;
+    }
+    text + rest
 }
 
 fn resolve(spec: &MotionSpec) -> Result<Named, String> {

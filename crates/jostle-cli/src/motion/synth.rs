@@ -2,9 +2,9 @@
 
 use jostle_io::Dimension;
 use jostle_motion::{
-    Envelope, GroundFilter, Makris, MatchSettings, Matched, Mavroeidis, PulseShape, RECIPES,
-    SineSettings, StochasticSettings, TargetSpectrum, match_spectrum, measures, near_fault_pulse,
-    recipe, spectrum_compatible, stochastic,
+    Envelope, GroundFilter, Makris, MatchSettings, Matched, Mavroeidis, Measures, PulseShape,
+    RECIPES, SineSettings, StochasticSettings, TargetSpectrum, match_spectrum, measures,
+    near_fault_pulse, recipe, spectrum_compatible, stochastic,
 };
 
 use super::args::{
@@ -62,12 +62,75 @@ fn spectrum(args: &SynthSpectrumArgs) -> Result<(), Failure> {
         None => format!("sines of seed {} matched to {}", args.seed, target.name()),
     };
     write(&args.wave.out, args.wave.force, &name, &matched.motion)?;
+    let after = measures(&matched.motion).map_err(wrong)?;
+    let before = match &seed_record {
+        Some(record) => Some(measures(&record.motion).map_err(wrong)?),
+        None => None,
+    };
     terminal::print(&format!(
-        "{}: {}\n{}",
+        "{}: {}\n{}\n{}",
         args.wave.out.display(),
         in_short(&matched.motion),
-        closeness(&matched, &target, &matching)
-    ))
+        closeness(&matched, &target, &matching),
+        strength(before.as_ref(), &after)
+    ))?;
+    if let Some(warning) = before.and_then(|before| displacement_warning(&before, &after)) {
+        terminal::warn(&warning);
+    }
+    Ok(())
+}
+
+/// Peaks, Arias intensity and significant duration of a matched motion, beside those of its record.
+fn strength(before: Option<&Measures>, after: &Measures) -> String {
+    let mut lines = match before {
+        None => Vec::new(),
+        Some(_) => vec![format!(
+            "  {:<26}{:>12}{:>12}{:>9}",
+            "", "record", "matched", "ratio"
+        )],
+    };
+    for (what, unit, decimals, value) in MEASURES {
+        let after = value(after);
+        let row = match before.map(value) {
+            None => format!("  {what:<26}{after:>12.decimals$} {unit}"),
+            Some(before) => format!(
+                "  {:<26}{before:>12.decimals$}{after:>12.decimals$}{:>9.2}",
+                format!("{what} [{unit}]"),
+                after / before
+            ),
+        };
+        lines.push(row);
+    }
+    lines.join("\n")
+}
+
+/// A measure in a unit: its name, the unit, decimals, and its value.
+type InUnit = (&'static str, &'static str, usize, fn(&Measures) -> f64);
+
+/// What matching may change beyond the spectrum.
+const MEASURES: [InUnit; 5] = [
+    ("peak acceleration", "m/s²", 4, |m| m.pga.value),
+    ("peak velocity", "m/s", 4, |m| m.pgv.value),
+    ("peak displacement", "m", 4, |m| m.pgd.value),
+    ("Arias intensity", "m/s", 4, |m| m.arias),
+    ("significant duration", "s", 2, |m| m.d5_95[1] - m.d5_95[0]),
+];
+
+/// Growth of the peak displacement, over that of the peak acceleration, from which on a matched record is warned
+/// about \[–\].
+const MOST_GROWTH: f64 = 2.5;
+
+/// A warning if matching made the displacement of a record much greater.
+fn displacement_warning(before: &Measures, after: &Measures) -> Option<String> {
+    let scaled = before.pgd.value * after.pga.value / before.pga.value;
+    let growth = after.pgd.value / scaled;
+    (growth > MOST_GROWTH).then(|| {
+        format!(
+            "the peak displacement grew from {:.0} to {:.0} mm, {growth:.1} times that of the record with the same peak acceleration: matching added long periods. End the range earlier with --periods, or take another record",
+            1e3 * before.pgd.value,
+            1e3 * after.pgd.value
+        )
+    })
 }
 
 fn closeness(matched: &Matched, target: &TargetSpectrum, matching: &MatchSettings) -> String {

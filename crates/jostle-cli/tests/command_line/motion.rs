@@ -472,3 +472,177 @@ fn sets_are_judged_by_the_rules_of_their_code() {
         assert_eq!(said, wanted);
     }
 }
+
+/// A decaying wave, eight values on a line.
+fn wrapped() -> String {
+    let value = |i: i32| {
+        let t = 0.01 * f64::from(i);
+        0.3 * (12.0 * t).sin() * (-(t - 2.0).powi(2)).exp()
+    };
+    let values: Vec<f64> = (0..400).map(value).collect();
+    let line = |line: &[f64]| {
+        let cells: String = line.iter().map(|a| format!("{a:10.5}")).collect();
+        cells + "\n"
+    };
+    values.chunks(8).map(line).collect()
+}
+
+#[test]
+fn options_say_how_lines_are_read() {
+    let folder = folder();
+    let write = |name: &str, text: &str| {
+        std::fs::write(folder.path().join(name), text).expect("a file is written");
+    };
+    write("eight.acc", &wrapped());
+    let show = |more: &[&str]| {
+        let mut arguments = vec![
+            "motion",
+            "show",
+            "eight.acc",
+            "--json",
+            "--unit",
+            "g",
+            "--step",
+            "0.01",
+        ];
+        arguments.extend(more);
+        jostle(folder.path(), &arguments)
+    };
+    let refused = show(&["--column", "2"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert_eq!(
+        complained(&refused),
+        "error: eight.acc:1: the 8 numbers of a line continue from line to line: they are 8 accelerations, not columns; say --per-line 8 to read all of them, or --content columns with column if they are columns all the same\n"
+    );
+    for stated in [
+        &["--per-line", "8"][..],
+        &["--content", "values"],
+        &["--content", "values", "--widths", "10"],
+    ] {
+        let output = show(stated);
+        assert!(
+            output.status.success(),
+            "{stated:?}: {}",
+            complained(&output)
+        );
+        let shown: Value = serde_json::from_str(&printed(&output)).expect("JSON");
+        assert_eq!(shown["points"], 400, "{stated:?}");
+    }
+    let shorter = show(&["--per-line", "8", "--skip", "2", "--last", "12"]);
+    let shown: Value = serde_json::from_str(&printed(&shorter)).expect("JSON");
+    assert_eq!(shown["points"], 80);
+    // Widths are a list, and the message offers them as one.
+    write("glued.txt", " 0.010-0.100\n0.020 -0.200\n  0.03 -0.30\n");
+    let arguments = ["motion", "show", "glued.txt", "--unit", "g"];
+    let text = complained(&jostle(folder.path(), &arguments));
+    assert!(text.contains("such as --widths 6\n"), "{text}");
+    write("pairs.txt", "0.00 0.1 0.01 0.2\n0.02 -0.3 0.03 0.1\n");
+    let arguments = [
+        "motion",
+        "show",
+        "pairs.txt",
+        "--unit",
+        "g",
+        "--pairs",
+        "--json",
+    ];
+    assert_eq!(json_of(folder.path(), &arguments)["points"], 4);
+    let both = jostle(
+        folder.path(),
+        &["motion", "show", "x", "--pairs", "--content", "values"],
+    );
+    assert!(
+        complained(&both).contains("cannot be used with"),
+        "{}",
+        complained(&both)
+    );
+}
+
+#[test]
+fn matching_says_what_it_changes_and_warns_of_long_periods() {
+    let folder = folder();
+    let show = |name: &str| json_of(folder.path(), &["motion", "show", name, "--json"]);
+    for (ground, level, warns) in [("B", "0.3 g", false), ("D", "0.35 g", true)] {
+        let mut arguments = vec![
+            "motion",
+            "synth",
+            "spectrum",
+            "--record",
+            "el-centro",
+            "--code",
+            "en1998",
+        ];
+        arguments.extend([
+            "--ground",
+            ground,
+            "--ag",
+            level,
+            "--tolerance",
+            "0.1",
+            "-o",
+            "matched.csv",
+            "--force",
+        ]);
+        let output = jostle(folder.path(), &arguments);
+        assert!(output.status.success(), "{}", complained(&output));
+        let text = printed(&output);
+        let row = |name: &str| -> Vec<f64> {
+            let line = text
+                .lines()
+                .find(|line| line.trim_start().starts_with(name));
+            let line = line.unwrap_or_else(|| panic!("{name} in {text}"));
+            let numbers = line.split(']').nth(1).unwrap_or("").split_whitespace();
+            numbers.filter_map(|word| word.parse().ok()).collect()
+        };
+        let (before, after) = (show("el-centro"), show("matched.csv"));
+        for (name, key, digit) in [
+            ("peak acceleration", "pga_m_s2", 1e-4),
+            ("peak velocity", "pgv_m_s", 1e-4),
+            ("peak displacement", "pgd_m", 1e-4),
+            ("Arias intensity", "arias_m_s", 1e-4),
+            ("significant duration", "d5_95_s", 1e-2),
+        ] {
+            let found = row(name);
+            let [one, two] = [&before, &after].map(|shown| shown[key].as_f64().expect("a number"));
+            // The file holds fewer digits than the motion that was measured.
+            let near = |found: f64, wanted: f64| (found - wanted).abs() <= digit + 1e-4 * wanted;
+            assert!(
+                near(found[0], one) && near(found[1], two),
+                "{name}: {found:?}, {one}, {two}"
+            );
+            assert!(
+                (found[2] - two / one).abs() <= 0.006 + 1e-3 * two / one,
+                "{name}: {found:?}"
+            );
+        }
+        let ratio =
+            |key: &str| after[key].as_f64().unwrap_or(0.0) / before[key].as_f64().unwrap_or(1.0);
+        let growth = ratio("pgd_m") / ratio("pga_m_s2");
+        assert_eq!(growth > 2.5, warns, "{growth}");
+        let complaint = complained(&output);
+        assert_eq!(
+            complaint.contains("the peak displacement grew from 212 to"),
+            warns,
+            "{complaint}"
+        );
+    }
+    // Without a record there is nothing to compare with.
+    let arguments = [
+        "motion",
+        "synth",
+        "spectrum",
+        "--code",
+        "en1998",
+        "--ground",
+        "B",
+        "--ag",
+        "0.2 g",
+        "-o",
+        "sines.csv",
+    ];
+    let text = printed(&jostle(folder.path(), &arguments));
+    assert!(
+        text.contains("peak displacement") && !text.contains("matched"),
+        "{text}"
+    );
+}

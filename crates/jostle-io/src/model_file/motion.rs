@@ -5,11 +5,13 @@ use std::path::Path;
 use jostle_motion::GoverningRule;
 
 use super::{grounds, matching};
-use crate::keys::{RECORD_FORMATS, Section, WAVES};
+use crate::keys::{RECORD_CONTENTS, RECORD_FORMATS, Section, WAVES};
 use crate::motion_spec::{BearingSpec, MotionSource, MotionSpec, OwnMotionSpec, Scaling};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
-use crate::record::{RecordFormat, RecordOptions, acceleration_unit};
+use crate::record::{
+    RecordContent, RecordError, RecordFormat, RecordLayout, RecordOptions, acceleration_unit,
+};
 use crate::tree::Value;
 
 /// Keys about a record file.
@@ -21,6 +23,7 @@ pub(super) const RECORD_KEYS: &[&str] = &[
     "record_scale",
     "remove_mean",
     "format",
+    "read",
 ];
 
 /// Longest analysis \[s\].
@@ -233,6 +236,9 @@ fn read_record(
         let key = reader.choice(&field, RECORD_FORMATS, &[]);
         options.format = key.and_then(|key| RecordFormat::from_key(key).ok());
     }
+    if let Some(field) = reader.get(view, "read") {
+        options.layout = read_layout(reader, &field).unwrap_or_default();
+    }
     let base = base.to_owned();
     Some(if names.len() == 1 {
         MotionSource::Record {
@@ -247,6 +253,38 @@ fn read_record(
             options,
         }
     })
+}
+
+/// How the lines of the file are read.
+fn read_layout(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<RecordLayout> {
+    let view = reader.open(field, &[Section::Read])?;
+    let mut count = |key| {
+        let field = reader.get(&view, key)?;
+        reader.count(&field)
+    };
+    let (skip, last, per_line) = (count("skip"), count("last"), count("per_line"));
+    let content = reader.get(&view, "content").and_then(|field| {
+        let key = reader.choice(&field, RECORD_CONTENTS, &[])?;
+        RecordContent::from_key(key)
+    });
+    let widths = reader.get(&view, "widths").map(|field| {
+        let entries = field.entries().unwrap_or_else(|| vec![field.clone()]);
+        let widths = entries.iter().map(|entry| reader.count(entry));
+        let widths: Option<Vec<usize>> = widths.collect();
+        widths.unwrap_or_default()
+    });
+    let layout = RecordLayout {
+        skip,
+        last,
+        per_line,
+        content,
+        widths: widths.unwrap_or_default(),
+    };
+    if let Err(RecordError::Layout { problem }) = layout.check() {
+        reader.bad(field, problem);
+        return None;
+    }
+    Some(layout)
 }
 
 /// One name or a list of them, none empty, none twice.

@@ -3,11 +3,15 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
+use jostle_section::{Reinforcement, Ties};
+
 use super::read_root;
-use crate::keys::KEYS;
+use crate::keys::{KEYS, Kind, Section};
+use crate::quantity::{Dimension, parse_quantity};
 use crate::reader::Reader;
+use crate::record::acceleration_unit;
 use crate::source::Source;
-use crate::tree::{Format, parse};
+use crate::tree::{Format, Value, parse};
 
 /// Models that together have every table of a file.
 const ALL_TABLES: [&str; 7] = [
@@ -33,6 +37,7 @@ frame = [{ at = [0, 0], lines = ["A"], stiffness_factor = { column = 1 }, axial 
     r#"
 [motion]
 record = "el-centro"
+read = { skip = 0 }
 match = { spectrum = { code = "gb50011" } }
 [[building]]
 column = { EI = 1, mass = 1 }
@@ -205,6 +210,151 @@ fn every_key_of_the_table_is_read() {
         unread.is_empty(),
         "keys in the table that nobody reads: {unread:?}"
     );
+}
+
+/// Texts between two marks.
+fn between(text: &str, mark: char) -> Vec<&str> {
+    text.split(mark).skip(1).step_by(2).collect()
+}
+
+/// Reads a table of a fragment such as `{ skip = 2 }` with the keys of sections.
+fn open_fragment(fragment: &str, sections: &[Section]) -> Result<(), String> {
+    let text = format!("x = {fragment}\n");
+    let source = Source::new("fragment", &text);
+    let root = parse(&source, Format::Toml).map_err(|error| error.to_string())?;
+    let Value::Table(table) = &root.value else {
+        return Err("no table".into());
+    };
+    let node = table.get("x").ok_or("no key")?;
+    let Value::Table(inside) = &node.value else {
+        return Err("no table inside".into());
+    };
+    let known = |name: &str| {
+        KEYS.iter()
+            .any(|key| sections.contains(&key.section) && key.name == name)
+    };
+    match inside
+        .entries
+        .iter()
+        .map(|entry| &entry.key)
+        .find(|name| !known(name))
+    {
+        Some(name) => Err(format!("{name} is no key of {sections:?}")),
+        None => Ok(()),
+    }
+}
+
+#[test]
+fn examples_in_the_reference_are_accepted_by_their_readers() {
+    for dimension in Dimension::ALL {
+        assert!(
+            parse_quantity(dimension.example(), dimension).is_ok(),
+            "{dimension}"
+        );
+    }
+    let mut tried = 0;
+    for key in KEYS {
+        let place = format!("{:?}.{}: {}", key.section, key.name, key.doc);
+        let plain: Vec<&str> = key.doc.split('`').step_by(2).collect();
+        let mut quoted: Vec<&str> = plain.iter().flat_map(|text| between(text, '"')).collect();
+        quoted.extend(key.default.iter().flat_map(|text| between(text, '"')));
+        for text in &quoted {
+            let read = match (key.kind, key.name) {
+                // A word in quotes stands for itself.
+                (
+                    Kind::Quantity(dimension)
+                    | Kind::PerStorey(dimension)
+                    | Kind::PerContact(dimension)
+                    | Kind::OneOrMore(dimension)
+                    | Kind::Quantities(dimension)
+                    | Kind::WordOr(_, dimension),
+                    _,
+                ) if text.starts_with(|c: char| c.is_ascii_digit()) => {
+                    parse_quantity(text, dimension)
+                        .map(drop)
+                        .map_err(|error| error.to_string())
+                }
+                (_, "bars") => Reinforcement::parse(text)
+                    .map(drop)
+                    .map_err(|error| error.to_string()),
+                (Kind::Text, "top" | "bottom" | "sides") => Reinforcement::rows(text, text, None)
+                    .map(drop)
+                    .map_err(|error| error.to_string()),
+                (Kind::Text, "ties") => Ties::parse(text)
+                    .map(drop)
+                    .map_err(|error| error.to_string()),
+                (_, "unit") if matches!(key.section, Section::Motion) => {
+                    acceleration_unit(text).map(drop).ok_or("no unit".into())
+                }
+                _ => continue,
+            };
+            tried += 1;
+            assert!(read.is_ok(), "{place}: {text}: {read:?}");
+        }
+        for fragment in between(key.doc, '`')
+            .into_iter()
+            .filter(|text| text.starts_with('{'))
+        {
+            let read = match key.kind {
+                Kind::Table(section)
+                | Kind::TextOrTable(section)
+                | Kind::NumberOrTable(section) => open_fragment(fragment, &[section]),
+                Kind::TableOf(sections) => open_fragment(fragment, sections),
+                Kind::TextOrMotion => open_fragment(fragment, &[Section::Motion]),
+                _ => continue,
+            };
+            tried += 1;
+            assert!(read.is_ok(), "{place}: {fragment}: {read:?}");
+        }
+    }
+    assert!(tried >= 25, "{tried} examples");
+}
+
+#[test]
+fn grades_in_the_reference_are_accepted() {
+    let frame = |column: &str| {
+        let text = format!(
+            r#"
+[[building]]
+storeys = 1
+storey_height = 3
+spans = [6]
+column = {{ width = 0.5, depth = 0.5, bars = "12 d20 (around)", {column} }}
+beam = {{ width = 0.3, depth = 0.6, steel = "HRB400", bars = "4 d25 top, 4 d25 bottom" }}
+concrete = "C30"
+beam_mass = 3600
+hinges = {{ rule = "peak-oriented", from = "section", method = "formula" }}
+"#
+        );
+        super::read_model_text("model.toml", &text, Format::Toml, Path::new(""))
+            .map(drop)
+            .map_err(|error| error.to_string())
+    };
+    let doc = |name: &str| {
+        let key = KEYS
+            .iter()
+            .find(|key| key.section == Section::Column && key.name == name);
+        key.map_or("", |key| key.doc)
+    };
+    for (name, grades) in [
+        ("concrete", ["C30", "C30/37", "f'c = 4 ksi"].as_slice()),
+        (
+            "steel",
+            ["HRB400", "B500", "Grade 60", "Grade 420"].as_slice(),
+        ),
+        ("ties", ["d10 @ 100 mm", "4 d10 @ 100 mm"].as_slice()),
+    ] {
+        for grade in grades {
+            assert!(doc(name).contains(grade), "{name} names {grade}");
+            let steel = if name == "steel" {
+                ""
+            } else {
+                "steel = \"HRB400\","
+            };
+            let read = frame(&format!("{steel} {name} = \"{grade}\""));
+            assert!(read.is_ok(), "{name} = {grade}: {read:?}");
+        }
+    }
 }
 
 /// A tower with dampers, and one link that is not.

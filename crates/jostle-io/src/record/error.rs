@@ -145,6 +145,16 @@ pub enum RecordError {
         /// Steps, at least two \[s\].
         steps: Vec<f64>,
     },
+    /// A unit in the file that is not known.
+    #[error(
+        ":{line}: the unit \"{found}\" is not known; say the right one with unit = \"g\" or unit = \"cm/s2\" beside record"
+    )]
+    UnknownUnit {
+        /// Line, from 1.
+        line: usize,
+        /// The text.
+        found: String,
+    },
     /// The requested unit is not a unit of acceleration.
     #[error(": unit = \"{found}\" is not an acceleration; say \"g\" or \"cm/s2\", for example")]
     OptionUnit {
@@ -250,6 +260,16 @@ pub enum RecordError {
         /// Time expected \[s\].
         expected: f64,
     },
+    /// Times whose rounding hides their step.
+    #[error(
+        ": the times are rounded to {digit} s, too coarsely to show their step; say it with step = \"{suggested} s\" beside record, if that is right"
+    )]
+    RoundedTimes {
+        /// Unit of the last digit \[s\].
+        digit: f64,
+        /// A simple step that fits \[s\].
+        suggested: f64,
+    },
     /// A time that is not later than the one before.
     #[error(":{line}: time {found} s does not come after the time before it")]
     TimeNotRising {
@@ -291,6 +311,116 @@ pub enum RecordError {
         line: usize,
         /// Columns found.
         columns: usize,
+    },
+    /// Several numbers on a line: instants, or columns?
+    #[error(
+        ":{line}: {count} numbers on a line, and no names: say read = {{ per_line = {count} }} beside record if they are accelerations that continue from line to line, or column = 2 if one column holds them"
+    )]
+    ColumnsOrValues {
+        /// Line, from 1.
+        line: usize,
+        /// Numbers on it.
+        count: usize,
+    },
+    /// Several values on a line that continue from line to line.
+    #[error(
+        ":{line}: {}; say read = {{ per_line = {count} }} beside record to read all of them, or read = {{ content = \"columns\" }} with column if they are columns all the same",
+        match .last {
+            Some(last) => format!("the lines have {count} numbers each and the last one {last}, as values that continue from line to line"),
+            None => format!("the {count} numbers of a line continue from line to line: they are {count} accelerations, not columns"),
+        }
+    )]
+    Continued {
+        /// Line, from 1.
+        line: usize,
+        /// Numbers on a line.
+        count: usize,
+        /// Numbers on the last line, if it has fewer.
+        last: Option<usize>,
+    },
+    /// A first number that differs in kind from those below.
+    #[error(
+        ":{line}: \"{found}\" {difference}. If it is a count or a time step, say read = {{ skip = {skip} }} beside record; if it is the first acceleration, read = {{ skip = 0 }}"
+    )]
+    FirstNumber {
+        /// Line, from 1.
+        line: usize,
+        /// The text.
+        found: String,
+        /// Comparison with the numbers below.
+        difference: String,
+        /// Line of the last such number.
+        skip: usize,
+    },
+    /// A first line that has another number of cells than all lines below it.
+    #[error(
+        ":{line}: {found} numbers, and {below} on the lines below. Say read = {{ skip = {line} }} beside record to leave the lines up to this one out"
+    )]
+    FirstLine {
+        /// Line, from 1.
+        line: usize,
+        /// Numbers on it.
+        found: usize,
+        /// Numbers on the lines below.
+        below: usize,
+    },
+    /// Text below numbers.
+    #[error(
+        ":{line}: \"{found}\" is not a number, and the line above has numbers. If both are header, say read = {{ skip = {line} }} beside record"
+    )]
+    TextBelowNumbers {
+        /// Line, from 1.
+        line: usize,
+        /// The text.
+        found: String,
+    },
+    /// Numbers without separators whose widths differ from line to line.
+    #[error(
+        ":{line}: \"{found}\" is not a number; if numbers stand without blanks between them, say their widths, such as read = {{ widths = [{}] }} beside record",
+        widths.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")
+    )]
+    Glued {
+        /// Line, from 1.
+        line: usize,
+        /// The text.
+        found: String,
+        /// Widths that most lines show.
+        widths: Vec<usize>,
+    },
+    /// A line that does not fit the stated widths.
+    #[error(
+        ":{line}: the line does not fit widths = [{}]: every width must hold one number, and nothing may follow",
+        widths.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")
+    )]
+    Widths {
+        /// Line, from 1.
+        line: usize,
+        /// Widths.
+        widths: Vec<usize>,
+    },
+    /// A line with another number of values than stated.
+    #[error(":{line}: {found} numbers, but per_line = {stated}; only the last line may have fewer")]
+    PerLine {
+        /// Line, from 1.
+        line: usize,
+        /// Numbers found.
+        found: usize,
+        /// Numbers stated.
+        stated: usize,
+    },
+    /// Statements about the lines that do not fit the file, or each other.
+    #[error(": read: {problem}")]
+    Layout {
+        /// The problem.
+        problem: String,
+    },
+    /// Statements about the lines of a format that states its own layout.
+    #[error(
+        ": read goes with columns of text, and widths with AT2 as well (read as {format}); omit read, or say format = \"columns\""
+    )]
+    LayoutOfFormat {
+        /// Format in which the file was read.
+        format: RecordFormat,
     },
     /// The column asked for does not exist.
     #[error(":{line}: there is no column {wanted}; the line has {columns}")]

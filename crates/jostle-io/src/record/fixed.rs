@@ -143,6 +143,21 @@ impl Fixed {
         Ok(block)
     }
 
+    /// The numbers of a full line, each ending where its columns end and with a point if it is a real.
+    pub(crate) fn cells(self, line: &str) -> Option<Vec<&str>> {
+        if !line.is_ascii() || line.len() != self.per_line * self.width {
+            return None;
+        }
+        let cell = |at: usize| {
+            let cell = &line[at * self.width..(at + 1) * self.width];
+            let digits = cell.trim_start();
+            let plain = |b: u8| b.is_ascii_digit() || matches!(b, b'+' | b'-' | b'.');
+            let whole = !digits.is_empty() && digits.bytes().all(plain);
+            (whole && digits.contains('.') == self.real).then_some(digits)
+        };
+        (0..self.per_line).map(cell).collect()
+    }
+
     /// Appends the numbers of a line; none if the line does not consist of numbers.
     fn read_line(
         self,

@@ -15,7 +15,7 @@ pub(crate) struct Line<'t> {
 /// The lines of a text; old files end lines with `\r` alone or with `\r\r\n`.
 ///
 /// Station names come in many encodings: a line that is not UTF-8 is read as Latin-1.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub(crate) struct Lines<'t> {
     rest: Option<&'t [u8]>,
     end: u8,
@@ -179,50 +179,124 @@ impl LineMap {
 /// Numbers, or lines, that are read to find whether all numbers have the same format.
 const ALIKE: usize = 12;
 
-/// Refuses a text that ends inside its last number: no line end, and fewer digits than the numbers before it, or
-/// than those above it.
+/// Refuses a text that ends inside its last number: no line end, and a number that the layout of those before it,
+/// or of those above it, does not allow.
 pub(crate) fn check_end(bytes: &[u8]) -> Result<(), RecordError> {
     let ended = bytes.last().is_none_or(|last| last.is_ascii_whitespace());
     if ended {
         return Ok(());
     }
     let is_end = |byte: &u8| matches!(byte, b'\n' | b'\r');
-    let is_gap = |byte: &u8| byte.is_ascii_whitespace() || matches!(byte, b',' | b';');
-    let digits = |word: &[u8]| {
-        word.iter()
-            .position(|b| *b == b'.')
-            .map(|at| word.len() - at)
-    };
-    let words = |text| <[u8]>::split(text, is_gap).filter(|word| !word.is_empty());
     // A line may hold the whole record; its end is enough.
     let tail = &bytes[bytes.len().saturating_sub(4000)..];
     let mut lines = tail.rsplit(is_end).filter(|line| !line.is_empty());
     let last_line = lines.next().unwrap_or_default();
     let column = words(last_line).count().saturating_sub(1);
-    let last = words(last_line).next_back();
-    let last = last.and_then(digits).unwrap_or(0);
-
+    let last = words(last_line).next_back().unwrap_or_default();
     // Up to the names of the columns.
-    let is_number = |word: &&[u8]| {
-        let first = word.first().copied().unwrap_or(b' ');
-        first.is_ascii_digit() || matches!(first, b'+' | b'-' | b'.')
+    let is_number = |word: &[u8]| {
+        let first = word.iter().find(|byte| **byte != b'"').copied();
+        first.is_some_and(|first| first.is_ascii_digit() || matches!(first, b'+' | b'-' | b'.'))
     };
-    let above = lines
+    let above: Vec<&[u8]> = lines
         .take(ALIKE)
-        .map_while(|line| words(line).nth(column).filter(is_number));
+        .take_while(|line| words(line).nth(column).is_some_and(is_number))
+        .collect();
+    let in_column = || above.iter().filter_map(|line| words(line).nth(column));
     let before = tail.rsplit(is_gap).filter(|word| !word.is_empty());
-    for (alike, least) in [
-        (above.map(digits).collect::<Vec<_>>(), 2),
-        (before.skip(1).take(ALIKE).map(digits).collect(), 3),
-    ] {
-        if let Some(Some(usual)) = alike.first()
-            && alike.len() >= least
-            && alike.iter().all(|digits| *digits == Some(*usual))
-            && last < *usual
-        {
-            let line = Lines::new(bytes).count();
-            return Err(RecordError::CutShort { line });
-        }
+    let before: Vec<_> = before.skip(1).take(ALIKE).collect();
+    let cut = is_shorter(last, &in_column().collect::<Vec<_>>(), 2)
+        || is_shorter(last, &before, 3)
+        || is_left_of(last_line, column, &above)
+        || is_stub(last, &before);
+    if cut {
+        let line = Lines::new(bytes).count();
+        return Err(RecordError::CutShort { line });
     }
     Ok(())
+}
+
+fn is_gap(byte: &u8) -> bool {
+    byte.is_ascii_whitespace() || matches!(byte, b',' | b';')
+}
+
+fn words(line: &[u8]) -> impl DoubleEndedIterator<Item = &[u8]> {
+    line.split(is_gap).filter(|word| !word.is_empty())
+}
+
+/// Characters from the decimal point on, those of an exponent included.
+fn decimals(word: &[u8]) -> Option<usize> {
+    let point = word.iter().position(|byte| *byte == b'.')?;
+    Some(word.len() - point)
+}
+
+/// Whether a number has fewer decimals than all of several others, which have equally many.
+fn is_shorter(last: &[u8], others: &[&[u8]], least: usize) -> bool {
+    let usual = others.first().and_then(|word| decimals(word));
+    usual.is_some_and(|usual| {
+        others.len() >= least
+            && others.iter().all(|word| decimals(word) == Some(usual))
+            && decimals(last).unwrap_or(0) < usual
+    })
+}
+
+/// Whether a line ends before the place where numbers of different lengths end on all lines above.
+fn is_left_of(last_line: &[u8], column: usize, above: &[&[u8]]) -> bool {
+    let ends = |line: &[u8]| {
+        let mut ends = Vec::new();
+        let mut lengths = Vec::new();
+        let mut start = 0;
+        for word in line.split(is_gap) {
+            start += word.len() + 1;
+            if !word.is_empty() {
+                ends.push(start - 1);
+                lengths.push(word.len());
+            }
+        }
+        (ends.get(column).copied(), lengths.get(column).copied())
+    };
+    let Some(first) = above.first() else {
+        return false;
+    };
+    let (usual, length) = ends(first);
+    // Indented numbers of one length are aligned to the right as well.
+    let mut differ = last_line.starts_with(b" ");
+    let aligned = above.len() >= 3
+        && above.iter().all(|line| {
+            let (end, other) = ends(line);
+            differ |= other != length;
+            end == usual
+        });
+    aligned && differ && usual.is_some_and(|usual| last_line.len() < usual)
+}
+
+/// Whether a number lacks what all others have: an exponent, its digits, digits behind the point; or ends in a zero
+/// that none of the others has.
+fn is_stub(last: &[u8], others: &[&[u8]]) -> bool {
+    if others.len() < ALIKE / 2 {
+        return false;
+    }
+    let exponent = |word: &[u8]| {
+        let at = word
+            .iter()
+            .position(|byte| matches!(byte, b'e' | b'E' | b'd' | b'D'))?;
+        Some(
+            word[at + 1..]
+                .iter()
+                .filter(|byte| byte.is_ascii_digit())
+                .count(),
+        )
+    };
+    let exponents: Vec<_> = others.iter().filter_map(|word| exponent(word)).collect();
+    let is_zero = last
+        .iter()
+        .all(|byte| matches!(byte, b'0' | b'.' | b'-' | b'+'));
+    match exponent(last) {
+        Some(digits) if exponents.iter().min().is_some_and(|least| digits < *least) => return true,
+        None if exponents.len() == others.len() && !is_zero => return true,
+        _ => {}
+    }
+    let ends_in = |word: &[u8], mark: u8| word.contains(&b'.') && word.last() == Some(&mark);
+    let alone = |mark: u8| ends_in(last, mark) && !others.iter().any(|word| ends_in(word, mark));
+    alone(b'.') || others.len() >= ALIKE && alone(b'0')
 }

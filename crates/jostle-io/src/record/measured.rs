@@ -10,7 +10,7 @@ use crate::nearest::nearest;
 use crate::quantity::{Dimension, shorten};
 use crate::record::{
     HEADER_ROWS, Lines, RecordError, Times, acceleration_unit, check_end, check_text, number,
-    without_fill,
+    time_unit, without_fill,
 };
 use crate::unit::Unit;
 
@@ -158,6 +158,15 @@ pub(crate) fn find_header(bytes: &[u8]) -> Result<Header, RecordError> {
             expected: names.len(),
         });
     }
+    // A table with two header rows has numbers here.
+    let both = names_at.max(units_at);
+    let is_data = |at: &usize| {
+        let cells = || separator.cells(texts[*at]);
+        *at > both && cells().count() == names.len() && cells().all(|cell| number(0, cell).is_ok())
+    };
+    if let Some(at) = (0..HEADER_ROWS).find(is_data) {
+        return Err(wrong(&format!("line {} holds numbers already", at + 1)));
+    }
     let title = texts
         .iter()
         .enumerate()
@@ -178,6 +187,14 @@ pub(crate) fn find_header(bytes: &[u8]) -> Result<Header, RecordError> {
     })
 }
 
+impl Header {
+    /// Whether a row has a number for every name.
+    pub(crate) fn begins_with(&self, row: &str) -> bool {
+        let cells = || self.separator.cells(row);
+        cells().count() == self.names.len() && cells().all(|cell| number(0, cell).is_ok())
+    }
+}
+
 /// A cell without quotes and brackets around it.
 fn bare(cell: &str) -> &str {
     cell.trim()
@@ -186,16 +203,6 @@ fn bare(cell: &str) -> &str {
         .trim_start_matches(['(', '['])
         .trim_end_matches([')', ']'])
         .trim()
-}
-
-/// Size of a unit of time in its spellings; `None` if it is none \[s\].
-fn time_unit(text: &str) -> Option<f64> {
-    let plain = bare(text).to_lowercase();
-    match plain.as_str() {
-        "s" | "sec" | "secs" | "second" | "seconds" => Some(1.0),
-        "ms" | "msec" | "millisecond" | "milliseconds" => Some(1e-3),
-        _ => None,
-    }
 }
 
 /// Dimension and size of a unit in the spellings of laboratories.

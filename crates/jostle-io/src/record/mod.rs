@@ -4,15 +4,18 @@
 //! The code common to all formats is here: units, scale, checks, the choice of a channel.
 
 mod channel;
+mod clock;
 mod contents;
 mod error;
 mod film;
 mod fixed;
 mod formats;
 mod header;
+mod layout;
 mod lines;
 pub(crate) mod measured;
 mod units;
+mod widths;
 
 use std::path::Path;
 
@@ -20,8 +23,9 @@ pub use channel::{Channel, Direction};
 pub use error::RecordError;
 pub use formats::RecordFormat;
 pub(crate) use formats::{HEADER_ROWS, Times, check_text};
+pub use layout::{RecordContent, RecordLayout};
 pub(crate) use lines::{Lines, check_end, number, without_fill};
-pub(crate) use units::acceleration_unit;
+pub(crate) use units::{acceleration_unit, time_unit};
 
 use crate::bounded::read_at_most;
 use contents::Contents;
@@ -92,6 +96,8 @@ pub struct RecordOptions {
     pub remove_mean: Option<bool>,
     /// Format of the file; `None` recognises it from the content.
     pub format: Option<RecordFormat>,
+    /// Layout of the lines, for columns of text and, in part, AT2.
+    pub layout: RecordLayout,
 }
 
 /// Data that a file states.
@@ -230,10 +236,23 @@ fn records_in(folder: &Path) -> Result<Vec<String>, RecordError> {
 
 fn parse_contents(bytes: &[u8], options: &RecordOptions) -> Result<Contents, RecordError> {
     check_size(bytes.len())?;
+    options.layout.check()?;
     let format = match options.format {
         Some(format) => format,
+        // What the user says about lines holds for columns of text.
+        None if !options.layout.is_empty() && !options.layout.is_widths_only() => {
+            RecordFormat::Columns
+        }
         None => RecordFormat::detect(bytes)?,
     };
+    let has_lines = match format {
+        RecordFormat::Columns => true,
+        RecordFormat::At2 => options.layout.is_widths_only(),
+        _ => false,
+    };
+    if !options.layout.is_empty() && !has_lines {
+        return Err(RecordError::LayoutOfFormat { format });
+    }
     let contents = format.read(bytes, options)?;
     contents.check_peaks()?;
     Ok(contents)

@@ -6,7 +6,7 @@
 
 use crate::fixture::{self, Fixture};
 use crate::mutate::{Random, mutate};
-use jostle_io::{Record, RecordOptions, parse_record};
+use jostle_io::{Record, RecordContent, RecordLayout, RecordOptions, parse_record};
 
 /// Values of the damaged files; enough for several lines and records.
 const POINTS: usize = 100;
@@ -351,7 +351,25 @@ fn check(bytes: &[u8], options: &RecordOptions) {
         remove_mean: Some(true),
         ..RecordOptions::default()
     };
-    for options in [options, &completed] {
+    let layout = if bytes.len().is_multiple_of(2) {
+        RecordLayout {
+            skip: Some(1),
+            content: Some(RecordContent::Values),
+            ..RecordLayout::default()
+        }
+    } else {
+        RecordLayout {
+            widths: vec![10],
+            content: Some(RecordContent::Pairs),
+            ..RecordLayout::default()
+        }
+    };
+    let lines = RecordOptions {
+        column: None,
+        layout,
+        ..completed.clone()
+    };
+    for options in [options, &completed, &lines] {
         match parse_record(bytes, options) {
             Ok(record) => {
                 assert!((1e-6..=10.0).contains(&record.step), "step {}", record.step);
@@ -402,5 +420,5 @@ fn mutated_files_never_panic() {
 
 #[allow(clippy::print_stderr, reason = "long campaigns say what they did")]
 fn eprintln_done(count: usize) {
-    eprintln!("{count} mutated files, each read twice");
+    eprintln!("{count} mutated files, each read three times");
 }

@@ -1,5 +1,6 @@
 //! Reading of models, records and units, and writing of tables. One binary: a dozen and a half would take longer to link.
 
+mod accounted;
 mod assumptions;
 mod capacity;
 mod codes;
@@ -10,6 +11,7 @@ mod formats;
 mod garbage;
 mod grounds;
 mod hinges;
+mod layouts;
 mod measured;
 mod motions;
 mod mutate;

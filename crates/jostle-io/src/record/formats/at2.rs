@@ -8,7 +8,8 @@ use crate::record::contents::{Contents, Scale, Trace};
 use crate::record::error::RecordError;
 use crate::record::formats::{AT2_HEADER_LINES, RecordFormat};
 use crate::record::lines::{LineMap, Lines, check_end, number};
-use crate::record::units::acceleration_unit;
+use crate::record::units::{acceleration_unit, wrong_unit};
+use crate::record::widths::{Widths, is_glued};
 
 /// Reads a PEER AT2 record. Accelerations in g are converted with 9.80665 m/s².
 ///
@@ -53,17 +54,15 @@ pub(crate) fn read(bytes: &[u8], options: &RecordOptions) -> Result<Contents, Re
         }
     };
 
-    let mut values = Vec::with_capacity(stated.min(lines.bytes_left() / 8 + 1));
-    let mut map = LineMap::default();
-    for line in lines {
-        let before = values.len();
-        for token in line.text.split(|c: char| c.is_whitespace() || c == ',') {
-            if !token.is_empty() {
-                values.push(number(line.number, token)?);
-            }
+    let widths = Widths::stated(&options.layout.widths);
+    let (values, map) = match read_values(lines.clone(), stated, widths.as_ref(), options) {
+        Err(_) if widths.is_none() && lines.clone().any(|line| is_glued(&line.text)) => {
+            let data = lines.clone().filter(|line| !line.text.trim().is_empty());
+            let shown = Widths::shown(data)?;
+            read_values(lines, stated, Some(&shown), options)?
         }
-        map.note(line.number, values.len() - before);
-    }
+        read => read?,
+    };
     if values.len() != stated {
         return Err(RecordError::Count {
             line: header,
@@ -82,6 +81,40 @@ pub(crate) fn read(bytes: &[u8], options: &RecordOptions) -> Result<Contents, Re
         peak: None,
     });
     Ok(contents)
+}
+
+/// Reads values in free format, or in widths.
+fn read_values(
+    lines: Lines<'_>,
+    stated: usize,
+    widths: Option<&Widths>,
+    options: &RecordOptions,
+) -> Result<(Vec<f64>, LineMap), RecordError> {
+    let mut values = Vec::with_capacity(stated.min(lines.bytes_left() / 8 + 1));
+    let mut map = LineMap::default();
+    for line in lines.filter(|line| !line.text.trim().is_empty()) {
+        let before = values.len();
+        match widths {
+            Some(widths) => {
+                let fields = widths
+                    .fields(&line.text)
+                    .ok_or_else(|| RecordError::Widths {
+                        line: line.number,
+                        widths: options.layout.widths.clone(),
+                    });
+                for field in fields? {
+                    values.push(number(line.number, field)?);
+                }
+            }
+            None => {
+                for token in words(&line.text) {
+                    values.push(number(line.number, token)?);
+                }
+            }
+        }
+        map.note(line.number, values.len() - before);
+    }
+    Ok((values, map))
 }
 
 /// Number of values and step from `NPTS= 4000, DT= .0100 SEC` or `4164 0.0100 NPTS, DT`. Damaged headers such as
@@ -134,10 +167,7 @@ fn stated_unit(line: usize, content: &str) -> Result<Option<(String, f64)>, Reco
     }) else {
         return Ok(None);
     };
-    let size = acceleration_unit(word).ok_or_else(|| RecordError::Unit {
-        line,
-        found: shorten(word),
-    })?;
+    let size = acceleration_unit(word).ok_or_else(|| wrong_unit(line, word))?;
     let plain = word.trim_matches(|c: char| matches!(c, '.' | ',' | ';' | ':' | '(' | ')'));
     Ok(Some((plain.to_owned(), size)))
 }

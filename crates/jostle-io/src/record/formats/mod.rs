@@ -15,6 +15,7 @@ mod at2;
 mod columns;
 mod cosmos;
 mod csmip;
+mod cwa;
 mod esm;
 mod geonet;
 mod knet;
@@ -45,6 +46,8 @@ pub enum RecordFormat {
     GeoNet,
     /// AFAD (Türkiye), three columns below a header.
     Afad,
+    /// CWA (Taiwan), text with three components.
+    Cwa,
     /// NEES `.asc` of shake tables: six header rows, then one row per instant.
     Nees,
     /// miniSEED 2 and 3.
@@ -55,7 +58,7 @@ pub enum RecordFormat {
 
 impl RecordFormat {
     /// Every format.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::At2,
         Self::Columns,
         Self::Cosmos,
@@ -65,6 +68,7 @@ impl RecordFormat {
         Self::Smc,
         Self::GeoNet,
         Self::Afad,
+        Self::Cwa,
         Self::Nees,
         Self::MiniSeed,
         Self::Sac,
@@ -89,6 +93,7 @@ impl RecordFormat {
             Self::Smc => Facts::text("smc", "USGS SMC", smc::read),
             Self::GeoNet => Facts::text("geonet", "GeoNet", |bytes, _| geonet::read(bytes)),
             Self::Afad => Facts::text("afad", "AFAD", |bytes, _| afad::read(bytes)),
+            Self::Cwa => Facts::text("cwa", "CWA", |bytes, _| cwa::read(bytes)),
             Self::Nees => Facts::text("nees", "NEES asc", |bytes, _| nees::read(bytes)),
             Self::MiniSeed => Facts::binary("miniseed", "miniSEED", |bytes, _| miniseed::read(bytes)),
             Self::Sac => Facts::binary("sac", "SAC", sac::read),
@@ -290,6 +295,9 @@ fn detect_text(bytes: &[u8]) -> RecordFormat {
         }
         if has("STRONG GROUND MOTION RECORDS OF TURK") || starts("SAMPLING INTERVAL (SEC)") {
             return F::Afad;
+        }
+        if starts("#SAMPLERATE(HZ):") || starts("#AMPLITUDEMAX.") || starts("#DATASEQUENCE:") {
+            return F::Cwa;
         }
         if has("GNS SCIENCE") || has("MM/S/S") {
             return F::GeoNet;

@@ -48,10 +48,9 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Contents, RecordError> {
     Ok(contents)
 }
 
-/// Whether the first lines are the header of such a file.
+/// Whether the file has the whole layout: six header rows, names and units among them, and numbers from line 7 on.
 pub(crate) fn is_nees(bytes: &[u8]) -> bool {
-    crate::record::measured::find_header(bytes).is_ok()
-        && Lines::new(bytes)
-            .nth(HEADER_ROWS)
-            .is_some_and(|row| !row.text.trim().is_empty())
+    let first = Lines::new(bytes).nth(HEADER_ROWS);
+    let header = crate::record::measured::find_header(bytes);
+    header.is_ok_and(|header| first.is_some_and(|row| header.begins_with(&row.text)))
 }
