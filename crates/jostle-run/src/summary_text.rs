@@ -68,7 +68,12 @@ fn write_all(
     write_capacity(text, &summary.buildings)?;
     for (index, gap) in summary.gaps.iter().enumerate() {
         let required = summary.required_gaps(&input.model, index, &input.codes);
-        write_gap(text, gap, summary, &required)?;
+        write_gap(
+            text,
+            gap,
+            summary,
+            (&required, !input.codes.shown.is_empty()),
+        )?;
     }
     if let Some(spread) = &summary.contact_sensitivity {
         write_spread(text, spread)?;
@@ -476,7 +481,7 @@ fn write_gap(
     text: &mut String,
     gap: &GapSummary,
     summary: &Summary,
-    required: &Requirements,
+    (required, are_named): (&Requirements, bool),
 ) -> std::fmt::Result {
     let [left, right] = &gap.between;
     let verdict = match gap.first_impact_s {
@@ -559,7 +564,7 @@ fn write_gap(
     let floors = summary.buildings.iter().flat_map(|own| own.floors.iter());
     let mut floors = floors.map(|floor| floor.without_contact.is_some());
     let has_impacts = gap.impact_count > 0 && !floors.all(|is_known| is_known);
-    write_codes(text, required, has_impacts)
+    write_codes(text, required, [has_impacts, are_named])
 }
 
 fn write_spread(text: &mut String, spread: &ContactSensitivity) -> std::fmt::Result {
@@ -623,8 +628,13 @@ fn write_link(text: &mut String, link: &LinkSummary) -> std::fmt::Result {
     )
 }
 
-/// The gaps that codes require, by the same rules as `jostle gap` and the report.
-fn write_codes(text: &mut String, required: &Requirements, has_impacts: bool) -> std::fmt::Result {
+/// The gaps that codes require, by the same rules as `jostle gap` and the report; why others are left out, if the model names its
+/// codes.
+fn write_codes(
+    text: &mut String,
+    required: &Requirements,
+    [has_impacts, are_named]: [bool; 2],
+) -> std::fmt::Result {
     // GB 50011 has one width for each intensity.
     let (of_intensity, others): (Vec<&Requirement>, Vec<&Requirement>) = required
         .rules
@@ -650,9 +660,9 @@ fn write_codes(text: &mut String, required: &Requirements, has_impacts: bool) ->
         };
         write_list(text, &format!("  Codes require{from} [mm]: "), &widths)?;
     }
-    let left_out: Vec<String> = required
-        .left_out
-        .iter()
+    // Of codes that nobody named, only widths are of interest here.
+    let left_out = required.left_out.iter().filter(|_| are_named);
+    let left_out: Vec<String> = left_out
         .map(|rule| format!("{} needs {}", rule.name, rule.needs))
         .collect();
     if !left_out.is_empty() {
@@ -662,7 +672,7 @@ fn write_codes(text: &mut String, required: &Requirements, has_impacts: bool) ->
 }
 
 /// Widest line of a list \[characters\].
-const WIDTH: usize = 110;
+const WIDTH: usize = 120;
 
 /// A list between commas, in lines that begin below each other.
 fn write_list(text: &mut String, heading: &str, items: &[String]) -> std::fmt::Result {
