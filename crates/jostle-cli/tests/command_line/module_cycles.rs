@@ -1,12 +1,9 @@
 //! Modules of a crate do not import each other in a ring.
 
-#[path = "../../../jostle/tests/mechanics/imports/mod.rs"]
-mod imports;
-
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use imports::{collect, imports};
+use jostle_testkit::imports::{collect, imports};
 
 /// Modules, each with those that it imports from.
 type Imports = BTreeMap<String, BTreeSet<String>>;

@@ -4,29 +4,17 @@
 use std::path::Path;
 
 use crate::common::{complained, folder, jostle, printed};
+use jostle_testkit::two_towers;
 use serde_json::Value;
 
-const TOWERS: &str = r#"
+const TOWERS: &str = concat!(
+    r#"
 [motion]
 record = ["el-centro-1940-ns", "nanjing-artificial", "noise.csv"]
-[[building]]
-name = "A"
-kind = "shear"
-mass = ["40 t", "40 t", "40 t"]
-stiffness = ["20 MN/m", "20 MN/m", "20 MN/m"]
-storey_height = "3 m"
-[[building]]
-name = "B"
-kind = "shear"
-mass = ["60 t", "60 t"]
-stiffness = ["90 MN/m", "90 MN/m"]
-storey_height = "3 m"
-[[gap]]
-between = ["A", "B"]
-width = "20 mm"
-[analysis]
-tolerance = 0.01
-"#;
+"#,
+    two_towers!(3, 2),
+    "[analysis]\ntolerance = 0.01\n",
+);
 const SPECTRUM: &str = r#"spectrum = { code = "gb50011", intensity = 7, site = "II", group = 1 }"#;
 const CODE: [&str; 8] = [
     "--code",

@@ -5,31 +5,19 @@ use std::path::Path;
 use std::time::SystemTime;
 
 use crate::common::{complained, folder, jostle, printed};
+use jostle_testkit::two_towers;
 use serde_json::Value;
 
-const TOWERS: &str = r#"
+const TOWERS: &str = concat!(
+    r#"
 title = "Two towers"
 [motion]
 record = ["el-centro-1940-ns", "nanjing-artificial", "noise.csv"]
 pga = "3 m/s2"
-[[building]]
-name = "A"
-kind = "shear"
-mass = ["40 t", "40 t", "40 t"]
-stiffness = ["20 MN/m", "20 MN/m", "20 MN/m"]
-storey_height = "3 m"
-[[building]]
-name = "B"
-kind = "shear"
-mass = ["60 t", "60 t"]
-stiffness = ["90 MN/m", "90 MN/m"]
-storey_height = "3 m"
-[[gap]]
-between = ["A", "B"]
-width = "20 mm"
-[analysis]
-tolerance = 0.01
-"#;
+"#,
+    two_towers!(3, 2),
+    "[analysis]\ntolerance = 0.01\n",
+);
 
 fn workplace() -> tempfile::TempDir {
     let place = folder();

@@ -5,7 +5,8 @@ use std::process::{Command, Output};
 
 use jostle::System;
 use jostle_export::{Export, openseespy};
-use jostle_io::{Format, Input, read_model_text};
+use jostle_io::Input;
+use jostle_testkit::files::sound;
 
 /// Hinges far stiffer than their members, under their own weight.
 const MODEL: &str = r#"
@@ -91,7 +92,7 @@ def __getattr__(name):
 
 /// Runs the script of the model; `None` where there is no Python.
 fn run(folder: &Path, longest: f64, span: [f64; 2]) -> Option<Output> {
-    let input = read_model_text("test", MODEL, Format::Toml, "".as_ref()).expect("a sound model");
+    let input = sound(MODEL);
     run_model(folder, &input, longest, span)
 }
 
@@ -210,7 +211,7 @@ fn supports_move_with_the_exact_integrals() {
 
 fn supports_move_with(text: &str) {
     let folder = tempfile::tempdir().expect("a folder");
-    let input = read_model_text("test", text, Format::Toml, "".as_ref()).expect("a sound model");
+    let input = sound(text);
     let Some(output) = run_model(folder.path(), &input, 1.0, [9e9, 9e9]) else {
         return;
     };

@@ -2,11 +2,11 @@
 //! from the exported script.
 
 use std::collections::BTreeMap;
-use std::ops::ControlFlow;
 
+use jostle::MemberRequest;
 use jostle::results::{member_name, section_name};
-use jostle::{MemberRequest, Plan, Settings, System, simulate};
-use jostle_io::{Format, read_model_text};
+use jostle_testkit::files::sound;
+use jostle_testkit::runs::run;
 
 /// Instant, then shear and moment at one end and at the other, as forces on the ends \[s, N, N·m\].
 type Row = [f64; 5];
@@ -30,19 +30,11 @@ fn stored() -> BTreeMap<&'static str, Vec<Row>> {
 fn opensees_finds_the_same_forces() {
     let due = stored();
     let text = include_str!("data/frame.toml");
-    let mut input = read_model_text("frame", text, Format::Toml, "".as_ref()).expect("sound");
+    let mut input = sound(text);
     let names: Vec<&str> = due.keys().copied().collect();
     input.model.analysis.members = MemberRequest::with_histories(&names);
-    let system = System::assemble(&input.model).expect("sound");
     let motion = input.ground_motion().expect("a motion");
-    let plan = Plan::choose(&system, &motion, &input.model.analysis).expect("planned");
-    let settings = Settings {
-        record_interval: Some(0.0),
-        ..Settings::default()
-    };
-    let outcome = simulate(&system, &motion, &plan, settings, |_| {
-        ControlFlow::Continue(())
-    });
+    let (system, outcome) = run(&input.model, &motion, Some(0.0));
     let history = outcome.member_history.as_ref().expect("asked for");
     assert_eq!(history.members().len(), due.len());
     let rows: Vec<_> = history.rows().collect();

@@ -1,8 +1,6 @@
 //! What a valid model assumes: gross sections, and beams without mass between their ends.
 
-use std::path::Path;
-
-use jostle_io::{Format, read_model_text};
+use jostle_testkit::files::sound;
 
 const FRAME: &str = r#"
 [[building]]
@@ -17,10 +15,7 @@ beam_mass = "3600 kg/m"
 "#;
 
 fn assumptions(text: &str) -> Vec<String> {
-    let input = read_model_text("model.toml", text, Format::Toml, Path::new(""));
-    input
-        .unwrap_or_else(|error| panic!("{error}\nin\n{text}"))
-        .assumptions()
+    sound(text).assumptions()
 }
 
 fn with(more: &str) -> Vec<String> {

@@ -1,8 +1,7 @@
 //! `[output] capacity`: which members are compared with their capacity.
 
-use std::path::Path;
-
-use jostle_io::{Format, Input, read_model_text};
+use jostle_io::Input;
+use jostle_testkit::files;
 
 /// A frame of two storeys and two bays with bars; `{}` takes ties.
 const FRAME: &str = r#"
@@ -31,8 +30,7 @@ fn read(ties: bool, gravity: &str, output: &str) -> Result<Input, String> {
     };
     let text = FRAME.replace("TIES", ties).replace("GRAVITY", gravity);
     let text = format!("{text}[output]\n{output}\n");
-    read_model_text("model.toml", &text, Format::Toml, Path::new(""))
-        .map_err(|error| error.to_string())
+    files::read(&text).map_err(|error| error.to_string())
 }
 
 fn rules(input: &Input) -> Vec<&'static str> {

@@ -1,17 +1,12 @@
 //! Inputs of codes, and materials by the names of codes, in model files.
 
-use std::path::Path;
-
 use jostle::Structure;
 use jostle::separation::{BuildingCodes, Code, CodeInputs, HazardZone, JointSystem, MotionLevel};
-use jostle_io::{Format, Input, read_model_text};
+use jostle_io::Input;
+use jostle_testkit::files::{self, sound};
 
 fn read(text: &str) -> Result<Input, String> {
-    read_model_text("model.toml", text, Format::Toml, Path::new("")).map_err(|e| e.to_string())
-}
-
-fn good(text: &str) -> Input {
-    read(text).unwrap_or_else(|error| panic!("{error}"))
+    files::read(text).map_err(|e| e.to_string())
 }
 
 /// Two shear buildings; `own` are keys of the first.
@@ -30,7 +25,7 @@ fn frame(concrete: &str, column: &str) -> String {
 
 #[test]
 fn a_file_without_codes_has_the_defaults() {
-    let codes = good(&towers("", "")).codes;
+    let codes = sound(&towers("", "")).codes;
     let due = CodeInputs {
         buildings: vec![BuildingCodes::default(); 2],
         ..CodeInputs::default()
@@ -46,7 +41,7 @@ fn values_of_a_building_come_before_those_of_all() {
          ground_acceleration = \"0.25 g\"\nhazard = \"low\"\nzone_factor = 0.45\nsoil_factor = 1.05\nimportance = 1.5\n\
          response_modification = 8\ndeflection_amplification = 5.5\nregular = false",
     );
-    let codes = good(&text).codes;
+    let codes = sound(&text).codes;
     assert_eq!(codes.shown, [Code::En1998, Code::Asce7]);
     assert_eq!(codes.motion, MotionLevel::Reduced);
     assert_eq!(codes.floors_are_level, Some(false));
@@ -71,7 +66,7 @@ fn values_of_a_building_come_before_those_of_all() {
         ..all
     };
     assert_eq!(codes.buildings, [first, all]);
-    let one = good(&towers("", "[codes]\nshow = \"tbdy2018\"")).codes;
+    let one = sound(&towers("", "[codes]\nshow = \"tbdy2018\"")).codes;
     assert_eq!(one.shown, [Code::Tbdy2018]);
 }
 
@@ -99,7 +94,7 @@ fn wrong_codes_are_named_all_at_once() {
 #[test]
 fn concrete_has_the_modulus_of_its_code() {
     let rigidity = |concrete: &str| {
-        let input = good(&frame(&format!("concrete = \"{concrete}\""), ""));
+        let input = sound(&frame(&format!("concrete = \"{concrete}\""), ""));
         let Structure::Frame(frame) = &input.model.buildings[0].structure else {
             panic!("a frame");
         };
@@ -154,7 +149,7 @@ fn ambiguous_materials_are_refused_with_the_remedy() {
 fn sections_take_materials_of_any_code() {
     let strengths = |concrete: &str, own: &str, steel: &str| {
         let bars = format!(", bars = \"8 d20\", steel = \"{steel}\"{own}");
-        let input = good(&frame(&format!("concrete = \"{concrete}\""), &bars));
+        let input = sound(&frame(&format!("concrete = \"{concrete}\""), &bars));
         let section = &input.reinforced[0].section;
         [section.concrete.strength, section.steel.yield_strength].map(|p| 1e-6 * p)
     };

@@ -3,22 +3,15 @@
 use std::path::Path;
 
 use jostle_io::{Format, Input, read_model_text};
+use jostle_testkit::files::refusal;
 
 fn read(text: &str, format: Format) -> Result<Input, jostle_io::InputError> {
     read_model_text("model.toml", text, format, Path::new(""))
 }
 
-/// The message for a text that must be refused.
-fn message(text: &str) -> String {
-    match read(text, Format::Toml) {
-        Ok(_) => panic!("this text should be refused:\n{text}"),
-        Err(error) => error.to_string(),
-    }
-}
-
 /// Asserts that a text has exactly one fault, whose first line is as given.
 fn assert_single(text: &str, wanted: &str) {
-    let shown = message(text);
+    let shown = refusal(text);
     assert_eq!(shown.lines().next(), Some(wanted), "in\n{shown}");
     assert!(
         shown.ends_with("1 fault in model.toml"),
@@ -143,7 +136,7 @@ model.toml:26:7: gap[0].law: "yea" is not known; available: linear, kelvin, kelv
   help: did you mean "ye"?
 
 12 faults in model.toml"#;
-    assert_eq!(message(text), wanted);
+    assert_eq!(refusal(text), wanted);
 }
 
 #[test]
@@ -164,7 +157,7 @@ model.toml:23:15: gap[0].restitution: must be greater than 0 and at most 1, foun
      |               ^^^
 
 3 faults in model.toml"#;
-    assert_eq!(message(&text), wanted);
+    assert_eq!(refusal(&text), wanted);
 }
 
 #[test]
@@ -188,7 +181,7 @@ model.toml:2:8: unclosed table, expected `]`
     |        ^
 
 2 faults in model.toml"#;
-    assert_eq!(message(text), wanted);
+    assert_eq!(refusal(text), wanted);
 }
 
 #[test]
@@ -248,7 +241,7 @@ fn neighbours_must_exist_and_touch() {
         &gap("\"A-B\""),
         "model.toml:26:11: gap[0].between: expected the names of two neighbours, such as [\"A\", \"B\"]",
     );
-    let shown = message(&gap("[\"A\", \"C\"]"));
+    let shown = refusal(&gap("[\"A\", \"C\"]"));
     assert!(
         shown.contains("the buildings stand, from left to right: \"A\", \"B\", \"C\""),
         "the order is told:\n{shown}"
@@ -281,7 +274,7 @@ fn walls_stand_at_the_ends_of_the_row() {
         &gap("[\"wal\", \"A\"]"),
         "model.toml:19:12: gap[0].between[0]: there is no building \"wal\"",
     );
-    assert!(message(&gap("[\"wal\", \"A\"]")).contains("did you mean \"wall\"?"));
+    assert!(refusal(&gap("[\"wal\", \"A\"]")).contains("did you mean \"wall\"?"));
 }
 
 #[test]
@@ -296,7 +289,7 @@ fn remedies_for_unequal_floors_work() {
     let taller = FRAME.replace("\"3 m\"", "\"3.6 m\"");
     assert_ne!(taller, FRAME);
     let refused = |buildings: &str, names: &str, rest: &str, remedy: &str| {
-        let text = message(&format!("{buildings}{}", gap(names, rest)));
+        let text = refusal(&format!("{buildings}{}", gap(names, rest)));
         assert!(text.contains(remedy), "{text}");
     };
     let accepted = |buildings: &str, names: &str, rest: &str| {
@@ -394,7 +387,7 @@ fn points_and_widths_of_a_gap_are_checked_one_by_one() {
         ),
     ] {
         let shown = format!("model.toml:{shown}");
-        let text = message(&gap(bad));
+        let text = refusal(&gap(bad));
         assert!(text.contains(&shown), "{bad}: {text}");
     }
 }
@@ -431,7 +424,7 @@ fn links_are_checked_as_gaps_are() {
         ),
     ] {
         let shown = format!("model.toml:{shown}");
-        let text = message(&link(bad));
+        let text = refusal(&link(bad));
         assert!(text.contains(&shown), "{bad}: {text}");
     }
 }
@@ -544,7 +537,7 @@ fn motion_faults_are_explained() {
         "{told}"
     );
     assert!(told.contains(remedy), "{told}");
-    let told = message(&motion(r#"record = "C:\dir\a.at2""#));
+    let told = refusal(&motion(r#"record = "C:\dir\a.at2""#));
     assert!(told.starts_with("model.toml:9:"), "{told}");
     assert!(told.contains(remedy), "{told}");
 
@@ -559,7 +552,7 @@ fn motion_faults_are_explained() {
 #[test]
 fn long_lines_are_cut_around_the_fault() {
     let text = format!("title = \"{}\"; x", "ä".repeat(500));
-    let shown = message(&text);
+    let shown = refusal(&text);
     assert!(
         shown.lines().all(|line| line.chars().count() < 140),
         "{shown}"
@@ -598,7 +591,7 @@ fn text_that_is_not_utf_8_is_refused() {
 #[test]
 fn hundreds_of_faults_are_counted() {
     let text: String = (0..700).map(|i| format!("key{i} = 1\n")).collect();
-    let shown = message(&text);
+    let shown = refusal(&text);
     assert!(
         shown.ends_with("… and 201 more\n701 faults in model.toml"),
         "{}",

@@ -1,8 +1,7 @@
 //! Ground that differs, in model files.
 
-use std::path::Path;
-
-use jostle_io::{Format, Input, InputError, read_model_text};
+use jostle_io::{Input, InputError};
+use jostle_testkit::files;
 
 const TOWERS: &str = r#"
 [[building]]
@@ -25,7 +24,7 @@ width = "20 mm"
 fn read(motion: &str, a: &str, b: &str, rest: &str) -> Result<Input, InputError> {
     let towers = TOWERS.replace("A_KEYS", a).replace("B_KEYS", b);
     let text = format!("[motion]\n{motion}\n{towers}\n{rest}");
-    read_model_text("model.toml", &text, Format::Toml, Path::new(""))
+    files::read(&text)
 }
 
 const EL_CENTRO: &str = "record = \"el-centro-1940-ns\"";
@@ -294,7 +293,7 @@ B_KEYS
 fn read_in_plan(motion: &str, b: &str) -> Result<Input, InputError> {
     let towers = IN_PLAN.replace("A_KEYS", "").replace("B_KEYS", b);
     let text = format!("[motion]\n{EL_CENTRO}\n{motion}\n{towers}");
-    read_model_text("model.toml", &text, Format::Toml, Path::new(""))
+    files::read(&text)
 }
 
 #[test]
@@ -383,7 +382,7 @@ fn drift_does_not_depend_on_the_angle() {
         let record = record.display();
         let motion = format!("record = '{record}'\nunit = \"m/s2\"\nangle = \"90 deg\"");
         let text = format!("[motion]\n{motion}\n{}", towers.replace("B_KEYS", own));
-        let input = read_model_text("model.toml", &text, Format::Toml, Path::new(""));
+        let input = files::read(&text);
         input.expect("sound").ground_motion()
     };
     let same = resolved("motion = { scale = 1.0, arrival = \"10 ms\" }");

@@ -1,13 +1,12 @@
 //! Hinges and reinforcement in model files.
 
-use std::path::Path;
-
 use jostle::hysteresis::{HysteresisRule, Pinching, Side};
 use jostle::{FrameHinges, Hinges};
-use jostle_io::{Format, Input, read_model_text};
+use jostle_io::Input;
+use jostle_testkit::files;
 
 fn read(text: &str) -> Result<Input, String> {
-    read_model_text("model.toml", text, Format::Toml, Path::new("")).map_err(|e| e.to_string())
+    files::read(text).map_err(|e| e.to_string())
 }
 
 fn frame(column: &str, beam: &str, hinges: &str) -> String {

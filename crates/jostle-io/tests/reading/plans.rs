@@ -1,9 +1,8 @@
 //! Buildings with plans: what a file says, and what is refused.
 
-use std::path::Path;
-
 use jostle::{PlanAxis, PlanPoint, Structure, System, Tiers};
-use jostle_io::{Format, Input, read_model_text};
+use jostle_io::Input;
+use jostle_testkit::files::{read, refusal};
 
 const A: &str = r#"
 [[building]]
@@ -30,22 +29,11 @@ between = ["A", "B"]
 width = "20 mm"
 "#;
 
-fn read(text: &str) -> Result<Input, jostle_io::InputError> {
-    read_model_text("model.toml", text, Format::Toml, Path::new(""))
-}
-
 fn tiers(input: &Input, building: usize) -> &Tiers {
     match &input.model.buildings[building].structure {
         Structure::Tiers(tiers) => tiers,
         other => panic!("no plan: {other:?}"),
     }
-}
-
-/// What is said of a text that must be refused.
-fn said(text: &str) -> String {
-    let error = read(text).err();
-    let error = error.unwrap_or_else(|| panic!("this should be refused:\n{text}"));
-    error.to_string()
 }
 
 #[test]
@@ -61,11 +49,11 @@ fn north_is_an_angle_of_a_site_with_plans() {
         ("[site]\nnorth = \"3 m\"", "site.north"),
         ("[site]\nnorth = 90", "\"90 deg\" for degrees"),
     ] {
-        let error = said(&with(site));
+        let error = refusal(&with(site));
         assert!(error.contains(what), "{what} in {error}");
     }
     let plane = "[[building]]\nkind = \"shear\"\nmass = [\"40 t\"]\nstiffness = \"60 MN/m\"\nstorey_height = \"3 m\"\n[site]\nnorth = 1\n";
-    assert!(said(plane).contains("is for buildings with a plan"));
+    assert!(refusal(plane).contains("is for buildings with a plan"));
 }
 
 #[test]
@@ -271,7 +259,7 @@ fn what_does_not_fit_is_refused_with_its_place() {
             "gap[0].points: must lie between 2 and 9, found 1",
         ),
     ] {
-        let said = said(&text);
+        let said = refusal(&text);
         assert!(said.contains(wanted), "{said}\ninstead of\n{wanted}");
         assert!(said.starts_with("model.toml:"), "{said}");
     }
@@ -324,7 +312,11 @@ fn friction_has_its_keys_and_limits() {
             "has no usual value for rubber",
         ),
     ] {
-        assert!(said(&gap(more)).contains(expected), "{}", said(&gap(more)));
+        assert!(
+            refusal(&gap(more)).contains(expected),
+            "{}",
+            refusal(&gap(more))
+        );
     }
     let flat = |building: &str| {
         building
@@ -336,7 +328,7 @@ fn friction_has_its_keys_and_limits() {
     let plane = "stiffness = \"90 MN/m\"";
     let a = flat(A).replace("stiffness = { x = \"60 MN/m\", y = \"85 MN/m\" }", plane);
     let a = a.replace("eccentricity = [\"1 m\", \"-0.5 m\"]", "");
-    let said = said(&format!("{a}\n{}\n{GAP}friction = 0.4\n", flat(B)));
+    let said = refusal(&format!("{a}\n{}\n{GAP}friction = 0.4\n", flat(B)));
     assert!(
         said.contains("gap[0].friction: is for buildings with a plan"),
         "{said}"
@@ -431,7 +423,7 @@ fn neighbours_without_a_gap_are_named() {
 
 #[test]
 fn a_gap_for_all_neighbours_says_what_it_lacks() {
-    let wrong = |gaps: &str| said(&format!("{}{gaps}", around()));
+    let wrong = |gaps: &str| refusal(&format!("{}{gaps}", around()));
     let early = wrong("[[gap]]\n[[gap]]\nbetween = [\"A\", \"B\"]\n");
     assert!(
         early.contains("gap[0]: names no buildings, so it must be the last [[gap]]"),
@@ -447,12 +439,12 @@ fn a_gap_for_all_neighbours_says_what_it_lacks() {
         width.contains("gap[0].width: is 20.0 mm, but at and plan put the buildings 30.0 mm apart"),
         "{width}"
     );
-    let homeless = said(&format!("{A}{B}[[gap]]\nwidth = \"20 mm\"\n"));
+    let homeless = refusal(&format!("{A}{B}[[gap]]\nwidth = \"20 mm\"\n"));
     assert!(
         homeless.contains("give every building its at"),
         "{homeless}"
     );
-    let plane = said(
+    let plane = refusal(
         "[[building]]\nkind = \"shear\"\nname = \"A\"\nmass = \"1 t\"\nstiffness = \"1 MN/m\"\n[[gap]]\nwidth = \"20 mm\"\n",
     );
     assert!(
@@ -524,7 +516,7 @@ fn frames_stand_where_the_file_says() {
 fn frames_in_plan_that_do_not_fit_are_refused_with_the_remedy() {
     let changed = |from: &str, to: &str| {
         assert!(FRAMES.contains(from), "{from}");
-        said(&FRAMES.replacen(from, to, 1))
+        refusal(&FRAMES.replacen(from, to, 1))
     };
     for (from, to, expected) in [
         ("kind = \"frame\"", "kind = \"shear\"", "kind = \"frame\""),
@@ -576,7 +568,7 @@ fn frames_in_plan_that_do_not_fit_are_refused_with_the_remedy() {
     let end = FRAMES
         .find("[[building.frame]]\nname = \"y\"")
         .expect("there");
-    let single = said(&FRAMES[..end]);
+    let single = refusal(&FRAMES[..end]);
     assert!(single.contains("do not hold floor 1"), "{single}");
     // A column line that two frames name differently stands elsewhere.
     let apart = FRAMES.replacen(
@@ -584,7 +576,7 @@ fn frames_in_plan_that_do_not_fit_are_refused_with_the_remedy() {
         "at = [\"1 m\", \"0 m\"]\nlines = [\"A1\", \"\", \"A3\"]",
         1,
     );
-    let said = said(&apart);
+    let said = refusal(&apart);
     assert!(said.contains("puts column \"A1\""), "{said}");
 }
 
@@ -617,7 +609,7 @@ fn walls_stand_on_the_site() {
             "walls are rigid there",
         ),
     ] {
-        let said = said(&text(wall));
+        let said = refusal(&text(wall));
         assert!(said.contains(expected), "{wall}:\n{said}");
     }
 }
@@ -725,7 +717,7 @@ fn storeys_in_plan_yield_along_both_directions_or_one() {
 fn hinges_in_plan_that_do_not_fit_are_refused_with_the_remedy() {
     let changed = |from: &str, to: &str| {
         assert!(WALLS.contains(from), "{from}");
-        said(&WALLS.replacen(from, to, 1))
+        refusal(&WALLS.replacen(from, to, 1))
     };
     for (from, to, expected) in [
         ("post_yield = 0.05, x", "x", "add post_yield"),
@@ -754,7 +746,11 @@ fn hinges_in_plan_that_do_not_fit_are_refused_with_the_remedy() {
         assert!(said.contains(expected), "{from} → {to}:\n{said}");
     }
     let plane = "[[building]]\nkind = \"shear\"\nmass = \"1 t\"\nstiffness = \"1 MN/m\"\nhinges = { rule = \"bilinear\", yield = \"9 mm\", post_yield = 0.1, x = { yield = \"9 mm\" } }\n";
-    assert!(said(plane).contains("needs a plan"), "{}", said(plane));
+    assert!(
+        refusal(plane).contains("needs a plan"),
+        "{}",
+        refusal(plane)
+    );
 }
 
 /// Hinges of frames in plan come before springs, and are named after their frame.
@@ -776,5 +772,9 @@ fn frames_in_plan_yield_at_their_members() {
         "from = \"section\"",
         1,
     );
-    assert!(said(&from).contains("give the moments"), "{}", said(&from));
+    assert!(
+        refusal(&from).contains("give the moments"),
+        "{}",
+        refusal(&from)
+    );
 }

@@ -1,9 +1,7 @@
 //! `shear_failure`: from keys to shear springs of columns, and what is refused.
 
-use std::path::Path;
-
 use jostle::{Hinges, ShearEnds, ShearSpring};
-use jostle_io::{Format, read_model_text};
+use jostle_testkit::files;
 
 const MODEL: &str = r#"
 [motion]
@@ -51,7 +49,7 @@ fn read(key: &str, ties: &str, floors: &str) -> Result<Vec<Vec<ShearSpring>>, St
         .replace("AXIAL", ", axial_load = \"1000 kN\"")
         .replace("TIES", ties)
         .replace("FLOORS", floors);
-    let input = read_model_text("model.toml", &text, Format::Toml, Path::new(""));
+    let input = files::read(&text);
     let input = input.map_err(|error| error.to_string())?;
     match &input.model.buildings[0].hinges {
         Some(Hinges::Frame(hinges)) => Ok(hinges.shear.clone()),

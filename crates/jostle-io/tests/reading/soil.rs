@@ -1,9 +1,7 @@
 //! Foundations on soil in model files: what is read, and what is refused with its line and a remedy.
 
-use std::path::Path;
-
 use jostle::{Soil, SoilCoupling};
-use jostle_io::{Format, Input, InputError, read_model_text};
+use jostle_testkit::files::read;
 
 const TWO: &str = r#"[soil]
 shear_wave_velocity = "200 m/s"
@@ -29,10 +27,6 @@ width = "30 mm"
 law = "linear"
 stiffness = "500 MN/m"
 "#;
-
-fn read(text: &str) -> Result<Input, InputError> {
-    read_model_text("model.toml", text, Format::Toml, Path::new(""))
-}
 
 #[test]
 fn soil_and_foundations_are_read() {

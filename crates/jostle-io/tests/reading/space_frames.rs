@@ -1,10 +1,8 @@
 //! Space frames: what a file says, and what is refused.
 
-use std::path::Path;
-
 use jostle::hysteresis::{Hysteresis, Side};
 use jostle::{SpaceFrame, SpacePlace, Structure, System, Tiers};
-use jostle_io::{Format, Input, read_model_text};
+use jostle_testkit::files::{read, refusal};
 
 const L_SHAPE: &str = r#"
 [[building]]
@@ -31,10 +29,6 @@ storeys = 2
 size = ["0.7 m", "0.5 m"]
 "#;
 
-fn read(text: &str) -> Result<Input, jostle_io::InputError> {
-    read_model_text("model.toml", text, Format::Toml, Path::new(""))
-}
-
 fn tiers(text: &str) -> Tiers {
     let input = read(text).unwrap_or_else(|error| panic!("{error}"));
     match &input.model.buildings[0].structure {
@@ -45,12 +39,6 @@ fn tiers(text: &str) -> Tiers {
 
 fn frame(text: &str) -> SpaceFrame {
     tiers(text).space_frame.expect("a space frame")
-}
-
-fn said(text: &str) -> String {
-    let error = read(text).err();
-    let error = error.unwrap_or_else(|| panic!("this should be refused:\n{text}"));
-    error.to_string()
 }
 
 fn count(frame: &SpaceFrame, of: fn(SpacePlace) -> bool) -> usize {
@@ -190,12 +178,12 @@ fn what_does_not_fit_is_refused_with_the_remedy() {
         ),
     ] {
         assert!(L_SHAPE.contains(from), "{from}");
-        let said = said(&L_SHAPE.replacen(from, to, 1));
+        let said = refusal(&L_SHAPE.replacen(from, to, 1));
         assert!(said.contains(expected), "{from} → {to}:\n{said}");
     }
     // A storey without columns, and one whose columns nothing carries.
     let all = format!("{L_SHAPE}\n[[building.column]]\nstoreys = 2\nomit = true\n");
-    assert!(said(&all).contains("leaves storey 2 without columns"));
+    assert!(refusal(&all).contains("leaves storey 2 without columns"));
     let loose = L_SHAPE
         .replace("beam_x = {", "beam_x = { storeys = 3, ")
         .replace("beam_y = {", "beam_y = { storeys = 3, ")
@@ -206,7 +194,7 @@ fn what_does_not_fit_is_refused_with_the_remedy() {
         .replace("beam_x = {", "beam_x = { storeys = 1, ")
         .replace("beam_y = {", "beam_y = { storeys = 1, ")
         + "\n[[building.column]]\nx = 1\ny = 1\nstoreys = 2\nomit = true\n";
-    let said = said(&loose);
+    let said = refusal(&loose);
     assert!(
         said.contains("no column or beam joins to the ground"),
         "{said}"
@@ -220,7 +208,7 @@ fn histories_name_members_of_the_grid() {
         assert!(read(&output(name)).is_ok(), "{name}");
     }
     for name in ["A.column.3.3.1", "A.beam.1.1", "A.column.1.1"] {
-        let said = said(&output(name));
+        let said = refusal(&output(name));
         assert!(said.contains("A.column.X.Y.STOREY"), "{said}");
     }
 }
@@ -298,10 +286,10 @@ fn hinges_are_those_of_members_and_planes() {
         ("column = [{ yield = 1e5, post_yield = 0.1 }]", "3"),
         ("colum = {}", "column"),
     ] {
-        let said = said(&hinges(text));
+        let said = refusal(&hinges(text));
         assert!(said.contains(expected), "{text}:\n{said}");
     }
     let without = L_SHAPE.to_owned()
         + "\n[[building.column]]\nsize = [\"0.7 m\", \"0.7 m\"]\nhinge = { yield = 1e5, post_yield = 0.1 }\n";
-    assert!(said(&without).contains("add hinges = { rule"));
+    assert!(refusal(&without).contains("add hinges = { rule"));
 }

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use jostle_io::{Format, Input, InputError, ModelTree, Overrides, TreeValue, read_model_text};
+use jostle_io::{Format, ModelTree, Overrides, TreeValue, read_model_text};
+use jostle_testkit::files::{read, refusal};
 
 const MODEL: &str = r#"
 [motion]
@@ -32,10 +33,6 @@ width = "50 mm"
 law = "hertz-damp"
 "#;
 
-fn read(text: &str) -> Result<Input, InputError> {
-    read_model_text("model.toml", text, Format::Toml, Path::new(""))
-}
-
 /// The model with one text replaced by another.
 fn with(from: &str, to: &str) -> String {
     assert!(MODEL.contains(from), "the model has no \"{from}\"");
@@ -49,13 +46,6 @@ fn warnings(text: &str) -> Vec<String> {
         .unwrap_or_else(|faults| panic!("{}", input.faults(faults)));
     input.note_system(&system);
     input.warnings
-}
-
-fn refusal(text: &str) -> String {
-    match read(text) {
-        Ok(_) => panic!("this should be refused:\n{text}"),
-        Err(error) => error.to_string(),
-    }
 }
 
 #[test]

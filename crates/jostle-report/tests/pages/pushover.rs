@@ -7,11 +7,10 @@ use jostle::pushover::{
 };
 use jostle::structure::Discretization;
 use jostle::system::BuildingSystem;
-use jostle::{
-    Axial, Building, Damping, Frame, FrameHinges, Gravity, Hinges, Joint, Section, Shear, Structure,
-};
+use jostle::{Building, Frame, FrameHinges, Gravity, Hinges, Section, Structure};
 use jostle_motion::Accelerogram;
 use jostle_report::{Demand, render_pushover};
+use jostle_testkit::models::{self, UNDAMPED, equal_storeys};
 
 /// A frame of two storeys and two unequal bays, under its weight.
 pub(crate) fn frame(name: &str) -> BuildingSystem {
@@ -32,21 +31,11 @@ pub(crate) fn frame(name: &str) -> BuildingSystem {
     let building = Building {
         name: name.to_owned(),
         structure: Structure::Frame(Frame {
-            storey_heights: vec![3.2; 2],
-            spans: vec![3.0, 6.0],
-            columns: vec![section; 2],
-            beams: vec![section; 2],
             beam_mass: vec![6000.0; 2],
-            floor_mass: vec![0.0; 2],
-            column_segments: 2,
             beam_segments: vec![4; 2],
-            axial: Axial::default(),
-            joint: Joint::default(),
+            ..models::frame(2, &[3.0, 6.0], section, section)
         }),
-        damping: Damping::Rayleigh {
-            alpha: 0.0,
-            beta: 0.0,
-        },
+        damping: UNDAMPED,
         hinges: Some(Hinges::Frame(FrameHinges {
             columns: vec![vec![hinge; 3]; 2],
             beams: vec![vec![hinge; 2]; 2],
@@ -104,15 +93,8 @@ fn an_elastic_building_pushed_in_its_first_mode_is_an_oscillator_of_its_first_pe
     let (mass, stiffness) = (4e4, 6e7);
     let building = Building {
         name: "S".into(),
-        structure: Structure::Shear(Shear {
-            mass: vec![mass; 2],
-            stiffness: vec![stiffness; 2],
-            storey_heights: vec![3.0; 2],
-        }),
-        damping: Damping::Rayleigh {
-            alpha: 0.0,
-            beta: 0.0,
-        },
+        structure: Structure::Shear(equal_storeys(2, [mass, stiffness])),
+        damping: UNDAMPED,
         ..Building::default()
     };
     let system = BuildingSystem::new("S", Discretization::new(&building));

@@ -8,31 +8,19 @@ use std::path::Path;
 use jostle::{Column, Settings};
 use jostle_io::{ComparisonMap, Format, MeasuredTable, history_names, read_model_text};
 use jostle_run::{Comparison, Measurements, Opened, prepare_comparison};
+use jostle_testkit::two_towers;
 
-const MODEL: &str = r#"
+const MODEL: &str = concat!(
+    r#"
 title = "Two towers"
 [motion]
 record = "el-centro-1940-ns"
 pga = "3 m/s2"
 duration = "12 s"
-[[building]]
-name = "A"
-kind = "shear"
-mass = ["40 t", "40 t", "40 t"]
-stiffness = ["20 MN/m", "20 MN/m", "20 MN/m"]
-storey_height = "3 m"
-[[building]]
-name = "B"
-kind = "shear"
-mass = ["60 t", "60 t"]
-stiffness = ["90 MN/m", "90 MN/m"]
-storey_height = "3 m"
-[[gap]]
-between = ["A", "B"]
-width = "20 mm"
-[analysis]
-tolerance = 1e-5
-"#;
+"#,
+    two_towers!(3, 2),
+    "[analysis]\ntolerance = 1e-5\n",
+);
 
 const MAP: &str = r#"
 table_acceleration = "A0"

@@ -5,3 +5,4 @@ mod member_capacity;
 mod registry;
 mod shear_failure;
 mod spectra_of_floors;
+mod support;

@@ -1,11 +1,12 @@
 //! From reinforced frames to the first member beyond its capacity: text, JSON, tables and report.
 
-use std::ops::ControlFlow;
 use std::path::Path;
 
-use jostle::{Column, EnergyTerm, Settings};
-use jostle_io::{Format, Values, read_model_text, summary_json};
-use jostle_run::{Content, Opened, Ran, summary_text};
+use jostle::{Column, EnergyTerm};
+use jostle_io::{Values, summary_json};
+use jostle_run::{Content, Ran, summary_text};
+
+use crate::support::ran;
 
 const MODEL: &str = r#"
 title = "Two reinforced frames, 10 mm apart"
@@ -49,13 +50,7 @@ restitution = 0.65
 
 fn run(more: &str, output: &str) -> Ran {
     let text = format!("{}{output}\n", MODEL.replace("MORE", more));
-    let input = read_model_text("model.toml", &text, Format::Toml, Path::new(""));
-    let opened = Opened::new(input.unwrap_or_else(|error| panic!("{error}")), "model");
-    let prepared = opened.unwrap_or_else(|error| panic!("{error}")).prepare();
-    let Ok(prepared) = prepared else {
-        panic!("not prepared")
-    };
-    prepared.run(Settings::default(), &mut |_, _| ControlFlow::Continue(()))
+    ran(&text)
 }
 
 /// Contacts on columns between floors: the recorded force is Hertz's law of the recorded closing, and columns keep their
@@ -69,13 +64,7 @@ fn histories_hold_the_closing_of_struck_columns() {
             .replace("restitution = 0.65", "")
             .replace("hertz-damp", "hertz")
             .replace("[output]", "");
-        let input = read_model_text("model.toml", &(text + &output), Format::Toml, Path::new(""));
-        let opened = Opened::new(input.unwrap_or_else(|error| panic!("{error}")), "model");
-        let prepared = opened.unwrap_or_else(|error| panic!("{error}")).prepare();
-        let Ok(prepared) = prepared else {
-            panic!("not prepared")
-        };
-        let ran = prepared.run(Settings::default(), &mut |_, _| ControlFlow::Continue(()));
+        let ran = ran(&(text + &output));
         let history = ran.outcome.history.as_ref().expect("recorded");
         let mut struck = 0;
         for (contact, one) in ran.prepared.system.contacts.iter().enumerate() {

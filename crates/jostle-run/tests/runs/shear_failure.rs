@@ -1,27 +1,18 @@
 //! Columns that fail in shear while their neighbour strikes them: text, JSON, tables and report.
 
-use std::ops::ControlFlow;
 use std::path::Path;
 
-use jostle::{Hinges, Settings};
-use jostle_io::{Format, read_model_text, summary_json};
-use jostle_run::{Content, Opened, Ran, summary_text};
+use jostle::Hinges;
+use jostle_io::summary_json;
+use jostle_run::{Content, summary_text};
+
+use crate::support::ran;
 
 const MODEL: &str = include_str!("../../../../examples/columns_that_fail_in_shear.toml");
 
-fn run(text: &str) -> Ran {
-    let input = read_model_text("model.toml", text, Format::Toml, Path::new(""));
-    let opened = Opened::new(input.unwrap_or_else(|error| panic!("{error}")), "model");
-    let prepared = opened.unwrap_or_else(|error| panic!("{error}")).prepare();
-    let Ok(prepared) = prepared else {
-        panic!("not prepared")
-    };
-    prepared.run(Settings::default(), &mut |_, _| ControlFlow::Continue(()))
-}
-
 #[test]
 fn failures_are_reported_with_their_impacts() {
-    let ran = run(&MODEL.replace("[motion]\n", "[motion]\nduration = \"8 s\"\n"));
+    let ran = ran(&MODEL.replace("[motion]\n", "[motion]\nduration = \"8 s\"\n"));
     let summary = ran.summary();
     assert_eq!(summary.ended_early, None);
     assert!(

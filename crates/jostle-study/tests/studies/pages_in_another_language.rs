@@ -6,29 +6,17 @@ use std::sync::LazyLock;
 use jostle_io::{Format, StudyFile};
 use jostle_report::message::{self, ENGLISH, Messages};
 use jostle_study::{RunSettings, Study, finish, run};
+use jostle_testkit::two_towers;
 
-const TOWERS: &str = r#"
+const TOWERS: &str = concat!(
+    r#"
 [motion]
 record = "el-centro-1940-ns"
 duration = "4 s"
-[[building]]
-name = "A"
-kind = "shear"
-mass = ["40 t", "40 t"]
-stiffness = ["20 MN/m", "20 MN/m"]
-storey_height = "3 m"
-[[building]]
-name = "B"
-kind = "shear"
-mass = ["60 t", "60 t"]
-stiffness = ["90 MN/m", "90 MN/m"]
-storey_height = "3 m"
-[[gap]]
-between = ["A", "B"]
-width = "20 mm"
-[analysis]
-tolerance = 0.01
-"#;
+"#,
+    two_towers!(2, 2),
+    "[analysis]\ntolerance = 0.01\n",
+);
 
 const GRID: &str = r#"
 base = "towers.toml"

@@ -7,29 +7,18 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use jostle_io::{Format, ModelTree};
 use jostle_study::size::{Over, SizeProblem, SizeProgress, SizeRequest, SizeResults};
 use jostle_study::{GapSettings, critical_gaps};
+use jostle_testkit::two_towers;
 
-const TOWERS: &str = r#"
+const TOWERS: &str = concat!(
+    r#"
 title = "Two towers"
 [motion]
 record = "el-centro-1940-ns"
 pga = "2 m/s2"
 duration = "8 s"
-[[building]]
-name = "A"
-kind = "shear"
-mass = ["40 t", "40 t"]
-stiffness = ["20 MN/m", "20 MN/m"]
-storey_height = "3 m"
-[[building]]
-name = "B"
-kind = "shear"
-mass = ["60 t", "60 t"]
-stiffness = ["90 MN/m", "90 MN/m"]
-storey_height = "3 m"
-[[gap]]
-between = ["A", "B"]
-width = "20 mm"
-"#;
+"#,
+    two_towers!(2, 2),
+);
 
 const DAMPED: &str = r#"
 [[link]]

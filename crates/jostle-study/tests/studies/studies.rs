@@ -9,30 +9,18 @@ use jostle::{Plan, Run, Settings, Summary, System, simulate};
 use jostle_io::{Format, Overrides, StudyFile, builtin_model, read_model_text};
 use jostle_study::dataset::read_columns;
 use jostle_study::{CaseCache, Done, RunSettings, Study, StudyError, run};
+use jostle_testkit::two_towers;
 
 /// Two small towers that are hit within a few seconds.
-const TOWERS: &str = r#"
+const TOWERS: &str = concat!(
+    r#"
 [motion]
 record = "el-centro-1940-ns"
 duration = "6 s"
-[[building]]
-name = "A"
-kind = "shear"
-mass = ["40 t", "40 t"]
-stiffness = ["20 MN/m", "20 MN/m"]
-storey_height = "3 m"
-[[building]]
-name = "B"
-kind = "shear"
-mass = ["60 t", "60 t"]
-stiffness = ["90 MN/m", "90 MN/m"]
-storey_height = "3 m"
-[[gap]]
-between = ["A", "B"]
-width = "20 mm"
-[analysis]
-tolerance = 0.01
-"#;
+"#,
+    two_towers!(2, 2),
+    "[analysis]\ntolerance = 0.01\n",
+);
 
 fn file(study: &str) -> Result<StudyFile, jostle_io::InputError> {
     let folder = tempfile::tempdir().unwrap_or_else(|error| panic!("{error}"));

@@ -2,15 +2,15 @@
 //! overturning changes moment and shear capacity at the instant of the moment itself.
 
 use std::f64::consts::PI;
-use std::ops::ControlFlow;
 
 use jostle::model::{CapacityLine, MemberCapacity, RuleCapacity, ShearCapacity};
 use jostle::results::summary::RatioSummary;
 use jostle::{
-    Analysis, Axial, Building, ContactLaw, Damping, Frame, Gap, GroundMotion, Joint, LawKind,
-    MemberRequest, Model, Plan, RestitutionIs, Section, Settings, Solver, Structure, Summary,
-    System, simulate,
+    Analysis, Building, ContactLaw, Frame, Gap, GroundMotion, LawKind, MemberRequest, Model,
+    RestitutionIs, Solver, Structure,
 };
+use jostle_testkit::models::{self, bending};
+use jostle_testkit::runs::run_and_summary;
 
 const HEIGHT: f64 = 4.0;
 const SPAN: f64 = 2.5;
@@ -24,32 +24,15 @@ const LOBES: [f64; 2] = [4.0, -2.7];
 const LASTS: f64 = 10.0;
 
 fn portal(name: &str) -> Building {
-    let section = |rigidity: f64| Section {
-        flexural_rigidity: rigidity,
-        axial_rigidity: None,
-        line_mass: 0.0,
-        shear_rigidity: None,
+    let frame = Frame {
+        storey_heights: vec![HEIGHT],
+        beam_mass: vec![0.0],
+        floor_mass: vec![MASS],
+        column_segments: 1,
+        beam_segments: vec![1],
+        ..models::frame(1, &[SPAN], bending(COLUMN), bending(BEAM))
     };
-    Building {
-        name: name.to_owned(),
-        structure: Structure::Frame(Frame {
-            storey_heights: vec![HEIGHT],
-            spans: vec![SPAN],
-            columns: vec![section(COLUMN)],
-            beams: vec![section(BEAM)],
-            beam_mass: vec![0.0],
-            floor_mass: vec![MASS],
-            column_segments: 1,
-            beam_segments: vec![1],
-            axial: Axial::default(),
-            joint: Joint::default(),
-        }),
-        damping: Damping::Ratio {
-            ratio: 0.05,
-            modes: Vec::new(),
-        },
-        ..Building::default()
-    }
+    models::building(name, Structure::Frame(frame))
 }
 
 /// Moment and shear capacity of straight lines over the compression \[N·m, N\].
@@ -113,20 +96,7 @@ fn ratios(
         },
         ..Model::default()
     };
-    let system = System::assemble(&model).expect("sound");
-    let plan = Plan::choose(&system, motion, &model.analysis).expect("planned");
-    let outcome = simulate(&system, motion, &plan, Settings::default(), |_| {
-        ControlFlow::Continue(())
-    });
-    let summary = Summary::new(&jostle::Run {
-        model: &model,
-        system: &system,
-        motion,
-        plan: &plan,
-        outcome: &outcome,
-        without_contact: None,
-        wall: 0.0,
-    });
+    let (_, _, summary) = run_and_summary(&model, motion);
     let members = summary.buildings[0].members.iter();
     members
         .filter(|member| member.name.contains("column"))

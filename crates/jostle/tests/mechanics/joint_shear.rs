@@ -1,17 +1,17 @@
 //! Shear in the cores of beam–column joints, against closed forms and against the forces of beams and columns of the same
 //! run, by two ways of stepping.
 
-use std::ops::ControlFlow;
-
 use jostle::linear::StepMatrix;
 use jostle::model::{CapacityLine, MemberCapacity, RuleCapacity, ShearCapacity};
 use jostle::stiffness::DirectStiffness;
 use jostle::structure::{MemberPlace, SectionAt, solve_once};
 use jostle::{
-    Analysis, Axial, Building, ContactLaw, Damping, Frame, Gap, GroundMotion, Joint, JointRequest,
-    LawKind, MemberRequest, Model, Outcome, Plan, RestitutionIs, RunEnd, Section, Settings, Solver,
-    State, Structure, Summary, System, simulate,
+    Analysis, Building, Frame, Gap, JointRequest, MemberRequest, Model, Outcome, Section, Solver,
+    State, Structure, Summary, System,
 };
+use jostle_testkit::models::{self, CONCRETE_REALISED};
+use jostle_testkit::motions::two_waves;
+use jostle_testkit::runs::run_and_summary;
 
 fn section(rigidity: f64) -> Section {
     Section {
@@ -30,26 +30,13 @@ fn building(
     rigidity: [f64; 2],
 ) -> Building {
     let [columns, beams] = rigidity;
-    Building {
-        name: name.to_owned(),
-        structure: Structure::Frame(Frame {
-            storey_heights: vec![height; storeys],
-            spans: spans.to_vec(),
-            columns: vec![section(columns); storeys],
-            beams: vec![section(beams); storeys],
-            beam_mass: vec![5000.0; storeys],
-            floor_mass: vec![9000.0; storeys],
-            column_segments: 2,
-            beam_segments: vec![2; spans.len()],
-            axial: Axial::default(),
-            joint: Joint::default(),
-        }),
-        damping: Damping::Ratio {
-            ratio: 0.05,
-            modes: Vec::new(),
-        },
-        ..Building::default()
-    }
+    let frame = Frame {
+        storey_heights: vec![height; storeys],
+        floor_mass: vec![9000.0; storeys],
+        beam_segments: vec![2; spans.len()],
+        ..models::frame(storeys, spans, section(columns), section(beams))
+    };
+    models::building(name, Structure::Frame(frame))
 }
 
 /// Half the depth of the columns, and the lever arms of beams on the left and on the right \[m\].
@@ -159,17 +146,11 @@ fn joints_of_a_portal_follow_its_closed_form() {
 }
 
 fn pair() -> Model {
-    let law = ContactLaw {
-        kind: LawKind::HertzDamp,
-        stiffness: 2e9,
-        restitution: 0.65,
-        restitution_is: RestitutionIs::Realised,
-    };
     let buildings = vec![
         building("A", 4, 3.2, &[6.0, 5.0], [1.5e8, 2e8]),
         building("B", 3, 3.2, &[5.0, 6.0], [4e8, 3e8]),
     ];
-    let mut model = model(buildings, vec![Gap::after(0, 0.01, law)]);
+    let mut model = model(buildings, vec![Gap::after(0, 0.01, CONCRETE_REALISED)]);
     let columns = [(0, 4), (1, 3)].into_iter().flat_map(|(index, storeys)| {
         let name = ["A", "B"][index];
         (1..=storeys).flat_map(move |storey| {
@@ -182,35 +163,9 @@ fn pair() -> Model {
 }
 
 fn run(model: &Model, solver: Solver) -> (System, Outcome, Summary) {
-    let system = System::assemble(model).expect("sound");
-    let wave = (0..=200).map(|i| {
-        let t = 0.01 * f64::from(i);
-        4.0 * (7.0 * t).sin() + 2.0 * (23.0 * t).cos()
-    });
-    let motion = GroundMotion::sampled("two sines", 0.01, wave.collect());
-    let analysis = Analysis {
-        solver: Some(solver),
-        ..model.analysis.clone()
-    };
-    let plan = Plan::choose(&system, &motion, &analysis).expect("planned");
-    let settings = Settings {
-        record_interval: Some(0.0),
-        ..Settings::default()
-    };
-    let outcome = simulate(&system, &motion, &plan, settings, |_| {
-        ControlFlow::Continue(())
-    });
-    assert_eq!(outcome.end, RunEnd::Completed);
-    let summary = Summary::new(&jostle::Run {
-        model,
-        system: &system,
-        motion: &motion,
-        plan: &plan,
-        outcome: &outcome,
-        without_contact: None,
-        wall: 0.0,
-    });
-    (system, outcome, summary)
+    let mut model = model.clone();
+    model.analysis.solver = Some(solver);
+    run_and_summary(&model, &two_waves(200))
 }
 
 /// Greatest shear of every joint, and its greatest ratios by both rules, from the recorded forces of beams and columns.

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use crate::imports::{collect, imports};
+use jostle_testkit::imports::{collect, imports};
 
 /// From the bottom up. A module may import from those above it in this list, never from those below.
 const LAYERS: [&str; 22] = [

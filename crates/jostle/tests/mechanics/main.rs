@@ -2,7 +2,6 @@
 
 mod column_capacity_by_hand;
 mod hysteresis;
-mod imports;
 mod joint_shear;
 mod layers;
 mod member_cost;

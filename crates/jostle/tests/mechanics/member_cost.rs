@@ -4,52 +4,31 @@ use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use jostle::{
-    Analysis, Axial, Building, ContactLaw, Damping, Frame, Gap, GroundMotion, Joint, LawKind,
-    MemberRequest, Model, Plan, RestitutionIs, Section, Settings, Solver, Structure, System,
-    simulate,
+    Analysis, Building, Frame, Gap, GroundMotion, MemberRequest, Model, Plan, Section, Settings,
+    Solver, Structure, System, simulate,
 };
+use jostle_testkit::models::{self, CONCRETE_REALISED, bending};
 
 fn building(name: &str, storeys: usize) -> Building {
     let section = |rigidity: f64| Section {
-        flexural_rigidity: rigidity,
-        axial_rigidity: None,
         line_mass: 625.0,
-        shear_rigidity: None,
+        ..bending(rigidity)
     };
-    Building {
-        name: name.to_owned(),
-        structure: Structure::Frame(Frame {
-            storey_heights: vec![3.2; storeys],
-            spans: vec![2.4, 6.0],
-            columns: vec![section(1.56e8); storeys],
-            beams: vec![section(1.62e8); storeys],
-            beam_mass: vec![3600.0; storeys],
-            floor_mass: vec![0.0; storeys],
-            column_segments: 4,
-            beam_segments: vec![3, 7],
-            axial: Axial::default(),
-            joint: Joint::default(),
-        }),
-        damping: Damping::Ratio {
-            ratio: 0.05,
-            modes: Vec::new(),
-        },
-        ..Building::default()
-    }
+    let frame = Frame {
+        beam_mass: vec![3600.0; storeys],
+        column_segments: 4,
+        beam_segments: vec![3, 7],
+        ..models::frame(storeys, &[2.4, 6.0], section(1.56e8), section(1.62e8))
+    };
+    models::building(name, Structure::Frame(frame))
 }
 
 /// Frames of five and ten storeys, 100 mm apart.
 fn model(members: MemberRequest) -> Model {
-    let law = ContactLaw {
-        kind: LawKind::HertzDamp,
-        stiffness: 2e9,
-        restitution: 0.65,
-        restitution_is: RestitutionIs::Realised,
-    };
     Model {
         title: "Five and ten storeys".to_owned(),
         buildings: vec![building("J1", 5), building("J2", 10)],
-        gaps: vec![Gap::after(0, 0.03, law)],
+        gaps: vec![Gap::after(0, 0.03, CONCRETE_REALISED)],
         analysis: Analysis {
             members,
             ..Analysis::default()

@@ -1,69 +1,35 @@
 //! Forces at the ends and struck points of columns and beams, against equilibrium and closed forms.
 
-use std::ops::ControlFlow;
-
 use jostle::linear::StepMatrix;
 use jostle::stiffness::DirectStiffness;
 use jostle::structure::{MemberPlace, SectionAt, solve_once};
 use jostle::{
-    Analysis, Axial, Building, ContactLaw, Damping, FloorPairs, Frame, Gap, Gravity, GroundMotion,
-    Joint, LawKind, Level, Link, MemberRequest, Model, Outcome, Plan, RestitutionIs, RunEnd,
-    Section, Settings, Solver, State, Structure, System, simulate,
+    Analysis, Axial, Building, FloorPairs, Frame, Gap, Gravity, Level, Link, MemberRequest, Model,
+    Outcome, Section, Solver, State, Structure, System,
 };
+use jostle_testkit::models::{self, CONCRETE_REALISED, bending};
+use jostle_testkit::motions::two_waves;
+use jostle_testkit::runs;
 
 const GRAVITY: f64 = 9.806_65;
 
 fn section(rigidity: f64) -> Section {
     Section {
-        flexural_rigidity: rigidity,
         axial_rigidity: Some(4e9),
         line_mass: 600.0,
-        shear_rigidity: None,
+        ..bending(rigidity)
     }
 }
 
 fn frame(storeys: usize, spans: &[f64]) -> Frame {
     Frame {
-        storey_heights: vec![3.2; storeys],
-        spans: spans.to_vec(),
-        columns: vec![section(1.5e8); storeys],
-        beams: vec![section(2.0e8); storeys],
-        beam_mass: vec![5000.0; storeys],
         floor_mass: vec![9000.0; storeys],
-        column_segments: 2,
-        beam_segments: vec![3; spans.len()],
-        axial: Axial::default(),
-        joint: Joint::default(),
+        ..models::frame(storeys, spans, section(1.5e8), section(2.0e8))
     }
 }
 
 fn building(name: &str, frame: Frame) -> Building {
-    Building {
-        name: name.to_owned(),
-        structure: Structure::Frame(frame),
-        damping: Damping::Ratio {
-            ratio: 0.05,
-            modes: Vec::new(),
-        },
-        ..Building::default()
-    }
-}
-
-fn law() -> ContactLaw {
-    ContactLaw {
-        kind: LawKind::HertzDamp,
-        stiffness: 2e9,
-        restitution: 0.65,
-        restitution_is: RestitutionIs::Realised,
-    }
-}
-
-fn motion() -> GroundMotion {
-    let wave = (0..=300).map(|i| {
-        let t = 0.01 * f64::from(i);
-        4.0 * (7.0 * t).sin() + 2.0 * (23.0 * t).cos()
-    });
-    GroundMotion::sampled("two sines", 0.01, wave.collect())
+    models::building(name, Structure::Frame(frame))
 }
 
 /// Floors of the right building strike columns of the left one between its floors.
@@ -81,7 +47,7 @@ fn neighbours() -> Model {
                 [Level::Floor(3), Level::Height(9.6)],
                 [Level::Height(10.9), Level::Floor(3)],
             ]),
-            ..Gap::after(0, 0.005, law())
+            ..Gap::after(0, 0.005, CONCRETE_REALISED)
         }],
         analysis: Analysis {
             members: MemberRequest::all(),
@@ -92,23 +58,11 @@ fn neighbours() -> Model {
 }
 
 fn run(model: &Model, solver: Solver, until: f64) -> (System, Outcome) {
-    let system = System::assemble(model).expect("sound");
-    let mut motion = motion();
+    let mut motion = two_waves(300);
     motion.duration = until;
-    let analysis = Analysis {
-        solver: Some(solver),
-        ..model.analysis.clone()
-    };
-    let plan = Plan::choose(&system, &motion, &analysis).expect("planned");
-    let settings = Settings {
-        record_interval: Some(0.0),
-        ..Settings::default()
-    };
-    let outcome = simulate(&system, &motion, &plan, settings, |_| {
-        ControlFlow::Continue(())
-    });
-    assert_eq!(outcome.end, RunEnd::Completed);
-    (system, outcome)
+    let mut model = model.clone();
+    model.analysis.solver = Some(solver);
+    runs::run(&model, &motion, Some(0.0))
 }
 
 /// All forces of a building: member by member, section by section.
@@ -333,7 +287,7 @@ fn every_joint_and_struck_point_is_in_equilibrium() {
                 &system,
                 &elastic,
                 state,
-                motion().acceleration(until),
+                two_waves(300).acceleration(until),
             ));
         }
         assert!(worst < 1e-9, "{name}: {worst:e}");
@@ -353,7 +307,7 @@ fn portal(columns: f64, beam: f64, height: f64, span: f64) -> System {
         let pair = between.map(|side| if side.is_some() { middle } else { Level::Wall });
         Gap {
             floors: FloorPairs::Listed(vec![pair]),
-            ..Gap::between(between, 0.02, law())
+            ..Gap::between(between, 0.02, CONCRETE_REALISED)
         }
     };
     let model = Model {

@@ -4,35 +4,26 @@ use std::ops::ControlFlow;
 
 use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
 use jostle::{
-    Building, ContactLaw, Damping, FloorPairs, Gap, GroundMotion, Isolation, Isolator, LawKind,
-    Level, Link, LinkLaw, Model, Plan, Pounding, RestitutionIs, Settings, Shear, Solver,
-    SpeedFriction, Stop, Structure, System, Wall, simulate,
+    Building, Damping, FloorPairs, Gap, GroundMotion, Isolation, Isolator, LawKind, Level, Link,
+    LinkLaw, Model, Plan, Pounding, Settings, Solver, SpeedFriction, Stop, Structure, System, Wall,
+    simulate,
 };
+use jostle_testkit::models::{CONCRETE, equal_storeys};
 
 fn towers() -> Model {
     let tower = |name: &str, mass: f64, stiffness: f64| Building {
         name: name.into(),
-        structure: Structure::Shear(Shear {
-            mass: vec![mass; 4],
-            stiffness: vec![stiffness; 4],
-            storey_heights: vec![3.0; 4],
-        }),
+        structure: Structure::Shear(equal_storeys(4, [mass, stiffness])),
         damping: Damping::Ratio {
             ratio: 0.05,
             modes: vec![1, 2],
         },
         ..Building::default()
     };
-    let law = ContactLaw {
-        kind: LawKind::HertzDamp,
-        stiffness: 2e9,
-        restitution: 0.65,
-        restitution_is: RestitutionIs::Input,
-    };
     Model {
         title: "towers".into(),
         buildings: vec![tower("soft", 4e4, 2e7), tower("stiff", 6e4, 9e7)],
-        gaps: vec![Gap::after(0, 0.03, law)],
+        gaps: vec![Gap::after(0, 0.03, CONCRETE)],
         ..Model::default()
     }
 }

@@ -3,11 +3,8 @@
 use jostle::linear::SparseSymmetric;
 use jostle::{ModelFault, System};
 use jostle_export::{Export, Exported, openseespy};
-use jostle_io::{Format, Input, read_model_text};
-
-pub(crate) fn model(text: &str) -> Input {
-    read_model_text("test", text, Format::Toml, "".as_ref()).expect("a sound model")
-}
+use jostle_io::Input;
+pub(crate) use jostle_testkit::files::sound as model;
 
 pub(crate) fn export(input: &Input) -> Result<Exported, Vec<ModelFault>> {
     let system = System::assemble(&input.model).expect("a sound model");

@@ -1,20 +1,16 @@
 //! Pages without scripts of their own turn dark and fit a phone.
 
-use jostle::contact::{ContactLaw, FreeCollision, LawKind, RestitutionIs};
+use jostle::contact::{ContactLaw, FreeCollision, LawKind};
 use jostle_report::{
     CollidedLaw, Collisions, StudyPage, render_collisions, render_method, render_sections,
     render_study,
 };
 use jostle_testkit::browser::open_page;
+use jostle_testkit::models::CONCRETE;
 
 fn collisions() -> Collisions {
     let laws = [LawKind::Hertz, LawKind::HertzDamp].map(|kind| {
-        let law = ContactLaw {
-            kind,
-            stiffness: 2e9,
-            restitution: 0.65,
-            restitution_is: RestitutionIs::Input,
-        };
+        let law = ContactLaw { kind, ..CONCRETE };
         let collision = FreeCollision::new(&law.between(2e5, 3e5), 2e5, 3e5, 0.5);
         CollidedLaw { law, collision }
     });

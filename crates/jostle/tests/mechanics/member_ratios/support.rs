@@ -1,48 +1,31 @@
 //! Two frames whose floors strike columns, capacities that depend on the axial force, and runs.
 
-use std::ops::ControlFlow;
-
 use jostle::model::{
     CapacityLine, MemberCapacity, RotationLimits, RotationMeasure, RuleCapacity, ShearCapacity,
 };
 use jostle::{
-    Analysis, Axial, Building, ContactLaw, Damping, FloorPairs, Frame, Gap, GroundMotion, Joint,
-    LawKind, Level, MemberRequest, Model, Outcome, Plan, RestitutionIs, RunEnd, Section, Settings,
-    Solver, Structure, Summary, System, simulate,
+    Analysis, Building, FloorPairs, Frame, Gap, Level, MemberRequest, Model, Outcome, Section,
+    Solver, Structure, Summary, System,
 };
+use jostle_testkit::models::{self, CONCRETE_REALISED, bending};
+use jostle_testkit::motions::two_waves;
+use jostle_testkit::runs::run_and_summary;
 
 fn section(rigidity: f64) -> Section {
     Section {
-        flexural_rigidity: rigidity,
         axial_rigidity: Some(4e9),
         line_mass: 600.0,
-        shear_rigidity: None,
+        ..bending(rigidity)
     }
 }
 
 pub(crate) fn building(name: &str, storeys: usize, first: f64, rigidity: f64) -> Building {
-    let mut heights = vec![3.2; storeys];
-    heights[0] = first;
-    Building {
-        name: name.to_owned(),
-        structure: Structure::Frame(Frame {
-            storey_heights: heights,
-            spans: vec![6.0, 5.0],
-            columns: vec![section(rigidity); storeys],
-            beams: vec![section(2.0e8); storeys],
-            beam_mass: vec![5000.0; storeys],
-            floor_mass: vec![9000.0; storeys],
-            column_segments: 2,
-            beam_segments: vec![3; 2],
-            axial: Axial::default(),
-            joint: Joint::default(),
-        }),
-        damping: Damping::Ratio {
-            ratio: 0.05,
-            modes: Vec::new(),
-        },
-        ..Building::default()
-    }
+    let mut frame = Frame {
+        floor_mass: vec![9000.0; storeys],
+        ..models::frame(storeys, &[6.0, 5.0], section(rigidity), section(2.0e8))
+    };
+    frame.storey_heights[0] = first;
+    models::building(name, Structure::Frame(frame))
 }
 
 /// Capacities that depend on the axial force, with another rule beside the governing one.
@@ -116,16 +99,7 @@ pub(crate) fn model() -> Model {
                 [Level::Height(4.5), Level::Floor(1)],
                 [Level::Height(7.7), Level::Floor(2)],
             ]),
-            ..Gap::after(
-                0,
-                0.005,
-                ContactLaw {
-                    kind: LawKind::HertzDamp,
-                    stiffness: 2e9,
-                    restitution: 0.65,
-                    restitution_is: RestitutionIs::Realised,
-                },
-            )
+            ..Gap::after(0, 0.005, CONCRETE_REALISED)
         }],
         analysis: Analysis {
             members,
@@ -140,34 +114,9 @@ pub(crate) fn run(model: &Model, solver: Solver) -> (System, Outcome, Summary) {
 }
 
 pub(crate) fn run_until(model: &Model, solver: Solver, until: f64) -> (System, Outcome, Summary) {
-    let system = System::assemble(model).expect("sound");
-    let wave = (0..=200).map(|i| {
-        let t = 0.01 * f64::from(i);
-        4.0 * (7.0 * t).sin() + 2.0 * (23.0 * t).cos()
-    });
-    let mut motion = GroundMotion::sampled("two sines", 0.01, wave.collect());
+    let mut motion = two_waves(200);
     motion.duration = until;
-    let analysis = Analysis {
-        solver: Some(solver),
-        ..model.analysis.clone()
-    };
-    let plan = Plan::choose(&system, &motion, &analysis).expect("planned");
-    let settings = Settings {
-        record_interval: Some(0.0),
-        ..Settings::default()
-    };
-    let outcome = simulate(&system, &motion, &plan, settings, |_| {
-        ControlFlow::Continue(())
-    });
-    assert_eq!(outcome.end, RunEnd::Completed);
-    let summary = Summary::new(&jostle::Run {
-        model,
-        system: &system,
-        motion: &motion,
-        plan: &plan,
-        outcome: &outcome,
-        without_contact: None,
-        wall: 0.0,
-    });
-    (system, outcome, summary)
+    let mut model = model.clone();
+    model.analysis.solver = Some(solver);
+    run_and_summary(&model, &motion)
 }

@@ -4,7 +4,10 @@ use jostle::eigen::{Mode, modes_dense};
 use jostle::linear::NotPositive;
 use jostle::structure::{Discretization, Hinge, Member, Node, Spring, StickModel, Support};
 use jostle::system::BuildingSystem;
-use jostle::{Axial, Building, Damping, Frame, Joint, Section, Structure};
+use jostle::{Building, Frame, Joint, Structure};
+use jostle_testkit::models;
+use jostle_testkit::models::UNDAMPED;
+pub(crate) use jostle_testkit::models::concrete as section;
 use nalgebra::DMatrix;
 use serde_json::Value;
 
@@ -129,32 +132,16 @@ pub(crate) fn tower(storeys: usize, mass: f64, stiffness: f64) -> BuildingSystem
     stacks(&[&vec![(mass, stiffness); storeys]])
 }
 
-pub(crate) fn section(width: f64, depth: f64) -> Section {
-    let (modulus, density) = (3e10, 2500.0);
-    Section {
-        flexural_rigidity: modulus * width * depth.powi(3) / 12.0,
-        axial_rigidity: Some(modulus * width * depth),
-        line_mass: density * width * depth,
-        shear_rigidity: None,
-    }
-}
-
 /// A regular frame with elastic joints.
 pub(crate) fn frame(storeys: usize, spans: &[f64]) -> Frame {
     Frame {
-        storey_heights: vec![3.2; storeys],
-        spans: spans.to_vec(),
-        columns: vec![section(0.6, 0.6); storeys],
-        beams: vec![section(0.3, 0.6); storeys],
-        beam_mass: vec![5000.0; storeys],
-        floor_mass: vec![0.0; storeys],
         column_segments: 3,
         beam_segments: vec![4; spans.len()],
-        axial: Axial::default(),
         joint: Joint {
             rotational_stiffness: Some(2e9),
             ..Joint::default()
         },
+        ..models::frame(storeys, spans, section(0.6, 0.6), section(0.3, 0.6))
     }
 }
 
@@ -162,10 +149,7 @@ pub(crate) fn framed(frame: Frame) -> BuildingSystem {
     let building = Building {
         name: "frame".to_owned(),
         structure: Structure::Frame(frame),
-        damping: Damping::Rayleigh {
-            alpha: 0.0,
-            beta: 0.0,
-        },
+        damping: UNDAMPED,
         ..Building::default()
     };
     BuildingSystem::new("frame", Discretization::new(&building))

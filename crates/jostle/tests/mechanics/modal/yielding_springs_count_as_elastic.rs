@@ -4,7 +4,8 @@ use jostle::eigen::modes;
 use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
 use jostle::structure::Discretization;
 use jostle::system::BuildingSystem;
-use jostle::{Base, Building, Damping, Frame, FrameHinges, Hinges, Joint, Structure};
+use jostle::{Base, Building, Frame, FrameHinges, Hinges, Joint, Structure};
+use jostle_testkit::models::UNDAMPED;
 
 use crate::modal::support::{frame, framed, library_modes};
 
@@ -19,10 +20,7 @@ fn hinged(frame: Frame, columns: Option<f64>, beams: f64, base: Base) -> Buildin
     let building = Building {
         name: "hinged".to_owned(),
         structure: Structure::Frame(frame),
-        damping: Damping::Rayleigh {
-            alpha: 0.0,
-            beta: 0.0,
-        },
+        damping: UNDAMPED,
         base,
         hinges: Some(Hinges::Frame(FrameHinges {
             columns: columns.map_or_else(Vec::new, |k| vec![vec![hinge(k); bays + 1]; storeys]),

@@ -4,9 +4,9 @@ use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
 use jostle::pushover::{LoadPattern, PushDirection, PushSettings, Pushover, pushover};
 use jostle::structure::Discretization;
 use jostle::system::BuildingSystem;
-use jostle::{
-    Axial, Building, Damping, Frame, FrameHinges, Gravity, Hinges, Joint, Section, Shear, Structure,
-};
+use jostle::{Building, Frame, FrameHinges, Gravity, Hinges, Section, Shear, Structure};
+use jostle_testkit::compare::near;
+use jostle_testkit::models::{self, UNDAMPED, bending};
 
 /// A hinge with the same corners on both sides.
 pub(crate) fn hinge(rule: HysteresisRule, initial: f64, corners: Corners) -> Hysteresis {
@@ -35,26 +35,18 @@ pub(crate) fn trilinear(rule: HysteresisRule, initial: f64, strength: f64) -> Hy
 
 pub(crate) fn section(flexural_rigidity: f64) -> Section {
     Section {
-        flexural_rigidity,
         axial_rigidity: Some(8e9),
-        line_mass: 0.0,
-        shear_rigidity: None,
+        ..bending(flexural_rigidity)
     }
 }
 
 /// A regular frame of storeys 3.2 m high; columns have no mass.
 pub(crate) fn frame(storeys: usize, spans: &[f64], beam_mass: f64) -> Frame {
     Frame {
-        storey_heights: vec![3.2; storeys],
-        spans: spans.to_vec(),
-        columns: vec![section(1.2e8); storeys],
-        beams: vec![section(1.5e8); storeys],
         beam_mass: vec![beam_mass; storeys],
-        floor_mass: vec![0.0; storeys],
         column_segments: 1,
         beam_segments: vec![4; spans.len()],
-        axial: Axial::default(),
-        joint: Joint::default(),
+        ..models::frame(storeys, spans, section(1.2e8), section(1.5e8))
     }
 }
 
@@ -73,10 +65,7 @@ pub(crate) fn hinged(
     Building {
         name: "frame".into(),
         structure: Structure::Frame(frame),
-        damping: Damping::Rayleigh {
-            alpha: 0.0,
-            beta: 0.0,
-        },
+        damping: UNDAMPED,
         hinges: Some(Hinges::Frame(hinges)),
         ..Building::default()
     }
@@ -86,10 +75,7 @@ pub(crate) fn storeys(shear: Shear, springs: Vec<Hysteresis>) -> Building {
     Building {
         name: "shear".into(),
         structure: Structure::Shear(shear),
-        damping: Damping::Rayleigh {
-            alpha: 0.0,
-            beta: 0.0,
-        },
+        damping: UNDAMPED,
         hinges: Some(Hinges::Storeys(springs)),
         ..Building::default()
     }
@@ -136,9 +122,5 @@ pub(crate) fn shear_at(curve: &Pushover, roof: f64) -> f64 {
 
 #[track_caller]
 pub(crate) fn close(got: f64, expected: f64, tolerance: f64) {
-    assert!(
-        (got - expected).abs() <= tolerance * expected.abs(),
-        "{got} instead of {expected}: {:.1e} off",
-        (got / expected - 1.0).abs()
-    );
+    near(got, expected, tolerance, "value");
 }

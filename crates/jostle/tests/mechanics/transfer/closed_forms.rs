@@ -7,6 +7,7 @@ use jostle::transfer::{
     BeamSegment, ElementwiseRiccati, Heading, LumpedMass, PlanarHinge, ProductEquations,
     StateVector, Transfer, one_in_two_out, two_in_one_out,
 };
+use jostle_testkit::compare::near;
 
 use crate::transfer::support::{COLUMN, Variant, difference, frame, solution};
 
@@ -28,14 +29,6 @@ fn three_unknowns(left_over: impl Fn([f64; 3]) -> [f64; 3]) -> [f64; 3] {
         changed[k] = constant.map(|value| -value);
         determinant(changed) / whole
     })
-}
-
-fn near(got: f64, expected: f64, tolerance: f64, what: &str) {
-    let apart = (got - expected).abs() / expected.abs();
-    assert!(
-        apart <= tolerance,
-        "{what}: {got:e} instead of {expected:e}"
-    );
 }
 
 #[test]

@@ -3,10 +3,9 @@
 use jostle::structure::Discretization;
 use jostle::structure::StepEquations;
 use jostle::system::BuildingSystem;
-use jostle::{Axial, Building, Damping, Frame, Joint, Section, Shear, Structure};
+use jostle::{Axial, Building, Frame, Joint, Shear, Structure};
+use jostle_testkit::models::{self, UNDAMPED, concrete};
 
-/// Young's modulus of the concrete \[Pa\].
-const MODULUS: f64 = 3e10;
 /// Depth of the square columns unless said otherwise \[m\].
 pub(crate) const COLUMN: f64 = 0.5;
 
@@ -35,23 +34,12 @@ pub(crate) const VARIANTS: [Variant; 7] = [
 /// Storeys of 3.2 m, four segments per storey and per beam, floors that carry 6 kPa over 3 m, hinges at the beam
 /// ends.
 pub(crate) fn frame(variant: Variant, spans: &[f64], storeys: usize, depth: f64) -> BuildingSystem {
-    let section = |width: f64, depth: f64| Section {
-        flexural_rigidity: MODULUS * width * depth.powi(3) / 12.0,
-        axial_rigidity: Some(MODULUS * width * depth),
-        line_mass: 2500.0 * width * depth,
-        shear_rigidity: None,
-    };
-    let beam = section(0.3, 0.6);
+    let beam = concrete(0.3, 0.6);
     let flexible = [Variant::FlexibleMembers, Variant::Timoshenko].contains(&variant);
     let building = Building {
         name: format!("{variant:?}"),
         structure: Structure::Frame(Frame {
-            storey_heights: vec![3.2; storeys],
-            spans: spans.to_vec(),
-            columns: vec![section(depth, depth); storeys],
-            beams: vec![beam; storeys],
             beam_mass: vec![beam.line_mass + 6000.0 * 3.0 / 9.81; storeys],
-            floor_mass: vec![0.0; storeys],
             column_segments: 4,
             beam_segments: vec![4; spans.len()],
             axial: Axial {
@@ -62,11 +50,9 @@ pub(crate) fn frame(variant: Variant, spans: &[f64], storeys: usize, depth: f64)
                 rotational_stiffness: (variant != Variant::NoHinges).then_some(1.0),
                 ..Joint::default()
             },
+            ..models::frame(storeys, spans, concrete(depth, depth), beam)
         }),
-        damping: Damping::Rayleigh {
-            alpha: 0.0,
-            beta: 0.0,
-        },
+        damping: UNDAMPED,
         ..Building::default()
     };
     let mut discretization = Discretization::new(&building);
@@ -114,10 +100,7 @@ pub(crate) fn tower(storeys: usize) -> BuildingSystem {
             stiffness: (0..storeys).map(|k| 3e8 - 1e7 * k as f64).collect(),
             storey_heights: vec![3.0; storeys],
         }),
-        damping: Damping::Rayleigh {
-            alpha: 0.0,
-            beta: 0.0,
-        },
+        damping: UNDAMPED,
         ..Building::default()
     };
     BuildingSystem::new(&building.name, Discretization::new(&building))

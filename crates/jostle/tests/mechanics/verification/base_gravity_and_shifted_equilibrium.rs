@@ -14,6 +14,7 @@ use jostle::transfer::{ElementwiseRiccati, ProductEquations};
 use jostle::{
     Base, Building, Column, Damping, Gravity, Integrator, LawKind, RiccatiSweep, Structure, System,
 };
+use jostle_testkit::models::UNDAMPED;
 use nalgebra::{DMatrix, DVector};
 
 use crate::verification::support::{
@@ -293,10 +294,7 @@ fn a_stiff_frame_rocks_on_its_base() {
     }
     (stiff.beam_mass, stiff.floor_mass) = (vec![0.0], vec![8e4]);
     let mut building = framed("rocking", stiff);
-    building.damping = Damping::Rayleigh {
-        alpha: 0.0,
-        beta: 0.0,
-    };
+    building.damping = UNDAMPED;
     building.base = Base {
         vertical_stiffness: Some(5e7),
         rotational_stiffness: Some(1e2),
@@ -318,10 +316,7 @@ fn a_stiff_frame_rocks_on_its_base() {
 fn a_dashpot_takes_what_it_should() {
     // A storey so stiff that it rides on its base: free vibration with ζ = c/(2 √(k m)).
     let mut building = tower("rider", 1, 1e5, 1e-3);
-    building.damping = Damping::Rayleigh {
-        alpha: 0.0,
-        beta: 0.0,
-    };
+    building.damping = UNDAMPED;
     let (mass, stiffness, ratio) = (1e5_f64, 4e6_f64, 0.1_f64);
     let frequency = (stiffness / mass).sqrt();
     building.base.horizontal_stiffness = Some(stiffness);
@@ -440,10 +435,7 @@ fn an_integrator_that_dissipates_spoils_the_rebound() {
     let towers = || vec![tower("a", 1, 1e5, 0.4), tower("b", 1, 2e5, 1.1)];
     let mut model = row(towers(), 0.005, law(LawKind::Hertz, 1.0));
     for building in &mut model.buildings {
-        building.damping = Damping::Rayleigh {
-            alpha: 0.0,
-            beta: 0.0,
-        };
+        building.damping = UNDAMPED;
     }
     let system = assembled(&model);
     let taken = |integrator: Integrator| {

@@ -1,19 +1,17 @@
 //! Corners that pass each other, and corners that slide off edges.
 
 use std::f64::consts::PI;
-use std::ops::ControlFlow;
 
 use jostle::{
-    Analysis, Bearing, Building, ContactLaw, Damping, Gap, GroundMotion, Impact, LawKind, Model,
-    Outcome, Plan, PlanPoint, RestitutionIs, Settings, Solver, Structure, System, Tier, TierStorey,
-    Tiers, Wave, simulate,
+    Analysis, Bearing, Building, ContactLaw, Damping, Gap, GroundMotion, Impact, Model, Outcome,
+    PlanPoint, Solver, Structure, System, Tier, TierStorey, Tiers, Wave,
 };
+use jostle_testkit::models::{CONCRETE, rectangle};
+use jostle_testkit::runs;
 
 const LAW: ContactLaw = ContactLaw {
-    kind: LawKind::HertzDamp,
     stiffness: 1.5e9,
-    restitution: 0.65,
-    restitution_is: RestitutionIs::Input,
+    ..CONCRETE
 };
 
 /// A site turned by an angle about the origin.
@@ -86,10 +84,6 @@ impl Site {
     }
 }
 
-fn rectangle(x: f64, y: f64, a: f64, b: f64) -> Vec<PlanPoint> {
-    vec![[x, y], [x + a, y], [x + a, y + b], [x, y + b]]
-}
-
 fn run(buildings: Vec<Building>, gaps: Vec<Gap>, site: Site, tolerance: f64) -> (System, Outcome) {
     let model = Model {
         title: "corners".to_owned(),
@@ -102,16 +96,7 @@ fn run(buildings: Vec<Building>, gaps: Vec<Gap>, site: Site, tolerance: f64) -> 
         },
         ..Model::default()
     };
-    let system = System::assemble(&model).unwrap_or_else(|faults| panic!("{faults:?}"));
-    let motion = site.motion();
-    let plan = Plan::choose(&system, &motion, &model.analysis).expect("modal stepping");
-    let settings = Settings {
-        record_interval: None,
-        ..Settings::default()
-    };
-    let outcome = simulate(&system, &motion, &plan, settings, |_| {
-        ControlFlow::Continue(())
-    });
+    let (system, outcome) = runs::run(&model, &site.motion(), None);
     assert!(outcome.energy.worst_imbalance < 1e-10);
     (system, outcome)
 }

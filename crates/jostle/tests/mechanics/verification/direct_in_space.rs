@@ -1,64 +1,17 @@
 //! Buildings in space by direct steps: the same peaks as by their modes, and the same steps by two eliminations.
 
-use std::ops::ControlFlow;
-
 use jostle::{
-    Analysis, Bearing, Building, ContactLaw, Damping, Gap, GroundMotion, LawKind, Model, Outcome,
-    Plan, PlanArea, PlanPoint, RestitutionIs, Settings, Solver, Structure, System, Tier,
-    TierStorey, Tiers, simulate,
+    Analysis, Bearing, ContactLaw, Gap, GroundMotion, LawKind, Model, Outcome, Plan, Solver, System,
 };
+use jostle_testkit::models::{CONCRETE, rectangle};
+use jostle_testkit::motions::fading;
+use jostle_testkit::runs::{assembled, completed, planned};
 
-const LAW: ContactLaw = ContactLaw {
-    kind: LawKind::HertzDamp,
-    stiffness: 2e9,
-    restitution: 0.65,
-    restitution_is: RestitutionIs::Input,
-};
+use super::space::tower;
 
 /// A shaking without symmetry, 6 s long.
 fn shaking(name: &str, rate: f64) -> GroundMotion {
-    let at = |i: u32| {
-        let t = 0.02 * f64::from(i);
-        3.0 * (rate * t).sin() * (-0.1 * t).exp() + 1.2 * (3.1 * rate * t).cos() * (-0.3 * t).exp()
-    };
-    GroundMotion::sampled(name, 0.02, (0..=300).map(at).collect())
-}
-
-fn rectangle(x: f64, y: f64, a: f64, b: f64) -> Vec<PlanPoint> {
-    vec![[x, y], [x + a, y], [x + a, y + b], [x, y + b]]
-}
-
-fn tower(
-    name: &str,
-    storeys: usize,
-    [mass, stiffness]: [f64; 2],
-    plan: &[PlanPoint],
-    eccentricity: PlanPoint,
-) -> Building {
-    let tier = Tier::uniform(mass, plan.to_vec()).expect("an area");
-    let sides = [stiffness, 1.3 * stiffness];
-    let torsion = TierStorey::torsion_of_even(sides, &PlanArea::new(plan));
-    let storey = TierStorey {
-        stiffness: [sides[0], sides[1], torsion],
-        centre: [
-            tier.centre[0] + eccentricity[0],
-            tier.centre[1] + eccentricity[1],
-        ],
-    };
-    Building {
-        name: name.to_owned(),
-        structure: Structure::Tiers(Tiers {
-            floors: vec![tier; storeys],
-            storeys: vec![storey; storeys],
-            storey_heights: vec![3.0; storeys],
-            ..Tiers::default()
-        }),
-        damping: Damping::Ratio {
-            ratio: 0.05,
-            modes: Vec::new(),
-        },
-        ..Building::default()
-    }
+    fading(name, rate, [1.0, 3.0], 300)
 }
 
 /// Three eccentric towers around a corner, shaken along a bearing and across it.
@@ -89,20 +42,11 @@ pub(crate) fn around_a_corner(law: ContactLaw) -> (Model, GroundMotion) {
 }
 
 pub(crate) fn run(model: &Model, motion: &GroundMotion, analysis: Analysis) -> (System, Outcome) {
-    let system = System::assemble(model).unwrap_or_else(|faults| panic!("{faults:?}"));
-    let plan = Plan::choose(&system, motion, &analysis).unwrap_or_else(|f| panic!("{f:?}"));
-    let settings = Settings {
-        record_interval: None,
-        ..Settings::default()
-    };
-    let outcome = simulate(&system, motion, &plan, settings, |_| {
-        ControlFlow::Continue(())
-    });
-    assert!(
-        outcome.energy.worst_imbalance < 1e-4,
-        "{}",
-        outcome.energy.worst_imbalance
-    );
+    let system = assembled(model);
+    let plan = planned(&system, motion, &analysis);
+    let outcome = completed(&system, motion, &plan, None);
+    let worst = outcome.energy.worst_imbalance;
+    assert!(worst < 1e-4, "{worst}");
     (system, outcome)
 }
 
@@ -147,7 +91,7 @@ fn direct_steps_have_the_peaks_of_modes() {
         let (model, motion) = around_a_corner(ContactLaw {
             kind,
             stiffness: if kind == LawKind::HertzDamp { 2e9 } else { 3e8 },
-            ..LAW
+            ..CONCRETE
         });
         let modal = Analysis {
             tolerance: 1e-6,
@@ -171,7 +115,7 @@ fn direct_steps_have_the_peaks_of_modes() {
 /// The same matrices, factorised along the transfer path and by a general sparse elimination.
 #[test]
 fn two_eliminations_have_the_same_steps() {
-    let (model, motion) = around_a_corner(LAW);
+    let (model, motion) = around_a_corner(CONCRETE);
     let [one, other] = [Solver::Riccati, Solver::Stiffness].map(|solver| {
         let analysis = Analysis {
             step: Some(2e-3),
@@ -191,7 +135,7 @@ fn momentum_laws_act_in_space() {
     let (model, motion) = around_a_corner(ContactLaw {
         kind: LawKind::Restitution,
         stiffness: 1e8,
-        ..LAW
+        ..CONCRETE
     });
     let [one, other] = [Solver::Riccati, Solver::Modal].map(|solver| {
         let analysis = Analysis {
@@ -213,7 +157,7 @@ fn momentum_laws_act_in_space() {
 /// Friction along faces, by modes with predicted paths and by steps that hold its limits.
 #[test]
 fn friction_is_that_of_modes() {
-    let (mut model, motion) = around_a_corner(LAW);
+    let (mut model, motion) = around_a_corner(CONCRETE);
     for gap in &mut model.gaps {
         gap.in_plan.friction = 0.4;
     }
@@ -242,7 +186,7 @@ fn friction_is_that_of_modes() {
 
 #[test]
 fn what_direct_steps_cannot_do_in_space_is_refused() {
-    let (model, motion) = around_a_corner(LAW);
+    let (model, motion) = around_a_corner(CONCRETE);
     let system = System::assemble(&model).expect("a sound model");
     let said = |solver: Solver| {
         let analysis = Analysis {

@@ -12,6 +12,7 @@ use jostle::{
     LawKind, Level, Link, LinkLaw, Model, RiccatiSweep, Shear, Soil, SoilCoupling, Solver,
     Structure, System,
 };
+use jostle_testkit::models::UNDAMPED;
 
 use crate::verification::monolith::monolith;
 use crate::verification::support::{
@@ -124,10 +125,7 @@ fn by_matrices(building: &BuildingSystem) -> Building {
             floors: vec![0, 1, 2],
             storey_heights: shear.storey_heights,
         }),
-        damping: Damping::Rayleigh {
-            alpha: 0.0,
-            beta: 0.0,
-        },
+        damping: UNDAMPED,
         ..Building::default()
     }
 }

@@ -2,23 +2,18 @@
 
 use jostle::results::friction_warnings;
 use jostle::{
-    Analysis, Building, ContactLaw, Damping, Gap, LawKind, Model, PlanArea, PlanPoint,
-    RestitutionIs, Solver, Structure, System, Tier, TierStorey, Tiers, Wall,
+    Analysis, Gap, Model, PlanArea, PlanPoint, Solver, Structure, System, Tier, TierStorey, Tiers,
+    Wall,
 };
+use jostle_testkit::models::{CONCRETE, building, rectangle};
 
-const LAW: ContactLaw = ContactLaw {
-    kind: LawKind::HertzDamp,
-    stiffness: 2e9,
-    restitution: 0.65,
-    restitution_is: RestitutionIs::Input,
-};
 /// Sides of the floor \[m\].
 const SIDES: [f64; 2] = [24.0, 12.0];
 
 /// A floor of one storey beside a wall along its whole right side.
 fn beside_a_wall(polar_share: f64, friction: f64) -> Model {
     let [a, b] = SIDES;
-    let plan = vec![[0.0, 0.0], [a, 0.0], [a, b], [0.0, b]];
+    let plan = rectangle(0.0, 0.0, a, b);
     let mut tier = Tier::uniform(200e3, plan.clone()).expect("an area");
     tier.polar_mass *= polar_share;
     let stiffness = [8e7, 9e7];
@@ -27,25 +22,17 @@ fn beside_a_wall(polar_share: f64, friction: f64) -> Model {
         stiffness: [stiffness[0], stiffness[1], torsion],
         centre: tier.centre,
     };
-    let building = Building {
-        name: "Hall".to_owned(),
-        structure: Structure::Tiers(Tiers {
-            floors: vec![tier],
-            storeys: vec![storey],
-            storey_heights: vec![3.0],
-            ..Tiers::default()
-        }),
-        damping: Damping::Ratio {
-            ratio: 0.05,
-            modes: Vec::new(),
-        },
-        ..Building::default()
-    };
-    let mut gap = Gap::between([Some(0), Some(1)], 0.02, LAW);
+    let structure = Structure::Tiers(Tiers {
+        floors: vec![tier],
+        storeys: vec![storey],
+        storey_heights: vec![3.0],
+        ..Tiers::default()
+    });
+    let mut gap = Gap::between([Some(0), Some(1)], 0.02, CONCRETE);
     gap.in_plan.friction = friction;
     Model {
         title: "friction beside a wall".to_owned(),
-        buildings: vec![building],
+        buildings: vec![building("Hall", structure)],
         gaps: vec![gap],
         // Solid on the right of the way upwards.
         walls: vec![Wall {

@@ -2,6 +2,8 @@
 
 use jostle::method::MethodSurvey;
 use jostle::{Damping, Given, LawKind, Model, Plan, Shear, Solver, Structure, System};
+use jostle_testkit::compare::near;
+use jostle_testkit::models::UNDAMPED;
 
 use crate::verification::support::{assembled, law, run, shaking, two_frames};
 
@@ -53,10 +55,7 @@ fn outcome(system: &System, model: &Model, solver: Solver) -> jostle::Outcome {
 }
 
 fn close(found: f64, expected: f64, what: &str) {
-    assert!(
-        (found - expected).abs() <= 1e-9 * expected.abs(),
-        "{what}: {found} for {expected}"
-    );
+    near(found, expected, 1e-9, what);
 }
 
 #[test]
@@ -318,10 +317,7 @@ fn a_damping_matrix_acts_as_dashpots() {
     model.buildings.truncate(1);
     model.gaps.clear();
     model.buildings[0].structure = Structure::Given(own);
-    model.buildings[0].damping = Damping::Rayleigh {
-        alpha: 0.0,
-        beta: 0.0,
-    };
+    model.buildings[0].damping = UNDAMPED;
     let system = assembled(&model);
     let [modal, direct] = [Solver::Modal, Solver::Riccati].map(|solver| {
         let mut analysis = model.analysis.clone();

@@ -1,13 +1,12 @@
 //! Ground that differs under the buildings (theory, Eqs. B13 to B17), and vertical shaking.
 
-use std::ops::ControlFlow;
-
 use jostle::model::LinkLaw;
 use jostle::{
     Analysis, Building, ContactLaw, Damping, FloorPairs, Gap, GroundMotion, Grounds, LawKind,
-    Level, Link, Model, Outcome, OwnGround, Plan, RestitutionIs, RunEnd, Settings, Shear, Solver,
-    Structure, System, Wall, Wave, simulate,
+    Level, Link, Model, Outcome, OwnGround, Plan, Settings, Solver, Structure, System, Wall, Wave,
 };
+use jostle_testkit::models::{CONCRETE, equal_storeys};
+use jostle_testkit::runs::{completed, planned};
 
 use crate::verification::support::{assembled, frame, framed};
 
@@ -25,11 +24,7 @@ fn record(step: f64, points: u32, seed: f64) -> GroundMotion {
 fn tower(name: &str, storeys: usize, stiffness: f64) -> Building {
     Building {
         name: name.to_owned(),
-        structure: Structure::Shear(Shear {
-            mass: vec![4e4; storeys],
-            stiffness: vec![stiffness; storeys],
-            storey_heights: vec![3.0; storeys],
-        }),
+        structure: Structure::Shear(equal_storeys(storeys, [4e4, stiffness])),
         damping: Damping::Rayleigh {
             alpha: 0.4,
             beta: 1e-3,
@@ -39,12 +34,7 @@ fn tower(name: &str, storeys: usize, stiffness: f64) -> Building {
 }
 
 fn law(kind: LawKind) -> ContactLaw {
-    ContactLaw {
-        kind,
-        stiffness: 2e9,
-        restitution: 0.65,
-        restitution_is: RestitutionIs::Input,
-    }
+    ContactLaw { kind, ..CONCRETE }
 }
 
 fn model(buildings: Vec<Building>, gaps: Vec<Gap>) -> Model {
@@ -80,12 +70,8 @@ fn run_within(tolerance: f64, system: &System, motion: &GroundMotion, solver: So
         tolerance,
         ..Analysis::default()
     };
-    let plan = Plan::choose(system, motion, &analysis).expect("steps");
-    let outcome = simulate(system, motion, &plan, Settings::default(), |_| {
-        ControlFlow::Continue(())
-    });
-    assert_eq!(outcome.end, RunEnd::Completed, "{solver:?}");
-    outcome
+    let plan = planned(system, motion, &analysis);
+    completed(system, motion, &plan, Settings::default().record_interval)
 }
 
 fn close(a: f64, b: f64, scale: f64, tolerance: f64) {

@@ -6,11 +6,12 @@ use jostle::{
     Analysis, Bearing, Building, ContactLaw, Damping, Gap, GroundMotion, Grounds, LawKind,
     OwnGround, PlanPoint, Solver, Structure, Wave,
 };
+use jostle_testkit::models::CONCRETE;
 
 use crate::verification::direct_in_space;
 use crate::verification::grounds::arriving;
 use crate::verification::space::{
-    LAW, around_a_corner, changed, compare_with_the_plane, model, run, same, shaking, tower,
+    around_a_corner, changed, compare_with_the_plane, model, run, same, shaking, tower,
 };
 
 /// The second and third building of the corner are reached later, or shaken by another record.
@@ -36,7 +37,7 @@ fn differing(mut motion: GroundMotion) -> GroundMotion {
 
 #[test]
 fn delays_without_eccentricity_are_those_of_the_plane() {
-    let law = |kind| ContactLaw { kind, ..LAW };
+    let law = |kind| ContactLaw { kind, ..CONCRETE };
     for kind in [LawKind::HertzDamp, LawKind::Restitution] {
         let motion = arriving(shaking("along", 7.0), &[0.0, 0.06]);
         compare_with_the_plane(law(kind), &motion);
@@ -102,7 +103,7 @@ fn make_isotropic(building: &mut Building) {
 /// Direct steps share neither equations nor steps with modes; with friction, whose slip the grounds take part in.
 #[test]
 fn direct_steps_on_differing_grounds_have_the_peaks_of_modes() {
-    let (mut model, motion) = direct_in_space::around_a_corner(LAW);
+    let (mut model, motion) = direct_in_space::around_a_corner(CONCRETE);
     let motion = differing(motion);
     for friction in [0.0, 0.4] {
         for gap in &mut model.gaps {
@@ -146,7 +147,7 @@ fn grounds_carry_a_corner_off_its_edge() {
     let law = ContactLaw {
         kind: LawKind::Linear,
         stiffness: 1e6,
-        ..LAW
+        ..CONCRETE
     };
     let plan = [[0.0, 0.0], [10.0, 0.0], [10.0, 8.0], [0.0, 8.0]];
     let (x, y) = (10.0 + gap, 8.0 - inside);

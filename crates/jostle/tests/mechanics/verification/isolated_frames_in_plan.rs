@@ -2,30 +2,27 @@
 //! unknowns.
 
 use std::f64::consts::PI;
-use std::ops::ControlFlow;
 
 use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
 use jostle::linear::StepMatrix;
 use jostle::structure::{MemberPlace, SectionAt, solve_once};
 use jostle::system::BuildingSystem;
 use jostle::{
-    Analysis, Axial, Base, Bearing, Building, Column, Damping, Frame, FrameHinges, GroundMotion,
-    Hinges, Isolation, Isolator, IsolatorDamping, Joint, MemberRequest, Model, Outcome, Plan,
-    PlanFrame, PlanPoint, RiccatiSweep, RunEnd, Section, Settings, Solver, SpaceFrame, SpaceMember,
-    SpacePlace, SpaceSection, SpeedFriction, Structure, System, Tier, Tiers, simulate,
+    Analysis, Base, Bearing, Building, Column, Damping, Frame, FrameHinges, GroundMotion, Hinges,
+    Isolation, Isolator, IsolatorDamping, MemberRequest, Model, Outcome, PlanFrame, PlanPoint,
+    RiccatiSweep, Section, Solver, SpaceFrame, SpaceMember, SpacePlace, SpaceSection,
+    SpeedFriction, Structure, System, Tier, Tiers,
 };
 
 use jostle::pushover::{CannotPush, PushSettings, pushover};
+use jostle_testkit::models::{self, concrete, rectangle};
+use jostle_testkit::motions::fading;
+use jostle_testkit::runs::{self, assembled};
 
-use crate::verification::support::{column, difference, largest, section};
+use crate::verification::support::{column, difference, largest};
 
 fn shaking(name: &str, rate: f64, scale: f64) -> GroundMotion {
-    let at = |i: u32| {
-        let t = 0.02 * f64::from(i);
-        let slow = 2.5 * (rate * t).sin() * (-0.1 * t).exp();
-        scale * (slow + 1.2 * (3.1 * rate * t).cos() * (-0.3 * t).exp())
-    };
-    GroundMotion::sampled(name, 0.02, (0..=200).map(at).collect())
+    fading(name, rate, [scale, 2.5], 200)
 }
 
 fn in_two_directions() -> GroundMotion {
@@ -37,22 +34,12 @@ fn in_two_directions() -> GroundMotion {
     motion
 }
 
-fn rectangle(a: f64, b: f64) -> Vec<PlanPoint> {
-    vec![[0.0, 0.0], [a, 0.0], [a, b], [0.0, b]]
-}
-
 fn frame(storeys: usize, spans: &[f64]) -> Frame {
     Frame {
-        storey_heights: vec![3.2; storeys],
-        spans: spans.to_vec(),
-        columns: vec![section(0.5, 0.5); storeys],
-        beams: vec![section(0.3, 0.6); storeys],
         beam_mass: vec![5850.0; storeys],
-        floor_mass: vec![0.0; storeys],
         column_segments: 4,
         beam_segments: vec![4; spans.len()],
-        axial: Axial::default(),
-        joint: Joint::default(),
+        ..models::frame(storeys, spans, concrete(0.5, 0.5), concrete(0.3, 0.6))
     }
 }
 
@@ -116,21 +103,8 @@ fn model(
     }
 }
 
-fn assemble(model: &Model) -> System {
-    System::assemble(model).unwrap_or_else(|faults| panic!("{faults:?}"))
-}
-
 fn run(model: &Model, motion: &GroundMotion) -> (System, Outcome) {
-    let system = assemble(model);
-    let plan = Plan::choose(&system, motion, &model.analysis).unwrap_or_else(|f| panic!("{f:?}"));
-    let settings = Settings {
-        record_interval: Some(0.0),
-        ..Settings::default()
-    };
-    let outcome = simulate(&system, motion, &plan, settings, |_| {
-        ControlFlow::Continue(())
-    });
-    assert_eq!(outcome.end, RunEnd::Completed);
+    let (system, outcome) = runs::run(model, motion, Some(0.0));
     let worst = outcome.energy.worst_imbalance;
     assert!(worst < 1e-8, "{worst:e}");
     (system, outcome)
@@ -242,7 +216,7 @@ fn four_equal_frames_on_a_mat_are_twice_an_isolated_plane_frame() {
             hinges: hinges.clone(),
             ..standing(name, at, angle, one.clone())
         });
-        let tier = Tier::uniform(slab, rectangle(12.0, 12.0)).expect("an area");
+        let tier = Tier::uniform(slab, rectangle(0.0, 0.0, 12.0, 12.0)).expect("an area");
         let tiers = held_by(vec![tier; storeys], vec![3.2; storeys], frames.to_vec());
         let plane_hinges = yields.then_some(Hinges::Frame(hinges));
         let pairs = bearings(mat, 2.0).into_iter().zip(bearings(plane_mat, 1.0));
@@ -472,7 +446,7 @@ fn moving(own: &BuildingSystem) -> Vec<usize> {
 /// Displacements under a unit force at every motion of the mat and of the floors, by both solvers.
 #[track_caller]
 fn same_flexibility(model: &Model, full: &Full) {
-    let own = &assemble(model).buildings[0];
+    let own = &assembled(model).buildings[0];
     let dofs = moving(own);
     let expected = full.flexibility(dofs.len());
     let scale = |i: usize, j: usize| (expected[i][i] * expected[j][j]).sqrt();
@@ -506,7 +480,7 @@ fn same_flexibility(model: &Model, full: &Full) {
 fn three_frames() -> Tiers {
     let floor = |mass: f64, centre: PlanPoint| Tier {
         centre,
-        ..Tier::uniform(mass, rectangle(12.0, 8.0)).expect("an area")
+        ..Tier::uniform(mass, rectangle(0.0, 0.0, 12.0, 8.0)).expect("an area")
     };
     let mut lower = frame(1, &[8.0]);
     lower.storey_heights = vec![4.0];
@@ -767,7 +741,7 @@ fn in_space(axial: bool, hinge: Option<f64>) -> Tiers {
     frame.members = members.collect();
     let floor = |mass: f64, centre: PlanPoint| Tier {
         centre,
-        ..Tier::uniform(mass, rectangle(12.0, 8.0)).expect("an area")
+        ..Tier::uniform(mass, rectangle(0.0, 0.0, 12.0, 8.0)).expect("an area")
     };
     let floors = vec![floor(1.4e5, [6.4, 3.7]), floor(1.1e5, [5.5, 4.4])];
     let mut tiers = held_by(floors, HEIGHTS.to_vec(), Vec::new());
@@ -900,7 +874,7 @@ fn a_space_frame_on_a_mat_is_two_isolated_plane_frames() {
                 add(SpacePlace::BeamY { line, span, floor }, beam);
             }
         }
-        let tier = Tier::uniform(mass, rectangle(11.0, 7.0)).expect("an area");
+        let tier = Tier::uniform(mass, rectangle(0.0, 0.0, 11.0, 7.0)).expect("an area");
         let mut tiers = held_by(vec![tier; storeys], vec![height; storeys], Vec::new());
         tiers.space_frame = Some(SpaceFrame {
             at: [0.0, 0.0],
@@ -1023,7 +997,7 @@ fn columns_on_a_mat_have_no_base_of_their_own() {
 #[test]
 fn bearings_that_slide_in_plan_have_no_pushover() {
     let mut model = on_bearings(three_frames(), BETA, Solver::Riccati, 1e-3);
-    let system = assemble(&model);
+    let system = assembled(&model);
     let own = &system.buildings[0];
     let pushed = pushover(own, PushSettings::default()).expect("it is elastic");
     let last = pushed.points.last().expect("points");
@@ -1035,6 +1009,6 @@ fn bearings_that_slide_in_plan_have_no_pushover() {
     assert!((u[own.floors[1].dof] / last.roof - 1.0).abs() < 1e-9);
     let [_, lead, _] = bearings(1.1e5, 1.0);
     model.buildings[0].base.isolation = Some(lead);
-    let refused = pushover(&assemble(&model).buildings[0], PushSettings::default());
+    let refused = pushover(&assembled(&model).buildings[0], PushSettings::default());
     assert_eq!(refused.err(), Some(CannotPush::BearingsInPlan));
 }

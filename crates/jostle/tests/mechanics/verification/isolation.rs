@@ -8,6 +8,7 @@ use jostle::{
     Building, Column, Damping, FloorPairs, Gap, Integrator, Isolation, Isolator, LawKind, Level,
     Link, LinkLaw, Model, Plan, Shear, Solver, SpeedFriction, Stop, Structure, System, Wall,
 };
+use jostle_testkit::models::UNDAMPED;
 
 use crate::verification::support::{
     assembled, column, difference, frame, framed, largest, law, moving, row, run, run_from,
@@ -158,10 +159,7 @@ fn alone(building: Building) -> Model {
 }
 
 fn undamped(mut building: Building) -> Building {
-    building.damping = Damping::Rayleigh {
-        alpha: 0.0,
-        beta: 0.0,
-    };
+    building.damping = UNDAMPED;
     building
 }
 

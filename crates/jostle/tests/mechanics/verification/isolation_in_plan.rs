@@ -2,32 +2,21 @@
 //! turned, moat walls, and what is refused.
 
 use std::f64::consts::TAU;
-use std::ops::ControlFlow;
 
 use jostle::model::STANDARD_GRAVITY;
 use jostle::{
-    Analysis, Base, Bearing, Building, Column, ContactLaw, Damping, FloorPairs, Gap, GroundMotion,
-    Isolation, Isolator, IsolatorDamping, LawKind, Level, Model, Outcome, Plan, PlanArea,
-    PlanPoint, RestitutionIs, RunEnd, Settings, Shear, Solver, SpeedFriction, Stop, Structure,
-    System, Tier, TierStorey, Tiers, Wall, simulate,
+    Analysis, Base, Bearing, Building, Column, Damping, FloorPairs, Gap, GroundMotion, Isolation,
+    Isolator, IsolatorDamping, Level, Model, Outcome, PlanArea, PlanPoint, Solver, SpeedFriction,
+    Stop, Structure, System, Tier, TierStorey, Tiers, Wall,
 };
+use jostle_testkit::models::{CONCRETE, UNDAMPED, equal_storeys, rectangle};
+use jostle_testkit::motions::fading;
+use jostle_testkit::runs;
 
 use crate::verification::support::{column, difference, largest};
 
-const LAW: ContactLaw = ContactLaw {
-    kind: LawKind::HertzDamp,
-    stiffness: 2e9,
-    restitution: 0.65,
-    restitution_is: RestitutionIs::Input,
-};
-
 pub(crate) fn shaking(name: &str, rate: f64, scale: f64) -> GroundMotion {
-    let at = |i: u32| {
-        let t = 0.02 * f64::from(i);
-        let slow = 2.5 * (rate * t).sin() * (-0.1 * t).exp();
-        scale * (slow + 1.2 * (3.1 * rate * t).cos() * (-0.3 * t).exp())
-    };
-    GroundMotion::sampled(name, 0.02, (0..=300).map(at).collect())
+    fading(name, rate, [scale, 2.5], 300)
 }
 
 pub(crate) fn from(
@@ -37,10 +26,6 @@ pub(crate) fn from(
 ) -> GroundMotion {
     motion.bearing = Some(Box::new(Bearing { angle, across }));
     motion
-}
-
-fn rectangle(x: f64, y: f64, a: f64, b: f64) -> Vec<PlanPoint> {
-    vec![[x, y], [x + a, y], [x + a, y + b], [x, y + b]]
 }
 
 fn turned(point: PlanPoint, angle: f64) -> PlanPoint {
@@ -102,16 +87,7 @@ fn model(building: Building, step: f64) -> Model {
 }
 
 pub(crate) fn run(model: &Model, motion: &GroundMotion) -> (System, Outcome) {
-    let system = System::assemble(model).unwrap_or_else(|faults| panic!("{faults:?}"));
-    let plan = Plan::choose(&system, motion, &model.analysis).unwrap_or_else(|f| panic!("{f:?}"));
-    let settings = Settings {
-        record_interval: Some(0.0),
-        ..Settings::default()
-    };
-    let outcome = simulate(&system, motion, &plan, settings, |_| {
-        ControlFlow::Continue(())
-    });
-    assert_eq!(outcome.end, RunEnd::Completed);
+    let (system, outcome) = runs::run(model, motion, Some(0.0));
     let worst = outcome.energy.worst_imbalance;
     // Rounding grows as 1/h in the short steps of contacts, with bearings and without.
     let most = if model.gaps.is_empty() { 1e-9 } else { 1e-8 };
@@ -188,11 +164,7 @@ fn on_a_line_bearings_are_those_of_one_plane() {
         modes: vec![1, 2],
     };
     for own in bearings() {
-        let shear = Shear {
-            mass: vec![properties[0]; storeys],
-            stiffness: vec![properties[1]; storeys],
-            storey_heights: vec![3.0; storeys],
-        };
+        let shear = equal_storeys(storeys, properties);
         let plane = model(
             building(Structure::Shear(shear), damping.clone(), own),
             2e-3,
@@ -615,7 +587,7 @@ fn before_walls(isolation: Isolation, angle: f64) -> Model {
     ];
     model.gaps = [(1, 0.03), (2, 0.02)]
         .map(|(side, width)| {
-            let mut gap = Gap::between([Some(0), Some(side)], width, LAW);
+            let mut gap = Gap::between([Some(0), Some(side)], width, CONCRETE);
             gap.floors = FloorPairs::Listed(vec![[Level::Floor(0), Level::Wall]]);
             gap
         })
@@ -679,11 +651,7 @@ fn a_mat_before_a_wall_hits_it_as_in_one_plane() {
         modes: vec![1],
     };
     let isolation = Isolation::new(lead_rubber(), 9e4);
-    let shear = Shear {
-        mass: vec![properties[0]; storeys],
-        stiffness: vec![properties[1]; storeys],
-        storey_heights: vec![3.0; storeys],
-    };
+    let shear = equal_storeys(storeys, properties);
     let plan = rectangle(0.0, 0.0, 10.0, 8.0);
     let own = tiers(storeys, properties, &plan, [0.0; 2]);
     let mut models = [Structure::Shear(shear), Structure::Tiers(own)]
@@ -691,7 +659,7 @@ fn a_mat_before_a_wall_hits_it_as_in_one_plane() {
     for model in &mut models {
         model.analysis.contact_step = Some(5e-5);
     }
-    let mut gap = Gap::between([Some(0), None], 0.02, LAW);
+    let mut gap = Gap::between([Some(0), None], 0.02, CONCRETE);
     gap.floors = FloorPairs::Listed(vec![[Level::Floor(0), Level::Wall]]);
     models[1].walls = vec![Wall {
         name: "right".to_owned(),
@@ -731,18 +699,8 @@ fn periods_of_an_isolated_block_are_those_of_its_bearings() {
     let isolation = Isolation::new(Isolator::Linear { stiffness: 5e6 }, 1e5);
     let plan = rectangle(0.0, 0.0, 12.0, 9.0);
     let own = tiers(1, [4e5, 1e13], &plan, [0.0; 2]);
-    let model = model(
-        building(
-            Structure::Tiers(own),
-            Damping::Rayleigh {
-                alpha: 0.0,
-                beta: 0.0,
-            },
-            isolation,
-        ),
-        1e-2,
-    );
-    let system = System::assemble(&model).unwrap_or_else(|faults| panic!("{faults:?}"));
+    let model = model(building(Structure::Tiers(own), UNDAMPED, isolation), 1e-2);
+    let system = runs::assembled(&model);
     let expected = TAU * (5e5_f64 / 5e6).sqrt();
     for mode in &system.buildings[0].modes[..3] {
         assert!(

@@ -5,6 +5,7 @@ use jostle::{
     Axial, Column, Damping, FloorPairs, LawKind, Link, LinkLaw, Model, Outcome, Plan, Solver,
     Structure, Summary, System, eigen,
 };
+use jostle_testkit::models::UNDAMPED;
 
 use crate::verification::support::{
     assembled, column, frame, framed, largest, law, row, run, shaking, tower,
@@ -131,16 +132,12 @@ fn braced_storeys_are_stiffer_storeys() {
 /// is that of −m (ü + a_g). Links over two storeys count in both.
 #[test]
 fn storey_shears_balance_the_inertia_above() {
-    let undamped = Damping::Rayleigh {
-        alpha: 0.0,
-        beta: 0.0,
-    };
     let viscous = Link {
         law: LinkLaw::Viscous { exponent: 0.5 },
         ..braces(&[(0, 1)], 0.0, 2e5)
     };
     let model = alone(
-        undamped,
+        UNDAMPED,
         vec![
             braces(&[(1, 3)], 5e7, 4e6),
             braces(&[(0, 1), (3, 4)], 0.0, 6e6),

@@ -1,34 +1,25 @@
 //! Plane frames at lines of a plan: the plane as their limit, and matrices assembled by hand.
 
 use std::f64::consts::PI;
-use std::ops::ControlFlow;
 
 use jostle::linear::StepMatrix;
 use jostle::structure::{MemberPlace, SectionAt, solve_once};
 use jostle::{
-    Analysis, Axial, Base, Building, ContactLaw, Damping, Frame, Gap, GroundMotion, Joint, LawKind,
-    MemberRequest, Model, Outcome, Plan, PlanFrame, PlanPoint, RestitutionIs, RiccatiSweep,
-    Section, Settings, Solver, State, Structure, System, Tier, TierStorey, Tiers, simulate,
+    Analysis, Base, Building, Damping, Frame, Gap, GroundMotion, MemberRequest, Model, Outcome,
+    PlanFrame, PlanPoint, RiccatiSweep, Section, Solver, State, Structure, System, Tier,
+    TierStorey, Tiers,
 };
-
-use crate::verification::support::section;
-
-fn rectangle(x: f64, y: f64, a: f64, b: f64) -> Vec<PlanPoint> {
-    vec![[x, y], [x + a, y], [x + a, y + b], [x, y + b]]
-}
+use jostle_testkit::compare::close;
+use jostle_testkit::models::{self, CONCRETE, FIVE_PERCENT, concrete, rectangle};
+use jostle_testkit::motions::fading;
+use jostle_testkit::runs::{self, assembled};
 
 fn frame(storeys: usize, spans: &[f64]) -> Frame {
     Frame {
-        storey_heights: vec![3.2; storeys],
-        spans: spans.to_vec(),
-        columns: vec![section(0.5, 0.5); storeys],
-        beams: vec![section(0.3, 0.6); storeys],
         beam_mass: vec![5850.0; storeys],
-        floor_mass: vec![0.0; storeys],
         column_segments: 4,
         beam_segments: vec![4; spans.len()],
-        axial: Axial::default(),
-        joint: Joint::default(),
+        ..models::frame(storeys, spans, concrete(0.5, 0.5), concrete(0.3, 0.6))
     }
 }
 
@@ -72,11 +63,6 @@ fn building(name: &str, structure: Structure, damping: Damping) -> Building {
     }
 }
 
-const USUAL: Damping = Damping::Ratio {
-    ratio: 0.05,
-    modes: Vec::new(),
-};
-
 const ALL_MODES: Damping = Damping::AllModes { ratio: 0.05 };
 
 fn model(buildings: Vec<Building>, gaps: Vec<Gap>) -> Model {
@@ -94,40 +80,16 @@ fn model(buildings: Vec<Building>, gaps: Vec<Gap>) -> Model {
     }
 }
 
-fn assemble(model: &Model) -> System {
-    System::assemble(model).unwrap_or_else(|faults| panic!("{faults:?}"))
-}
-
 fn shaking() -> GroundMotion {
-    let at = |i: u32| {
-        let t = 0.02 * f64::from(i);
-        3.0 * (7.0 * t).sin() * (-0.1 * t).exp() + 1.2 * (21.7 * t).cos() * (-0.3 * t).exp()
-    };
-    GroundMotion::sampled("along", 0.02, (0..=400).map(at).collect())
+    fading("along", 7.0, [1.0, 3.0], 400)
 }
 
 fn run(model: &Model, duration: f64) -> (System, Outcome) {
-    let (system, mut motion) = (assemble(model), shaking());
+    let mut motion = shaking();
     motion.duration = duration;
-    let plan = Plan::choose(&system, &motion, &model.analysis).expect("modal stepping");
-    let settings = Settings {
-        record_interval: None,
-        ..Settings::default()
-    };
-    let outcome = simulate(&system, &motion, &plan, settings, |_| {
-        ControlFlow::Continue(())
-    });
+    let (system, outcome) = runs::run(model, &motion, None);
     assert!(outcome.energy.worst_imbalance < 1e-9);
     (system, outcome)
-}
-
-#[track_caller]
-fn close(a: f64, b: f64, scale: f64, tolerance: f64, what: &str) {
-    assert!(
-        (a - b).abs() <= tolerance * scale,
-        "{what}: {a} against {b}: {:.1e}",
-        (a - b).abs() / scale
-    );
 }
 
 /// Floors of two runs, building by building; `share`: shears of the first over those of the second. Tolerances of displacements,
@@ -201,7 +163,7 @@ fn four_equal_frames_are_twice_a_plane_frame() {
     for floor in 0..storeys {
         plane.floor_mass[floor] = 0.5 * slab + frame_mass(&one, floor);
     }
-    for damping in [ALL_MODES, USUAL] {
+    for damping in [ALL_MODES, FIVE_PERCENT] {
         let own = model(vec![building("A", space.clone(), damping.clone())], vec![]);
         let flat = building("A", Structure::Frame(plane.clone()), damping.clone());
         let flat = model(vec![flat], vec![]);
@@ -264,12 +226,6 @@ fn four_equal_frames_are_twice_a_plane_frame() {
 /// The frames of five and ten storeys of the built-in example, on lines of plans, 30 mm apart: impacts as in one plane.
 #[test]
 fn frames_of_the_example_pound_in_plan_as_in_one_plane() {
-    let law = ContactLaw {
-        kind: LawKind::HertzDamp,
-        stiffness: 2e9,
-        restitution: 0.65,
-        restitution_is: RestitutionIs::Input,
-    };
     let half = |rigidity: f64, line_mass: f64| Section {
         flexural_rigidity: 0.5 * rigidity,
         axial_rigidity: None,
@@ -321,8 +277,8 @@ fn frames_of_the_example_pound_in_plan_as_in_one_plane() {
             building(name, structure, ALL_MODES)
         })
         .collect();
-    let (_, flat) = run(&model(plane, vec![Gap::after(0, 0.03, law)]), 4.0);
-    let (_, own) = run(&model(space, vec![Gap::after(0, 0.03, law)]), 4.0);
+    let (_, flat) = run(&model(plane, vec![Gap::after(0, 0.03, CONCRETE)]), 4.0);
+    let (_, own) = run(&model(space, vec![Gap::after(0, 0.03, CONCRETE)]), 4.0);
     assert!(flat.impacts.len() > 2, "{} impacts", flat.impacts.len());
     assert_eq!(own.face_impacts.len(), flat.impacts.len());
     // Steps while contacts are closed follow from the tolerance of 1e-6, and differ between the two models.
@@ -473,10 +429,10 @@ fn without_symmetry(columns_flexible: bool) -> (Tiers, Vec<PlanFrame>) {
         massless(frame)
     };
     let mut tall = frame(n, &[5.0, 7.0]);
-    tall.columns[0] = section(0.6, 0.7);
+    tall.columns[0] = concrete(0.6, 0.7);
     let tall = flexible(tall);
     let mut low = frame(2, &[4.0]);
-    low.beams[1] = section(0.25, 0.4);
+    low.beams[1] = concrete(0.25, 0.4);
     let low = flexible(low);
     let mut springy = standing("A", [-1.0, 0.5], 0.5 * PI, flexible(frame(n, &[6.0, 3.0])));
     springy.base.rotational_stiffness = Some(4e7);
@@ -555,8 +511,8 @@ fn modes_are_those_of_matrices_assembled_by_hand() {
             .iter()
             .flat_map(|floor| [floor.mass, floor.mass, floor.polar_mass])
             .collect();
-        let own = building("A", Structure::Tiers(tiers), USUAL);
-        let system = assemble(&model(vec![own], vec![]));
+        let own = building("A", Structure::Tiers(tiers), FIVE_PERCENT);
+        let system = assembled(&model(vec![own], vec![]));
         let own = &system.buildings[0];
         assert_eq!(own.modes.len(), 3 * n);
         for mode in &own.modes {
@@ -608,8 +564,8 @@ fn columns_carry_what_pushes_the_floors() {
         tiers.frames[0].lines = vec![Some("A1".to_owned()), None, None];
         tiers.frames[2].lines = vec![Some("A1".to_owned()), None, None];
         let n = tiers.floors.len();
-        let own = building("A", Structure::Tiers(tiers.clone()), USUAL);
-        let system = assemble(&model(vec![own], vec![]));
+        let own = building("A", Structure::Tiers(tiers.clone()), FIVE_PERCENT);
+        let system = assembled(&model(vec![own], vec![]));
         let own = &system.buildings[0];
         let pushes = [[1e5, -4e4, 3e5], [-2e4, 7e4, -1e5], [5e4, 6e4, 2e5]];
         let mut load = vec![0.0; own.equations.len()];
@@ -717,7 +673,7 @@ fn a_turned_building_has_the_same_modes() {
     }
     let modes = |tiers: Tiers| {
         let own = building("A", Structure::Tiers(tiers), ALL_MODES);
-        let mut system = assemble(&model(vec![own], vec![]));
+        let mut system = assembled(&model(vec![own], vec![]));
         system.buildings.remove(0)
     };
     let [own, other] = [modes(tiers), modes(turned)];

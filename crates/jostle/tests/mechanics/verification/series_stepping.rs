@@ -7,11 +7,12 @@ use std::ops::ControlFlow;
 use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule, Pinching};
 use jostle::stepping::simulate_from;
 use jostle::{
-    Analysis, Building, Damping, GroundMotion, Hinges, LawKind, Outcome, Plan, Settings, Solver,
-    State, Structure, System, simulate,
+    Analysis, Building, GroundMotion, Hinges, LawKind, Outcome, Plan, Settings, Solver, State,
+    Structure, System, simulate,
 };
 
 use jostle::{RunEnd, StepError};
+use jostle_testkit::models::UNDAMPED;
 
 use crate::verification::support::{Random, assembled, law, row, shaking, still, tower};
 
@@ -146,10 +147,7 @@ fn apart(a: &Outcome, b: &Outcome) -> (f64, String) {
 fn a_sliding_mass_goes_as_far_as_its_energy_takes_it() {
     let (mass, omega, yields) = (2e4, 9.0, 0.01);
     let mut building = tower("mass", 1, mass, 2.0 * PI / omega);
-    building.damping = Damping::Rayleigh {
-        alpha: 0.0,
-        beta: 0.0,
-    };
+    building.damping = UNDAMPED;
     let stiffness = mass * omega * omega;
     let spring = storey(HysteresisRule::Bilinear, stiffness, yields, 0.0);
     building.hinges = Some(Hinges::Storeys(vec![spring]));

@@ -1,44 +1,20 @@
 //! Buildings in space: the plane as their limit, and the site that may be turned, mirrored and listed in any order.
 
 use std::f64::consts::PI;
-use std::ops::ControlFlow;
 
 use jostle::{
     Analysis, Bearing, Building, ContactLaw, Damping, Gap, GroundMotion, LawKind, Model, Outcome,
-    Plan, PlanArea, PlanContact, PlanPoint, RestitutionIs, Settings, Shear, Solver, Structure,
-    System, Tier, TierStorey, Tiers, Wall, Wave, simulate,
+    Plan, PlanArea, PlanContact, PlanPoint, Shear, Solver, Structure, System, Tier, TierStorey,
+    Tiers, Wall, Wave,
 };
-
-pub(crate) const LAW: ContactLaw = ContactLaw {
-    kind: LawKind::HertzDamp,
-    stiffness: 2e9,
-    restitution: 0.65,
-    restitution_is: RestitutionIs::Input,
-};
+use jostle_testkit::compare::close;
+use jostle_testkit::models::{CONCRETE, building, equal_storeys, rectangle};
+use jostle_testkit::motions::fading;
+use jostle_testkit::runs;
 
 /// A shaking without symmetry, 10 s long.
 pub(crate) fn shaking(name: &str, rate: f64) -> GroundMotion {
-    let at = |i: u32| {
-        let t = 0.02 * f64::from(i);
-        3.0 * (rate * t).sin() * (-0.1 * t).exp() + 1.2 * (3.1 * rate * t).cos() * (-0.3 * t).exp()
-    };
-    GroundMotion::sampled(name, 0.02, (0..=500).map(at).collect())
-}
-
-pub(crate) fn rectangle(x: f64, y: f64, a: f64, b: f64) -> Vec<PlanPoint> {
-    vec![[x, y], [x + a, y], [x + a, y + b], [x, y + b]]
-}
-
-pub(crate) fn building(name: &str, structure: Structure) -> Building {
-    Building {
-        name: name.to_owned(),
-        structure,
-        damping: Damping::Ratio {
-            ratio: 0.05,
-            modes: Vec::new(),
-        },
-        ..Building::default()
-    }
+    fading(name, rate, [1.0, 3.0], 500)
 }
 
 pub(crate) fn tower(
@@ -87,29 +63,14 @@ pub(crate) fn model(buildings: Vec<Building>, gaps: Vec<Gap>) -> Model {
 }
 
 pub(crate) fn run(model: &Model, motion: &GroundMotion) -> (System, Outcome) {
-    let system = System::assemble(model).unwrap_or_else(|faults| panic!("{faults:?}"));
-    let plan = Plan::choose(&system, motion, &model.analysis).expect("modal stepping");
-    let settings = Settings {
-        record_interval: None,
-        ..Settings::default()
-    };
-    let outcome = simulate(&system, motion, &plan, settings, |_| {
-        ControlFlow::Continue(())
-    });
+    let (system, outcome) = runs::run(model, motion, None);
     assert!(outcome.energy.worst_imbalance < 1e-10);
     (system, outcome)
 }
 
-pub(crate) fn close(a: f64, b: f64, scale: f64, tolerance: f64, what: &str) {
-    assert!(
-        (a - b).abs() <= tolerance * scale,
-        "{what}: {a} against {b}"
-    );
-}
-
 #[test]
 fn plans_without_eccentricity_keep_the_numbers_of_the_plane() {
-    compare_with_the_plane(LAW, &shaking("along", 7.0));
+    compare_with_the_plane(CONCRETE, &shaking("along", 7.0));
 }
 
 /// All points of a face that hits flat are struck at once, so it does not turn.
@@ -117,7 +78,7 @@ fn plans_without_eccentricity_keep_the_numbers_of_the_plane() {
 fn faces_rebound_by_the_momentum_law_as_in_the_plane() {
     let law = ContactLaw {
         kind: LawKind::Restitution,
-        ..LAW
+        ..CONCRETE
     };
     compare_with_the_plane(law, &shaking("along", 7.0));
 }
@@ -125,13 +86,7 @@ fn faces_rebound_by_the_momentum_law_as_in_the_plane() {
 /// Without eccentricity and across no shaking, everything is as in one plane, and nothing moves across or turns.
 pub(crate) fn compare_with_the_plane(law: ContactLaw, motion: &GroundMotion) {
     let [left, right] = [[150e3, 90e6], [110e3, 200e6]];
-    let shear = |storeys: usize, [mass, stiffness]: [f64; 2]| {
-        Structure::Shear(Shear {
-            mass: vec![mass; storeys],
-            stiffness: vec![stiffness; storeys],
-            storey_heights: vec![3.0; storeys],
-        })
-    };
+    let shear = |storeys: usize, own: [f64; 2]| Structure::Shear(equal_storeys(storeys, own));
     let plane = model(
         vec![
             building("A", shear(5, left)),
@@ -225,7 +180,7 @@ pub(crate) fn around_a_corner() -> (Vec<Building>, Vec<Gap>, GroundMotion) {
         tower("right", 2, [100e3, 150e6], &plans[1], [-0.4, 0.3]),
         tower("behind", 3, [110e3, 170e6], &plans[2], [0.5, 0.6]),
     ];
-    let gap = |a: usize, b: usize| Gap::between([Some(a), Some(b)], 0.02, LAW);
+    let gap = |a: usize, b: usize| Gap::between([Some(a), Some(b)], 0.02, CONCRETE);
     let mut motion = shaking("along", 7.0);
     motion.bearing = Some(Box::new(Bearing {
         angle: 0.4,
@@ -330,7 +285,7 @@ fn the_order_of_buildings_does_not_matter() {
         buildings[0].clone(),
         buildings[1].clone(),
     ];
-    let gap = |a: usize, b: usize| Gap::between([Some(a), Some(b)], 0.02, LAW);
+    let gap = |a: usize, b: usize| Gap::between([Some(a), Some(b)], 0.02, CONCRETE);
     // The second named first as well: the normal turns round.
     let (_, other) = run(&model(shuffled, vec![gap(0, 1), gap(1, 2)]), &motion);
     same(&own, &other, [1, 2, 0], "in another order");
@@ -477,11 +432,7 @@ fn a_sine_across_shakes_across() {
     let plane = model(
         vec![building(
             "A",
-            Structure::Shear(Shear {
-                mass: vec![1e5; 2],
-                stiffness: vec![5.2e7; 2],
-                storey_heights: vec![3.0; 2],
-            }),
+            Structure::Shear(equal_storeys(2, [1e5, 5.2e7])),
         )],
         Vec::new(),
     );
@@ -553,7 +504,7 @@ fn plans_that_do_not_fit_are_refused() {
     let on_site = |from: PlanPoint, to: PlanPoint| -> String {
         let mut own = model(
             buildings.clone(),
-            vec![Gap::between([Some(2), Some(3)], 0.02, LAW)],
+            vec![Gap::between([Some(2), Some(3)], 0.02, CONCRETE)],
         );
         own.walls = vec![super::space::wall("moat", from, to)];
         match own.check() {
@@ -594,17 +545,10 @@ fn wall(name: &str, from: PlanPoint, to: PlanPoint) -> Wall {
 fn a_wall_on_the_site_is_that_of_the_plane() {
     let own = [150e3, 90e6];
     let mut plane = model(
-        vec![building(
-            "A",
-            Structure::Shear(Shear {
-                mass: vec![own[0]; 4],
-                stiffness: vec![own[1]; 4],
-                storey_heights: vec![3.0; 4],
-            }),
-        )],
+        vec![building("A", Structure::Shear(equal_storeys(4, own)))],
         Vec::new(),
     );
-    plane.gaps = vec![Gap::between([Some(0), None], 0.02, LAW)];
+    plane.gaps = vec![Gap::between([Some(0), None], 0.02, CONCRETE)];
     let mut space = model(
         vec![tower(
             "A",
@@ -613,7 +557,7 @@ fn a_wall_on_the_site_is_that_of_the_plane() {
             &rectangle(0.0, 0.0, 12.0, 10.0),
             [0.0; 2],
         )],
-        vec![Gap::between([Some(0), Some(1)], 0.02, LAW)],
+        vec![Gap::between([Some(0), Some(1)], 0.02, CONCRETE)],
     );
     // Solid on the right of the way upwards.
     space.walls = vec![wall("boundary", [12.02, -1.0], [12.02, 11.0])];
@@ -665,8 +609,8 @@ fn walls_around_a_corner_are_neighbours_that_stand_still() {
     let mut corner = model(
         vec![own.clone()],
         vec![
-            Gap::between([Some(0), Some(1)], 0.02, LAW),
-            Gap::between([Some(2), Some(0)], 0.02, LAW),
+            Gap::between([Some(0), Some(1)], 0.02, CONCRETE),
+            Gap::between([Some(2), Some(0)], 0.02, CONCRETE),
         ],
     );
     corner.walls = vec![
@@ -700,7 +644,7 @@ fn walls_around_a_corner_are_neighbours_that_stand_still() {
     let eccentric = tower("A", 3, [120e3, 70e6], &square, [0.8, -0.5]);
     let mut beside = model(
         vec![eccentric.clone()],
-        vec![Gap::between([Some(0), Some(1)], 0.02, LAW)],
+        vec![Gap::between([Some(0), Some(1)], 0.02, CONCRETE)],
     );
     beside.gaps[0].in_plan.friction = 0.3;
     beside.gaps[0].in_plan.tangential_stiffness = Some(150e6);

@@ -1,17 +1,18 @@
 //! Space frames: closed forms, plane frames as their limit, equilibrium of joints and storeys, turned and mirrored sites.
 
 use std::collections::BTreeMap;
-use std::ops::ControlFlow;
 
 use jostle::linear::StepMatrix;
 use jostle::structure::{MemberPlace, solve_once};
 use jostle::system::BuildingSystem;
 use jostle::{
-    Analysis, Axial, Base, Building, ContactLaw, Damping, Frame, FrameHinges, Gap, GroundMotion,
-    Joint, LawKind, MemberRequest, Model, Outcome, Plan, PlanFrame, PlanPoint, RestitutionIs,
-    RiccatiSweep, RunEnd, Section, Settings, Solver, SpaceFrame, SpaceMember, SpacePlace,
-    SpaceSection, State, Structure, System, Tier, TierStorey, Tiers, simulate,
+    Analysis, Axial, Base, Building, Damping, Frame, FrameHinges, Gap, GroundMotion, Joint,
+    MemberRequest, Model, Outcome, PlanFrame, PlanPoint, RiccatiSweep, Section, Solver, SpaceFrame,
+    SpaceMember, SpacePlace, SpaceSection, State, Structure, System, Tier, TierStorey, Tiers,
 };
+use jostle_testkit::compare::close;
+use jostle_testkit::models::{CONCRETE, FIVE_PERCENT};
+use jostle_testkit::runs::{self, assembled};
 
 const E: f64 = 30e9;
 const NU: f64 = 0.2;
@@ -141,11 +142,6 @@ fn building(name: &str, tiers: Tiers, damping: Damping) -> Building {
     }
 }
 
-const USUAL: Damping = Damping::Ratio {
-    ratio: 0.05,
-    modes: Vec::new(),
-};
-
 fn model(buildings: Vec<Building>, gaps: Vec<Gap>) -> Model {
     Model {
         title: "space frames".to_owned(),
@@ -161,22 +157,8 @@ fn model(buildings: Vec<Building>, gaps: Vec<Gap>) -> Model {
     }
 }
 
-fn assemble(model: &Model) -> System {
-    System::assemble(model).unwrap_or_else(|faults| panic!("{faults:?}"))
-}
-
 fn single(tiers: Tiers) -> System {
-    assemble(&model(vec![building("A", tiers, USUAL)], vec![]))
-}
-
-#[track_caller]
-fn close(got: f64, expected: f64, scale: f64, tolerance: f64, what: &str) {
-    let error = (got - expected).abs();
-    assert!(
-        error <= tolerance * scale,
-        "{what}: {got:e}, expected {expected:e}, off by {:e}",
-        error / scale
-    );
+    assembled(&model(vec![building("A", tiers, FIVE_PERCENT)], vec![]))
 }
 
 /// Displacements of the floors, u_x, u_y, θ each, under forces on them.
@@ -578,9 +560,9 @@ fn a_mirrored_frame_gives_mirrored_displacements() {
 fn weight_softens_every_storey() {
     let tiers = without_symmetry(FULLY);
     let plain = single(tiers.clone());
-    let mut own = building("A", tiers.clone(), USUAL);
+    let mut own = building("A", tiers.clone(), FIVE_PERCENT);
     own.gravity.p_delta = true;
-    let leaning = assemble(&model(vec![own], vec![]));
+    let leaning = assembled(&model(vec![own], vec![]));
     let moved = [
         [0.01, -0.02, 1e-3],
         [0.03, 0.01, -2e-3],
@@ -640,18 +622,9 @@ fn shaking() -> GroundMotion {
 }
 
 fn run(model: &Model, duration: f64) -> (System, Outcome) {
-    let (system, mut motion) = (assemble(model), shaking());
+    let mut motion = shaking();
     motion.duration = duration;
-    let plan = Plan::choose(&system, &motion, &model.analysis).expect("a plan");
-    let settings = Settings {
-        record_interval: Some(0.02),
-        ..Settings::default()
-    };
-    let outcome = simulate(&system, &motion, &plan, settings, |_| {
-        ControlFlow::Continue(())
-    });
-    assert_eq!(outcome.end, RunEnd::Completed);
-    (system, outcome)
+    runs::run(model, &motion, Some(0.02))
 }
 
 fn pounding_pair(tolerance: f64) -> Model {
@@ -664,14 +637,11 @@ fn pounding_pair(tolerance: f64) -> Model {
         }
     }
     second.move_by([0.01, 0.5]);
-    let law = ContactLaw {
-        kind: LawKind::HertzDamp,
-        stiffness: 2e9,
-        restitution: 0.65,
-        restitution_is: RestitutionIs::Input,
-    };
-    let gap = Gap::between([Some(0), Some(1)], 0.01, law);
-    let buildings = vec![building("A", first, USUAL), building("B", second, USUAL)];
+    let gap = Gap::between([Some(0), Some(1)], 0.01, CONCRETE);
+    let buildings = vec![
+        building("A", first, FIVE_PERCENT),
+        building("B", second, FIVE_PERCENT),
+    ];
     let mut model = model(buildings, vec![gap]);
     model.analysis.tolerance = tolerance;
     model.analysis.members.histories =
@@ -683,7 +653,7 @@ fn pounding_pair(tolerance: f64) -> Model {
 #[test]
 fn joints_are_in_equilibrium_while_frames_pound() {
     let mut model = pounding_pair(1e-4);
-    let assembled = assemble(&model);
+    let assembled = assembled(&model);
     let own = assembled.buildings[0].members.members.iter();
     model.analysis.members.histories = own.map(|member| format!("A.{}", member.place)).collect();
     let (system, outcome) = run(&model, 3.0);

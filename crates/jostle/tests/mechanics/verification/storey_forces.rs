@@ -2,13 +2,10 @@
 
 use jostle::history::{Column, FloorPeaks};
 use jostle::{Analysis, Damping, LawKind, Model, Outcome, Plan, Solver, Structure, System};
+use jostle_testkit::compare::near;
+use jostle_testkit::models::UNDAMPED;
 
 use crate::verification::support::{assembled, frame, law, run, shaking, two_frames};
-
-const UNDAMPED: Damping = Damping::Rayleigh {
-    alpha: 0.0,
-    beta: 0.0,
-};
 
 fn outcome(system: &System, solver: Solver, tolerance: f64) -> Outcome {
     let motion = shaking(3.0);
@@ -44,13 +41,6 @@ fn towers() -> Model {
     model
 }
 
-fn close(found: f64, expected: f64, tolerance: f64, what: &str) {
-    assert!(
-        (found - expected).abs() <= tolerance * expected.abs(),
-        "{what}: {found} for {expected}"
-    );
-}
-
 #[test]
 fn storeys_of_shear_buildings_bear_stiffness_times_drift() {
     let model = towers();
@@ -65,10 +55,10 @@ fn storeys_of_shear_buildings_bear_stiffness_times_drift() {
             let storeys = shear.stiffness.iter().zip(&shear.storey_heights);
             for ((stiffness, height), peaks) in storeys.zip(&outcome.floors[index]) {
                 let expected = stiffness * peaks.storey_drift * height;
-                close(peaks.storey_shear, expected, 1e-6, "storey shear");
+                near(peaks.storey_shear, expected, 1e-6, "storey shear");
             }
             let first = outcome.floors[index][0].storey_shear;
-            close(first, outcome.base_shear[index], 1e-6, "base shear");
+            near(first, outcome.base_shear[index], 1e-6, "base shear");
         }
     }
 }
@@ -101,8 +91,8 @@ fn frames_bear_the_inertia_above() {
             shear = shear.max(sum[0].abs());
             moment = moment.max(sum[1].abs());
         }
-        close(peaks.storey_shear, shear, 1e-6, "storey shear");
-        close(peaks.overturning_moment, moment, 1e-6, "moment");
+        near(peaks.storey_shear, shear, 1e-6, "storey shear");
+        near(peaks.overturning_moment, moment, 1e-6, "moment");
     }
 }
 

@@ -10,8 +10,13 @@ use jostle::system::BuildingSystem;
 use jostle::{
     Axial, Building, Column, ContactLaw, Damping, Frame, Gap, GroundMotion, Joint, LawKind, Model,
     Outcome, Plan, Pounding, RestitutionIs, RunEnd, Section, Settings, Shear, Solver, State,
-    Structure, System, simulate,
+    Structure, System,
 };
+pub(crate) use jostle_testkit::compare::{difference, largest};
+use jostle_testkit::models;
+pub(crate) use jostle_testkit::models::concrete as section;
+use jostle_testkit::runs;
+pub(crate) use jostle_testkit::runs::assembled;
 
 /// All contact laws.
 pub(crate) const LAWS: [LawKind; LawKind::ALL.len()] = LawKind::ALL;
@@ -42,31 +47,9 @@ impl Random {
     }
 }
 
-/// A rectangular section of concrete, with its rigidities.
-pub(crate) fn section(width: f64, depth: f64) -> Section {
-    let (modulus, density) = (3e10, 2500.0);
-    Section {
-        flexural_rigidity: modulus * width * depth.powi(3) / 12.0,
-        axial_rigidity: Some(modulus * width * depth),
-        line_mass: density * width * depth,
-        shear_rigidity: None,
-    }
-}
-
 /// A regular frame.
 pub(crate) fn frame(storeys: usize, spans: &[f64]) -> Frame {
-    Frame {
-        storey_heights: vec![3.2; storeys],
-        spans: spans.to_vec(),
-        columns: vec![section(0.5, 0.5); storeys],
-        beams: vec![section(0.3, 0.6); storeys],
-        beam_mass: vec![5000.0; storeys],
-        floor_mass: vec![0.0; storeys],
-        column_segments: 2,
-        beam_segments: vec![3; spans.len()],
-        axial: Axial::default(),
-        joint: Joint::default(),
-    }
+    models::frame(storeys, spans, section(0.5, 0.5), section(0.3, 0.6))
 }
 
 /// A frame of random size and properties.
@@ -226,22 +209,9 @@ pub(crate) const EVERYTHING: Settings = Settings {
     record_interval: Some(0.0),
 };
 
-pub(crate) fn assembled(model: &Model) -> System {
-    System::assemble(model).expect("the model is sound")
-}
-
 /// Runs from rest to the end.
 pub(crate) fn run(system: &System, motion: &GroundMotion, plan: &Plan) -> Outcome {
-    let outcome = simulate(system, motion, plan, EVERYTHING, |_| {
-        ControlFlow::Continue(())
-    });
-    assert_eq!(
-        outcome.end,
-        RunEnd::Completed,
-        "the run must reach its end, {plan:?}\n{:?}",
-        system.contacts
-    );
-    outcome
+    runs::completed(system, motion, plan, EVERYTHING.record_interval)
 }
 
 /// Runs from a given state to the end.
@@ -262,20 +232,6 @@ pub(crate) fn run_from(
 pub(crate) fn column(outcome: &Outcome, column: Column) -> Vec<f64> {
     let history = outcome.history.as_ref().expect("histories are recorded");
     history.column(column).expect("the column is recorded")
-}
-
-/// Greatest magnitude.
-pub(crate) fn largest(values: &[f64]) -> f64 {
-    values
-        .iter()
-        .fold(0.0, |largest, value| largest.max(value.abs()))
-}
-
-/// Greatest difference, relative to the greatest expected magnitude.
-pub(crate) fn difference(got: &[f64], expected: &[f64]) -> f64 {
-    assert_eq!(got.len(), expected.len(), "as many values as expected");
-    let apart: Vec<f64> = got.iter().zip(expected).map(|(g, e)| g - e).collect();
-    largest(&apart) / largest(expected)
 }
 
 /// A mass \[kg\] that only slides, on a spring \[N/m\] unless it is free.

@@ -6,6 +6,7 @@ use jostle::{
     Analysis, Base, Building, Column, Damping, FrameHinges, Gravity, Hinges, LawKind, Model,
     Outcome, Plan, RunEnd, Solver, Structure, System, simulate,
 };
+use jostle_testkit::models::equal_storeys;
 
 use crate::verification::monolith::monolith;
 use crate::verification::support::{
@@ -157,11 +158,7 @@ fn on_yielding_footings() -> Model {
 fn a_yielding_base_is_a_yielding_storey() {
     let spring = |rule, stiffness, force| hinge(rule, stiffness, force);
     let elastic = |stiffness| spring(HysteresisRule::Elastic, stiffness, 1e9);
-    let upper = jostle::Shear {
-        mass: vec![5e4; 3],
-        stiffness: vec![6e7; 3],
-        storey_heights: vec![3.0; 3],
-    };
+    let upper = equal_storeys(3, [5e4, 6e7]);
     let lower = spring(rule(1), 9e7, 1e5);
     let damping = Damping::Rayleigh {
         alpha: 0.2,

@@ -2,31 +2,20 @@
 //! may be turned.
 
 use std::f64::consts::PI;
-use std::ops::ControlFlow;
 
 use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
 use jostle::{
-    Analysis, Axial, Base, Bearing, Building, ContactLaw, Damping, Frame, FrameHinges, Gap,
-    Gravity, GroundMotion, Hinges, Joint, LawKind, MemberRequest, Model, Outcome, Plan, PlanArea,
-    PlanAxis, PlanFrame, PlanPoint, PlanSpring, RestitutionIs, RunEnd, Section, Settings, Shear,
-    Solver, Structure, System, Tier, TierStorey, Tiers, simulate,
+    Analysis, Axial, Base, Bearing, Building, Damping, Frame, FrameHinges, Gap, Gravity,
+    GroundMotion, Hinges, Joint, MemberRequest, Model, Outcome, PlanArea, PlanAxis, PlanFrame,
+    PlanPoint, PlanSpring, Section, Solver, Structure, System, Tier, TierStorey, Tiers,
 };
-
-const LAW: ContactLaw = ContactLaw {
-    kind: LawKind::HertzDamp,
-    stiffness: 2e9,
-    restitution: 0.65,
-    restitution_is: RestitutionIs::Input,
-};
+use jostle_testkit::models::{CONCRETE, equal_storeys, rectangle};
+use jostle_testkit::motions::fading;
+use jostle_testkit::runs::{assembled, completed, planned};
 
 /// A shaking without symmetry, 8 s long.
 fn shaking(name: &str, rate: f64, scale: f64) -> GroundMotion {
-    let at = |i: u32| {
-        let t = 0.02 * f64::from(i);
-        let slow = 3.0 * (rate * t).sin() * (-0.1 * t).exp();
-        scale * (slow + 1.2 * (3.1 * rate * t).cos() * (-0.3 * t).exp())
-    };
-    GroundMotion::sampled(name, 0.02, (0..=400).map(at).collect())
+    fading(name, rate, [scale, 3.0], 400)
 }
 
 fn spring(rule: HysteresisRule, stiffness: f64, yielding: f64) -> Hysteresis {
@@ -75,22 +64,11 @@ fn model(buildings: Vec<Building>, gaps: Vec<Gap>) -> Model {
 }
 
 fn run(model: &Model, motion: &GroundMotion) -> (System, Outcome) {
-    let system = System::assemble(model).unwrap_or_else(|faults| panic!("{faults:?}"));
-    let plan = Plan::choose(&system, motion, &model.analysis).unwrap_or_else(|f| panic!("{f:?}"));
+    let system = assembled(model);
+    let plan = planned(&system, motion, &model.analysis);
     assert_eq!(plan.solver, Solver::Riccati);
-    let settings = Settings {
-        record_interval: Some(0.0),
-        ..Settings::default()
-    };
-    let outcome = simulate(&system, motion, &plan, settings, |_| {
-        ControlFlow::Continue(())
-    });
-    assert_eq!(outcome.end, RunEnd::Completed);
+    let outcome = completed(&system, motion, &plan, Some(0.0));
     (system, outcome)
-}
-
-fn rectangle(x: f64, y: f64, a: f64, b: f64) -> Vec<PlanPoint> {
-    vec![[x, y], [x + a, y], [x + a, y + b], [x, y + b]]
 }
 
 /// Storeys that yield along both directions about their centre of stiffness, and stay elastic in torsion.
@@ -140,11 +118,7 @@ fn plans_without_eccentricity_yield_as_in_the_plane() {
         let plane: Vec<Building> = parts
             .iter()
             .map(|&(storeys, [mass, stiffness], _)| {
-                let shear = Shear {
-                    mass: vec![mass; storeys],
-                    stiffness: vec![stiffness; storeys],
-                    storey_heights: vec![3.0; storeys],
-                };
+                let shear = equal_storeys(storeys, [mass, stiffness]);
                 let own = spring(rule, stiffness, 8e-3);
                 building(
                     "plane",
@@ -169,7 +143,7 @@ fn plans_without_eccentricity_yield_as_in_the_plane() {
                 .for_each(|(own, name)| own.name = name.to_owned());
             list
         };
-        let gap = || vec![Gap::after(0, 0.02, LAW)];
+        let gap = || vec![Gap::after(0, 0.02, CONCRETE)];
         let motion = shaking("along", 7.0, 1.5);
         let mut flat_model = model(name(plane), gap());
         flat_model.analysis.solver = Some(Solver::Riccati);
@@ -449,7 +423,7 @@ fn a_turned_site_yields_the_same() {
         })
         .collect()
     };
-    let gap = || vec![Gap::between([Some(0), Some(1)], 0.015, LAW)];
+    let gap = || vec![Gap::between([Some(0), Some(1)], 0.015, CONCRETE)];
     let motion = bearing(shaking("along", 7.0, 1.5), shaking("across", 5.3, 1.2));
     let mut turned_motion = motion.clone();
     turned_motion.bearing.as_mut().expect("a bearing").angle += 0.5 * PI;

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
-use std::ops::ControlFlow;
 
 use jostle::history::FloorPeaks;
 use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
@@ -10,9 +9,12 @@ use jostle::structure::MemberPlace;
 use jostle::{
     Analysis, Axial, Base, Bearing, Building, ContactLaw, Damping, Frame, FrameHinges, Gap,
     GroundMotion, Hinges, Joint, LawKind, MemberRequest, Model, Outcome, Plan, PlanAxis, PlanFrame,
-    PlanPoint, PlanSpring, RestitutionIs, RunEnd, Section, Settings, Shear, Solver, SpaceFrame,
-    SpaceMember, SpacePlace, SpaceSection, Structure, System, Tier, TierStorey, Tiers, simulate,
+    PlanPoint, PlanSpring, RestitutionIs, Section, Shear, Solver, SpaceFrame, SpaceMember,
+    SpacePlace, SpaceSection, Structure, System, Tier, TierStorey, Tiers,
 };
+use jostle_testkit::compare::close;
+use jostle_testkit::motions::fading;
+use jostle_testkit::runs::{self, run};
 
 const E: f64 = 30e9;
 
@@ -187,35 +189,17 @@ fn model(buildings: Vec<Building>, gaps: Vec<Gap>) -> Model {
     }
 }
 
-fn run(model: &Model, motion: &GroundMotion) -> (System, Outcome) {
-    let system = System::assemble(model).unwrap_or_else(|faults| panic!("{faults:?}"));
-    let plan = Plan::choose(&system, motion, &model.analysis).unwrap_or_else(|f| panic!("{f:?}"));
-    let settings = Settings {
-        record_interval: Some(0.02),
-        ..Settings::default()
-    };
-    let outcome = simulate(&system, motion, &plan, settings, |_| {
-        ControlFlow::Continue(())
-    });
-    assert_eq!(outcome.end, RunEnd::Completed);
-    (system, outcome)
-}
-
 fn single(structure: Structure, motion: &GroundMotion) -> (System, Outcome) {
     run(
         &model(vec![building("A", structure, None)], Vec::new()),
         motion,
+        Some(0.02),
     )
 }
 
 /// A shaking without symmetry, 3 s long.
 fn shaking(name: &str, rate: f64, scale: f64) -> GroundMotion {
-    let at = |i: u32| {
-        let t = 0.02 * f64::from(i);
-        let slow = 3.0 * (rate * t).sin() * (-0.1 * t).exp();
-        scale * (slow + 1.2 * (3.1 * rate * t).cos() * (-0.3 * t).exp())
-    };
-    GroundMotion::sampled(name, 0.02, (0..=150).map(at).collect())
+    fading(name, rate, [scale, 3.0], 150)
 }
 
 /// The same from another bearing, with a component across it.
@@ -227,16 +211,6 @@ fn bearing(mut motion: GroundMotion, angle: f64, across: Option<GroundMotion>) -
 fn most(floor: &FloorPeaks) -> f64 {
     let least = -floor.displacement_min.value;
     floor.displacement_max.value.max(least)
-}
-
-#[track_caller]
-fn close(got: f64, expected: f64, scale: f64, tolerance: f64, what: &str) {
-    let error = (got - expected).abs();
-    assert!(
-        error <= tolerance * scale,
-        "{what}: {got:e}, expected {expected:e}, off by {:e}",
-        error / scale
-    );
 }
 
 /// Two storeys, two bays along x, one across.
@@ -328,7 +302,7 @@ fn a_pair_of_frames_yields_as_its_plane_limit() {
                 Vec::new(),
             );
             own.analysis.members = MemberRequest::all();
-            run(&own, &motion)
+            run(&own, &motion, Some(0.02))
         };
         let (of_space, a) = with_members(space);
         let (of_plane, b) = with_members(plane);
@@ -545,7 +519,11 @@ fn cantilevers_yield_in_each_direction_as_in_the_plane() {
         };
         let hinges = Some(Hinges::Storeys(vec![storey]));
         let plane = building("A", Structure::Shear(shear), hinges);
-        let (_, plane) = run(&model(vec![plane], Vec::new()), &components[axis]);
+        let (_, plane) = run(
+            &model(vec![plane], Vec::new()),
+            &components[axis],
+            Some(0.02),
+        );
         let floor = &plane.floors[0][0];
         assert!(plane.energy.hysteretic > 1e3);
         close(most(found[axis]), most(floor), most(floor), 1e-9, "u");
@@ -659,7 +637,7 @@ fn hinges_that_do_not_yield_leave_the_elastic_frame() {
             tolerance: 1e-4,
             ..Analysis::default()
         };
-        let (_, modal) = run(&by_modes, &motion);
+        let (_, modal) = run(&by_modes, &motion, Some(0.02));
         for (own, other) in a.floors[0].iter().zip(&modal.floors[0]) {
             close(most(own), most(other), most(other), 3e-3, "by modes");
         }
@@ -703,7 +681,7 @@ fn pounding_pair() -> Model {
 fn joints_are_in_equilibrium_while_yielding_frames_pound() {
     let mut model = pounding_pair();
     model.analysis.members = MemberRequest::all();
-    let assembled = System::assemble(&model).unwrap_or_else(|faults| panic!("{faults:?}"));
+    let assembled = runs::assembled(&model);
     for (index, name) in ["A", "B"].into_iter().enumerate() {
         // Every hinge is listed once, by its member, end and axis.
         let places = &assembled.buildings[index].discretization.spring_places;
@@ -715,7 +693,7 @@ fn joints_are_in_equilibrium_while_yielding_frames_pound() {
     }
     let across = shaking("across", 5.0, 0.7);
     let motion = bearing(shaking("along", 4.0, 1.0), 0.2, Some(across));
-    let (system, outcome) = run(&model, &motion);
+    let (system, outcome) = run(&model, &motion, Some(0.02));
     assert!(outcome.face_impacts.len() > 2, "they pound");
     assert!(outcome.energy.hysteretic > 1e4);
     assert!(
@@ -800,13 +778,13 @@ fn both_direct_solvers_agree_and_modes_are_refused() {
         own.analysis.solver = Some(solver);
         own
     };
-    let (_, a) = run(&with(Solver::Riccati), &motion);
-    let (_, b) = run(&with(Solver::Stiffness), &motion);
+    let (_, a) = run(&with(Solver::Riccati), &motion, Some(0.02));
+    let (_, b) = run(&with(Solver::Stiffness), &motion, Some(0.02));
     for (own, other) in a.floors[0].iter().zip(&b.floors[0]) {
         close(most(own), most(other), most(other), 1e-9, "u");
     }
     let refused = with(Solver::Modal);
-    let system = System::assemble(&refused).unwrap_or_else(|faults| panic!("{faults:?}"));
+    let system = runs::assembled(&refused);
     let faults = Plan::choose(&system, &motion, &refused.analysis).expect_err("it yields");
     assert!(
         faults[0].problem.contains("riccati"),

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 /// Adds the source files below a folder, without those of unit tests.
-pub(crate) fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
+pub fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
     for entry in std::fs::read_dir(folder).expect("a source folder can be read") {
         let path = entry.expect("an entry can be read").path();
         let test_code = ["tests.rs", "testkit.rs"]
@@ -19,7 +19,7 @@ pub(crate) fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
 
 /// Modules of this crate that a file names outside of comments and tests. Names that begin with a capital letter or
 /// are functions stand at the root of the crate, which no file may import from.
-pub(crate) fn imports(text: &str) -> impl Iterator<Item = String> {
+pub fn imports(text: &str) -> impl Iterator<Item = String> {
     let code = text.split("#[cfg(test)]\nmod tests {").next().unwrap_or("");
     let lines = code
         .lines()

@@ -1,0 +1,14 @@
+//! Runs of texts.
+
+use std::ops::ControlFlow;
+
+use jostle::Settings;
+use jostle_run::{Opened, Ran};
+use jostle_testkit::files::sound;
+
+/// A run of the text of a model, with a history.
+pub(crate) fn ran(text: &str) -> Ran {
+    let opened = Opened::new(sound(text), "model").unwrap_or_else(|error| panic!("{error}"));
+    let prepared = opened.prepare().unwrap_or_else(|error| panic!("{error}"));
+    prepared.run(Settings::default(), &mut |_, _| ControlFlow::Continue(()))
+}
