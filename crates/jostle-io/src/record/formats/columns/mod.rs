@@ -173,7 +173,16 @@ impl Table {
 
     /// Appends a row of numbers.
     fn push(&mut self, line: usize, row: &str) -> Result<(), RecordError> {
-        let found = cells(row).count();
+        let (mut found, mut time, mut acceleration) = (0, "", "");
+        for cell in cells(row) {
+            if found == self.time_column {
+                time = cell;
+            }
+            if found == self.acceleration {
+                acceleration = cell;
+            }
+            found += 1;
+        }
         if found != self.columns {
             return Err(RecordError::Ragged {
                 line,
@@ -181,14 +190,13 @@ impl Table {
                 expected: self.columns,
             });
         }
-        let cell = |column| cells(row).nth(column).unwrap_or("");
         if let Some(times @ Ok(_)) = &mut self.times
             && let Ok(read) = times
-            && let Err(error) = read.push(line, cell(self.time_column))
+            && let Err(error) = read.push(line, time)
         {
             *times = Err(error);
         }
-        self.values.push(number(line, cell(self.acceleration))?);
+        self.values.push(number(line, acceleration)?);
         self.lines.note(line, 1);
         Ok(())
     }
