@@ -8,6 +8,7 @@ use crate::quantity::{Dimension, check_magnitude, parse_quantity, shorten};
 use crate::source::{Source, Span};
 use crate::tree::{Node, Table, Value};
 use crate::unusual::{Accepted, Range, Verdict, Written, range_of};
+use jostle::linear::sort_by_key;
 
 /// Faults of a file that are kept; beyond that, they are counted.
 const MOST_FAULTS: usize = 500;
@@ -171,7 +172,7 @@ impl<'s> Reader<'s> {
 
     /// All that was noted, in the order of the file.
     pub(crate) fn into_error(mut self) -> InputError {
-        self.faults.sort_by_key(|(start, _)| *start);
+        sort_by_key(&mut self.faults, |(start, _)| *start);
         InputError {
             name: self.source.name.clone(),
             faults: self.faults.into_iter().map(|(_, fault)| fault).collect(),
@@ -307,7 +308,7 @@ impl<'s> Reader<'s> {
     /// All warnings, in the order of the file.
     pub(crate) fn take_warnings(&mut self) -> Vec<String> {
         let mut warnings = std::mem::take(&mut self.warnings);
-        warnings.sort_by_key(|(start, _)| *start);
+        sort_by_key(&mut warnings, |(start, _)| *start);
         // One warning covers all entries of a list.
         let stem = |text: &str| {
             let field = text.split_once(": ").map_or("", |(field, _)| field);

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use jostle::history::MemberHistory;
 use jostle::hysteresis::{ForceRow, Side};
+use jostle::linear::sort_by;
 use jostle::quantity::Read;
 use jostle::results::in_plan::ImpactSliding;
 use jostle::results::summary::{
@@ -121,7 +122,9 @@ pub fn impact_columns(summary: &Summary) -> Vec<(&'static str, Values)> {
             }
         }
     }
-    rows.sort_by(|(_, _, a), (_, _, b)| a.start_s.total_cmp(&b.start_s));
+    sort_by(&mut rows, |(_, _, a), (_, _, b)| {
+        a.start_s.total_cmp(&b.start_s)
+    });
     let floor = |side: usize| {
         let floors = rows.iter().map(|(_, contact, _)| {
             contact.floors[side].and_then(|floor| i32::try_from(floor).ok())

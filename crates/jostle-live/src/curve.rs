@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use std::sync::mpsc::Sender;
 use std::sync::{Mutex, PoisonError};
 
+use jostle::linear::sort_by_key;
 use jostle::results::response::BuildingResponse;
 use jostle::{Settings, Summary};
 use jostle_io::{ModelTree, TreeValue};
@@ -209,7 +210,7 @@ fn cells(counts: [usize; 2]) -> Vec<(usize, usize)> {
     let mut all: Vec<(usize, usize)> = (0..counts[0])
         .flat_map(|x| (0..counts[1]).map(move |z| (x, z)))
         .collect();
-    all.sort_by_key(|&(x, z)| ranks[0][x].max(ranks[1][z]));
+    sort_by_key(&mut all, |&(x, z)| ranks[0][x].max(ranks[1][z]));
     all
 }
 

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use jostle::history::Column;
 use jostle::hysteresis::Side;
+use jostle::linear::sort_by;
 use jostle::model::{Isolation, Link, LinkLaw, Model};
 use jostle::results::summary::{IsolationSummary, LinkFloorSummary, LinkSummary};
 use maud::{Markup, html};
@@ -173,7 +174,9 @@ pub(crate) fn devices<'a>(page: &Page<'a>) -> Vec<Device<'a>> {
         }
     }
     links.retain(|(_, _, link, _)| link.law != LinkLaw::Linear || link.damping > 0.0);
-    links.sort_by(|a, b| b.3.dissipated_j.total_cmp(&a.3.dissipated_j));
+    sort_by(&mut links, |a, b| {
+        b.3.dissipated_j.total_cmp(&a.3.dissipated_j)
+    });
     for (index, summary, link, floor) in links {
         let building = link.between.into_iter().flatten();
         let reach = 1.1 * floor.peak_stroke_m;
@@ -459,7 +462,9 @@ fn rows(page: &Page) -> (Vec<Row>, usize) {
             links.push((links.len(), summary, link, floor));
         }
     }
-    links.sort_by(|a, b| b.3.dissipated_j.total_cmp(&a.3.dissipated_j));
+    sort_by(&mut links, |a, b| {
+        b.3.dissipated_j.total_cmp(&a.3.dissipated_j)
+    });
     let all = rows.len() + links.len();
     links.truncate(MOST_ROWS.saturating_sub(rows.len()));
     for (index, summary, link, floor) in links {

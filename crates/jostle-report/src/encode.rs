@@ -2,6 +2,7 @@
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use jostle::linear::sort_by;
 use serde::Serialize;
 
 /// Numbers of a list, ready for the scripts of a page.
@@ -171,7 +172,7 @@ pub(crate) fn thin_impacts(force: &[Vec<f64>], budget: usize) -> Vec<Vec<usize>>
     // Force below which impacts are left out.
     let weakest = if rows > budget && count * LEAST_ROWS > budget {
         let mut peaks: Vec<f64> = episodes.iter().flatten().map(|e| e.peak).collect();
-        peaks.sort_by(|a, b| b.total_cmp(a));
+        sort_by(&mut peaks, |a, b| b.total_cmp(a));
         peaks.get(budget / LEAST_ROWS).copied().unwrap_or(0.0)
     } else {
         0.0

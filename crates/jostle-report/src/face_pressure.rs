@@ -1,5 +1,6 @@
 //! How the force of a face is spread along it at its largest impact.
 
+use jostle::linear::sort_by;
 use jostle::results::summary::ContactSummary;
 use maud::{Markup, html};
 
@@ -31,7 +32,9 @@ pub(crate) fn figures(page: &Page) -> Markup {
             is_face && contact.peak_force_n > 0.0
         })
         .collect();
-    faces.sort_by(|a, b| b.2.peak_force_n.total_cmp(&a.2.peak_force_n));
+    sort_by(&mut faces, |a, b| {
+        b.2.peak_force_n.total_cmp(&a.2.peak_force_n)
+    });
     html! {
         @if !faces.is_empty() { div.pressures {
             h3 { (message::force_along_the_faces()) }

@@ -1,5 +1,6 @@
 //! Friction along faces: peaks of every face, and how far the faces that slide most slip over time.
 
+use jostle::linear::sort_by;
 use jostle::results::in_plan::{PlanContactSummary, SlidingSummary};
 use jostle::results::summary::{ContactSummary, GapSummary};
 use jostle::{Column, Model};
@@ -50,7 +51,9 @@ pub(crate) fn section(page: &Page) -> Markup {
         .iter()
         .filter(|face| face.sliding.slip_peak_m > 0.0)
         .collect();
-    most.sort_by(|a, b| b.sliding.friction_j.total_cmp(&a.sliding.friction_j));
+    sort_by(&mut most, |a, b| {
+        b.sliding.friction_j.total_cmp(&a.sliding.friction_j)
+    });
     most.truncate(MOST);
     html! {
         div #friction.site-plan {

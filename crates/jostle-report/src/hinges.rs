@@ -2,6 +2,7 @@
 
 use jostle::SpacePlace;
 use jostle::hysteresis::{Backbone, Hysteresis, Side};
+use jostle::linear::sort_by;
 use jostle::model::{Building, Hinges, Model, Structure};
 use jostle::results::summary::{HingeSummary, SpringSummary};
 use jostle::structure::{BaseMotion, Discretization, MemberEnd, SpringPlace};
@@ -163,7 +164,7 @@ pub(crate) fn in_order<'a>(page: &Page<'a>, places: &[Place]) -> Vec<(Place, &'a
     }
     let never = f64::INFINITY;
     let key = |s: &SpringSummary| [s.yielded_s.unwrap_or(never), s.cracked_s.unwrap_or(never)];
-    found.sort_by(|(_, a), (_, b)| {
+    sort_by(&mut found, |(_, a), (_, b)| {
         let (a, b) = (key(a), key(b));
         a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1]))
     });
@@ -174,7 +175,9 @@ pub(crate) fn in_order<'a>(page: &Page<'a>, places: &[Place]) -> Vec<(Place, &'a
 pub(crate) fn worst<'a>(order: &[(Place, &'a SpringSummary)]) -> Vec<(Place, &'a SpringSummary)> {
     let ranked = |of: fn(&SpringSummary) -> f64| {
         let mut ranked: Vec<usize> = (0..order.len()).collect();
-        ranked.sort_by(|a, b| of(order[*b].1).total_cmp(&of(order[*a].1)));
+        sort_by(&mut ranked, |a, b| {
+            of(order[*b].1).total_cmp(&of(order[*a].1))
+        });
         ranked
     };
     let rankings = [ranked(|s| s.ductility), ranked(|s| s.dissipated_j)];
@@ -183,7 +186,9 @@ pub(crate) fn worst<'a>(order: &[(Place, &'a SpringSummary)]) -> Vec<(Place, &'a
         let next = rankings[turn % 2].iter().find(|i| !chosen.contains(i));
         chosen.extend(next);
     }
-    chosen.sort_by(|a, b| order[*b].1.ductility.total_cmp(&order[*a].1.ductility));
+    sort_by(&mut chosen, |a, b| {
+        order[*b].1.ductility.total_cmp(&order[*a].1.ductility)
+    });
     chosen.into_iter().map(|index| order[index]).collect()
 }
 

@@ -1,5 +1,6 @@
 //! Greatest forces of columns and beams, and their demand over capacity: one table for each building, struck columns first.
 
+use jostle::linear::sort_by;
 use jostle::results::summary::{
     BuildingSummary, CapacitySummary, ExceededSummary, JointSummary, MemberSummary, RatioPlace,
     SectionSummary,
@@ -161,7 +162,7 @@ fn table(building: &BuildingSummary) -> Markup {
         })
     };
     let mut members: Vec<&MemberSummary> = building.members.iter().collect();
-    members.sort_by(|a, b| {
+    sort_by(&mut members, |a, b| {
         let (x, y) = (hit(a), hit(b));
         y.total_cmp(&x).then(shear(b).total_cmp(&shear(a)))
     });
@@ -173,7 +174,7 @@ fn table(building: &BuildingSummary) -> Markup {
             let ratio = m.ratio.as_ref();
             ratio.map_or(0.0, |ratio| ratio.bending.max(ratio.shear.unwrap_or(0.0)))
         };
-        members.sort_by(|a, b| ratio(b).total_cmp(&ratio(a)));
+        sort_by(&mut members, |a, b| ratio(b).total_cmp(&ratio(a)));
     }
     let all = members.len();
     members.truncate(MOST_ROWS);
@@ -251,7 +252,7 @@ fn joints(building: &BuildingSummary) -> Markup {
         all.map(|ratio| ratio.shear).next().unwrap_or(0.0)
     };
     let mut joints: Vec<&JointSummary> = building.joints.iter().collect();
-    joints.sort_by(|a, b| ratio_of(b).total_cmp(&ratio_of(a)));
+    sort_by(&mut joints, |a, b| ratio_of(b).total_cmp(&ratio_of(a)));
     let all = joints.len();
     joints.truncate(MOST_ROWS);
     let first = building.joints.first();

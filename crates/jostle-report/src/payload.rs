@@ -1,6 +1,7 @@
 //! Data of the page's scripts: geometry, impacts and thinned histories as one JSON text.
 
 use jostle::history::{Column, EnergyTerm, History};
+use jostle::linear::sort_by;
 use jostle::model::{Building, Gap, LumpedFloor, Model, Structure};
 use jostle::motion::{GroundMotion, Wave};
 use jostle::results::summary::{ContactSummary, SpringSummary, Summary};
@@ -802,8 +803,8 @@ fn impacts(summary: &Summary) -> Vec<ImpactData> {
             })
         })
         .collect();
-    impacts.sort_by(|a, b| b.peak.total_cmp(&a.peak));
+    sort_by(&mut impacts, |a, b| b.peak.total_cmp(&a.peak));
     impacts.truncate(MOST_IMPACTS);
-    impacts.sort_by(|a, b| a.start.total_cmp(&b.start));
+    sort_by(&mut impacts, |a, b| a.start.total_cmp(&b.start));
     impacts
 }

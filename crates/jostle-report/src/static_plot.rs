@@ -1,5 +1,6 @@
 //! Line plots without scripts, the same on screen and on paper.
 
+use jostle::linear::sort_by;
 use maud::{Markup, html};
 
 use crate::format;
@@ -169,7 +170,7 @@ pub(crate) fn thinned_to(points: &[[f64; 2]], most: usize) -> Vec<[f64; 2]> {
         let low = part.iter().min_by(|a, b| value(a).total_cmp(&value(b)));
         let high = part.iter().max_by(|a, b| value(a).total_cmp(&value(b)));
         let mut both = [low, high].map(|p| p.copied().unwrap_or_default());
-        both.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        sort_by(&mut both, |a, b| a[0].total_cmp(&b[0]));
         both
     });
     extremes.collect()

@@ -1,6 +1,7 @@
 //! Tables of impacts and of peaks of every floor.
 
 use jostle::contact::{LawKind, RestitutionIs};
+use jostle::linear::sort_by;
 use jostle::quantity::{Quantity, Shown};
 use jostle::results::response::FloorResponse;
 use jostle::results::summary::{BuildingSummary, ContactSummary, GapSummary, ImpactSummary};
@@ -31,9 +32,11 @@ pub(crate) fn impacts(page: &Page) -> Markup {
         })
         .collect();
     let all = rows.len();
-    rows.sort_by(|a, b| b.3.peak_force_n.total_cmp(&a.3.peak_force_n));
+    sort_by(&mut rows, |a, b| {
+        b.3.peak_force_n.total_cmp(&a.3.peak_force_n)
+    });
     rows.truncate(MOST_ROWS);
-    rows.sort_by(|a, b| a.3.start_s.total_cmp(&b.3.start_s));
+    sort_by(&mut rows, |a, b| a.3.start_s.total_cmp(&b.3.start_s));
     let columns: [(&str, &str); 9] = [
         (message::start(), "s"),
         (message::duration(), "ms"),

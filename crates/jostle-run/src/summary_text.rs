@@ -3,6 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
+use jostle::linear::sort_by;
 use jostle::results::contact_sensitivity::ContactSensitivity;
 use jostle::results::response::FloorResponse;
 use jostle::results::summary::{
@@ -505,7 +506,7 @@ fn write_gap(
         .iter()
         .filter(|contact| contact.impact_count > 0)
         .collect();
-    hit.sort_by(|a, b| b.height_m.total_cmp(&a.height_m));
+    sort_by(&mut hit, |a, b| b.height_m.total_cmp(&a.height_m));
     if !hit.is_empty() {
         writeln!(
             text,

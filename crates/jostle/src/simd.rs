@@ -13,11 +13,13 @@ pub(crate) fn in_wide_registers<Loops: NullaryFnOnce>(
     length: usize,
     loops: Loops,
 ) -> Loops::Output {
-    if length < WORTH_IT {
-        loops.call()
+    // One call, because every call compiles the loops for all registers.
+    let arch = if length < WORTH_IT {
+        Arch::Scalar
     } else {
-        Arch::new().dispatch(loops)
-    }
+        Arch::new()
+    };
+    arch.dispatch(loops)
 }
 
 /// [`weighted_square`] in the widest available registers.

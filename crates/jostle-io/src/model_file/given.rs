@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use jostle::linear::sort_by;
 use jostle::{Damping, Given};
 
 use super::building::{per_storey, storeys};
@@ -190,7 +191,7 @@ fn read_ports(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Vec<Port>> {
     if entries.is_empty() {
         reader.bad(field, "names no floor");
     }
-    ports.sort_by(|a, b| a.height.total_cmp(&b.height));
+    sort_by(&mut ports, |a, b| a.height.total_cmp(&b.height));
     for pair in ports.windows(2) {
         if pair[0].height == pair[1].height {
             let [a, b] = [&pair[0].name, &pair[1].name];

@@ -2,6 +2,7 @@
 
 use jostle::hysteresis::Hysteresis;
 use jostle::interface::narrowest_gap;
+use jostle::linear::sort_by_key;
 use jostle::{
     Building, Gap, Model, PlanArea, PlanAxis, PlanPoint, PlanSpring, Structure, Tier, TierStorey,
     Tiers,
@@ -446,7 +447,7 @@ fn of_elements(reader: &mut Reader<'_>, entries: &[Field<'_>], count: usize) -> 
         }
     }
     // From the ground up, as storeys yield.
-    yielding.sort_by_key(|spring| spring.storey);
+    sort_by_key(&mut yielding, |spring| spring.storey);
     OfElements {
         storeys: of_storey
             .iter()

@@ -1,5 +1,6 @@
 //! The value tree of a TOML text.
 
+use jostle::linear::sort_by_key;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -22,7 +23,7 @@ pub(crate) fn parse(text: &str) -> Result<Node, Vec<SyntaxError>> {
             problem: problem(error.message()),
         })
         .collect();
-    faults.sort_by_key(|fault| fault.span.start);
+    sort_by_key(&mut faults, |fault| fault.span.start);
     // One slip often confuses the rest of its line: keep the first message of a line.
     let line = |span: &Span| {
         text.get(..span.start)
@@ -54,7 +55,7 @@ fn table(parsed: &DeTable<'_>) -> Table {
         })
         .collect();
     // The parser sorts by name; faults read better in the order of the file.
-    entries.sort_by_key(|entry| entry.key_span.start);
+    sort_by_key(&mut entries, |entry| entry.key_span.start);
     Table { entries }
 }
 

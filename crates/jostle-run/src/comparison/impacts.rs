@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use jostle::Summary;
+use jostle::linear::sort_by;
 use jostle::results::comparison::ImpactScore;
 use jostle_io::{
     ComparedImpacts, ComparisonMap, Dimension, ImpactSign, NamedColumn, contact_names,
@@ -31,7 +32,7 @@ pub(super) fn compared(
         .flat_map(|(contact, _)| &contact.impacts)
         .map(|impact| [impact.start_s, impact.end_s])
         .collect();
-    episodes.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    sort_by(&mut episodes, |a, b| a[0].total_cmp(&b[0]));
     let computed = starts(&episodes, wanted.separation);
     let (score, pairs) = ImpactScore::new(&measured, &computed, wanted.window);
     Ok(ImpactComparison {

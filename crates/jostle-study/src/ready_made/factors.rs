@@ -1,5 +1,6 @@
 //! The factors of ready-made studies, from the values or the defaults of a model.
 
+use jostle::linear::sort_by_key;
 use jostle::{Gap, Structure};
 use jostle_io::{Input, ModelTree, Scaling, TreeValue};
 
@@ -149,7 +150,7 @@ fn around(name: &str, places: Vec<Place>, spread: Spread) -> Vec<Block> {
         }
     };
     // Places with a value come first.
-    groups.sort_by_key(|group| group.0.is_some());
+    sort_by_key(&mut groups, |group| group.0.is_some());
     groups.into_iter().enumerate().map(block).collect()
 }
 

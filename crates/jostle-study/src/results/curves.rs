@@ -1,5 +1,6 @@
 //! Curves over the gap for every intensity, and demand over intensity (IDA).
 
+use jostle::linear::sort_by;
 use jostle_io::Values;
 use jostle_report::message;
 use jostle_report::{Chart, Section, Series, Stroke};
@@ -39,7 +40,7 @@ impl Results<'_> {
                     let mut points: Vec<[f64; 2]> = of_level
                         .filter_map(|case| Some([x_size * xs[*case]?, size * values[*case]?]))
                         .collect();
-                    points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+                    sort_by(&mut points, |a, b| a[0].total_cmp(&b[0]));
                     Series {
                         name: format!("{:.4} {}", y_size * level, y_axis.unit)
                             .trim()
@@ -92,7 +93,7 @@ impl Results<'_> {
                     .iter()
                     .filter_map(|case| Some([x_size * xs[*case]?, size * values[*case]?]))
                     .collect();
-                points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+                sort_by(&mut points, |a, b| a[0].total_cmp(&b[0]));
                 Series {
                     name: name.clone(),
                     points: means(&points),
@@ -146,7 +147,7 @@ impl Results<'_> {
                     .filter(|case| self.completed(**case))
                     .filter_map(|case| Some([intensity[*case]?, demand[*case]?]))
                     .collect();
-                points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+                sort_by(&mut points, |a, b| a[0].total_cmp(&b[0]));
                 curves.push((name.clone(), means(&points)));
             }
             let fractiles = fractiles(&curves);

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use jostle::linear::sort_by;
 use jostle_io::{FragilityMethod, FragilityWanted, Values};
 use jostle_report::message;
 use jostle_report::{Axis, Chart, Section, Series, Stroke};
@@ -168,7 +169,7 @@ fn left_out(wanted: &FragilityWanted, fitted: &[Fitted]) -> Option<String> {
 /// Shares of events at intensities that at least five cases have in common.
 fn stripes(all: &[(f64, f64)], threshold: f64) -> Vec<[f64; 2]> {
     let mut sorted = all.to_vec();
-    sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
+    sort_by(&mut sorted, |a, b| a.0.total_cmp(&b.0));
     let mut shares = Vec::new();
     let mut rest = &sorted[..];
     while let Some((x, _)) = rest.first() {

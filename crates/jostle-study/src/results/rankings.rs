@@ -1,5 +1,6 @@
 //! Which factors matter: Sobol indices, elementary effects, tornado.
 
+use jostle::linear::sort_by;
 use jostle_io::{DesignKind, Values};
 use jostle_report::message;
 use jostle_report::{Axis, Bar, Bars, Section};
@@ -106,7 +107,7 @@ impl Results<'_> {
                 DesignKind::Saltelli => line.numbers[1],
                 _ => line.numbers[0],
             };
-            own.sort_by(|a, b| weight(b).total_cmp(&weight(a)));
+            sort_by(&mut own, |a, b| weight(b).total_cmp(&weight(a)));
             let size = if kind == DesignKind::Saltelli {
                 1.0
             } else {

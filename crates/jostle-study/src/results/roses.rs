@@ -1,5 +1,6 @@
 //! Results over the angle of incidence: roses, and the worst angle of every quantity.
 
+use jostle::linear::sort_by;
 use jostle_io::Values;
 use jostle_report::message;
 use jostle_report::{Axis, Petal, Rose, Section};
@@ -213,7 +214,7 @@ impl Results<'_> {
             let mut points: Vec<(f64, f64, usize)> = known
                 .filter_map(|case| Some((angles[case]?, values[case]?, case)))
                 .collect();
-            points.sort_by(|a, b| a.0.total_cmp(&b.0));
+            sort_by(&mut points, |a, b| a.0.total_cmp(&b.0));
             Curve {
                 column: column.to_owned(),
                 group,

@@ -1,5 +1,6 @@
 //! The page of a search: the best trial, what it costs to keep more or less, how the search went.
 
+use jostle::linear::sort_by;
 use jostle_report::message;
 use jostle_report::{Axis, Chart, Level, Section, Series, Stroke, StudyPage, render_study};
 
@@ -199,7 +200,7 @@ impl SizeResults {
 
     fn table(&self) -> Section {
         let mut best: Vec<&Trial> = self.trials.iter().filter(|trial| trial.keeps()).collect();
-        best.sort_by(|a, b| {
+        sort_by(&mut best, |a, b| {
             let value = |trial: &Trial| trial.objective.unwrap_or(f64::INFINITY);
             value(a).total_cmp(&value(b))
         });

@@ -3,6 +3,7 @@
 use std::cmp::Ordering;
 use std::path::Path;
 
+use jostle::linear::sort_by;
 use jostle_io::{Values, write_atomically, write_values_parquet};
 use serde_json::{Value, json};
 
@@ -164,7 +165,7 @@ impl SizeResults {
             .filter(|trial| trial.status == Status::Completed);
         let pairs = completed.filter_map(|trial| Some([trial.kept[condition]?, trial.objective?]));
         let mut pairs: Vec<[f64; 2]> = pairs.collect();
-        pairs.sort_by(|a, b| {
+        sort_by(&mut pairs, |a, b| {
             cost(a[0])
                 .total_cmp(&cost(b[0]))
                 .then(a[1].total_cmp(&b[1]))
@@ -175,7 +176,7 @@ impl SizeResults {
                 front.push(pair);
             }
         }
-        front.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        sort_by(&mut front, |a, b| a[0].total_cmp(&b[0]));
         front
     }
 

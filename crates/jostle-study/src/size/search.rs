@@ -5,6 +5,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use jostle::linear::sort_by;
 use jostle_run::CaseCache;
 use metaheuristics_nature::methods::de::{De, Strategy};
 use metaheuristics_nature::{Bounded, ObjFunc, Solver};
@@ -237,7 +238,7 @@ pub(super) fn search(
             Some(Trial::new(problem, generation?, point, found))
         })
         .collect();
-    trials.sort_by(Trial::order);
+    sort_by(&mut trials, Trial::order);
     let results = SizeResults::new(problem, trials, converged && !stopped, stopped, kept);
     if let Some(folder) = folder {
         results.write(folder)?;

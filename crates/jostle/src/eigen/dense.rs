@@ -3,6 +3,7 @@
 use super::Mode;
 use super::lateral::Flexibility;
 use crate::linear::NotPositive;
+use crate::linear::sort_by;
 use crate::structure::AssembledBuilding;
 use crate::structure::StepEquations;
 use crate::transfer::riccati::RiccatiSweep;
@@ -37,7 +38,7 @@ pub fn modes_dense(
     }
     let mut pairs = eigen(&lower).ok_or(NotPositive { dof: 0 })?;
     pairs.retain(|(value, _)| *value > 0.0);
-    pairs.sort_by(|a, b| b.0.total_cmp(&a.0));
+    sort_by(&mut pairs, |a, b| b.0.total_cmp(&a.0));
     let modes = pairs.into_iter().map(|(value, shape)| {
         let shape = flexibility.with_massless(&shape, value);
         Mode::new(building, 1.0 / value, shape)

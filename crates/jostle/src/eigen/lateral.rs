@@ -2,6 +2,7 @@
 
 use super::{LATERAL_SHARE, Mode, tridiagonal};
 use crate::linear::full_matrix::{FullMatrix, PivotedLu};
+use crate::linear::sort_by;
 use crate::linear::{NotPositive, StepMatrix};
 use crate::simd::{add, dot};
 use crate::structure::StepEquations;
@@ -82,7 +83,7 @@ fn excited(
     let mut found: Vec<usize> = (0..n)
         .filter(|&k| krylov.mass * vectors[k * n].powi(2) >= 0.5 * hidden)
         .collect();
-    found.sort_by(|a, b| values[*b].total_cmp(&values[*a]));
+    sort_by(&mut found, |a, b| values[*b].total_cmp(&values[*a]));
     let modes = found.into_iter().map(|k| {
         let mut shape = vec![0.0; flexibility.len()];
         let parts = &vectors[k * n..][..n];
@@ -311,7 +312,7 @@ impl Krylov {
                 (values[k], self.mass * weight)
             })
             .collect();
-        open.sort_by(|a, b| b.0.total_cmp(&a.0));
+        sort_by(&mut open, |a, b| b.0.total_cmp(&a.0));
         open.push((0.0, 0.0));
         let gaps = open.windows(2).map(|pair| pair[0].1 + pair[1].1);
         gaps.fold(0.0, f64::max)

@@ -3,6 +3,7 @@
 use super::spectrum::{Spectrum, number_of_modes};
 use super::{Mode, inner, modes_dense, symmetric};
 use crate::linear::NotPositive;
+use crate::linear::sort_by;
 use crate::simd::add;
 use crate::structure::AssembledBuilding;
 use crate::structure::StepEquations;
@@ -204,7 +205,7 @@ impl Search<'_> {
             .zip(shapes)
             .map(|(value, shape)| Found { value, shape })
             .collect();
-        modes.sort_by(|a, b| a.value.total_cmp(&b.value));
+        sort_by(&mut modes, |a, b| a.value.total_cmp(&b.value));
         self.found.extend(modes);
         true
     }
@@ -295,7 +296,7 @@ impl Search<'_> {
             let deflection = self.solve(&self.found[k].shape);
             self.found[k].value = 1.0 / inner(self.mass, &self.found[k].shape, &deflection);
         }
-        self.found.sort_by(|a, b| a.value.total_cmp(&b.value));
+        sort_by(&mut self.found, |a, b| a.value.total_cmp(&b.value));
         self.found
     }
 }

@@ -3,6 +3,7 @@
 use pulp::NullaryFnOnce;
 
 use super::tridiagonal;
+use crate::linear::sort_by;
 use crate::simd::{dot, in_wide_registers};
 
 /// Eigenvalues, rising, and the eigenvector of length one of each, of a symmetric matrix given by its lower triangle row by
@@ -81,7 +82,7 @@ fn found(lower: &[Vec<f64>]) -> (Vec<f64>, Vec<Vec<f64>>) {
     let diagonal: Vec<f64> = (0..n).map(|i| matrix[i][i]).collect();
     let values = tridiagonal::eigen(&diagonal, &next, &mut turn);
     let mut order: Vec<usize> = (0..n).collect();
-    order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
+    sort_by(&mut order, |a, b| values[*a].total_cmp(&values[*b]));
     let vector = |k: &usize| turn[k * n..][..n].to_vec();
     (
         order.iter().map(|k| values[*k]).collect(),

@@ -1,5 +1,6 @@
 //! Pairs of points of two neighbours that can touch: floors, and columns between floors.
 
+use crate::linear::sort_by;
 use crate::model::{Building, FloorPairs, LEVEL_TOLERANCE, Level, Model, Structure};
 
 /// Heights of the left and of the right point above the base; `None` on a wall \[m\].
@@ -285,7 +286,7 @@ fn all(
             a.building.name, b.building.name
         )));
     }
-    pairs.sort_by(|p, q| mean(p).total_cmp(&mean(q)));
+    sort_by(&mut pairs, |p, q| mean(p).total_cmp(&mean(q)));
     Ok(pairs)
 }
 

@@ -1,6 +1,7 @@
 //! Which contacts and links act on the same building, and an order in which few others stand between them.
 
 use super::PortPair;
+use crate::linear::sort_by_key;
 
 /// Contacts and links as the edges of a graph whose vertices are buildings.
 ///
@@ -31,7 +32,7 @@ impl InterfaceGraph {
             .collect();
         let rank = ranks(buildings, &ends);
         let mut order: Vec<usize> = (0..ends.len()).collect();
-        order.sort_by_key(|&index| {
+        sort_by_key(&mut order, |&index| {
             let [a, b] = ends[index].map(|building| rank[building]);
             (a + b, index)
         });
@@ -92,7 +93,9 @@ fn ranks(buildings: usize, ends: &[[usize; 2]]) -> Vec<usize> {
                 .copied()
                 .filter(|&building| rank[building] == usize::MAX)
                 .collect();
-            found.sort_by_key(|&building| (neighbours[building].len(), building));
+            sort_by_key(&mut found, |&building| {
+                (neighbours[building].len(), building)
+            });
             for building in found {
                 rank[building] = visited.len();
                 visited.push(building);

@@ -2,6 +2,7 @@
 
 use super::contact_points::point_pairs;
 use super::plan_contacts::{PlanFace, plan_faces};
+use crate::linear::sort_by_key;
 use crate::model::{Gap, Model, PlanPoint, Structure};
 
 /// Plans on one side of a gap, from the ground up, with the heights of the floors; that of a wall stands for every height.
@@ -66,7 +67,7 @@ pub(crate) fn faces_of_gap(model: &Model, gap: &Gap) -> Option<Vec<([usize; 2], 
         let numbers = [sides[0].first + i, sides[1].first + j];
         found.extend(faces.into_iter().map(|face| (numbers, face)));
     }
-    found.sort_by_key(|(floors, _)| *floors);
+    sort_by_key(&mut found, |(floors, _)| *floors);
     Some(found)
 }
 

@@ -5,10 +5,12 @@ pub(crate) mod counting_sort;
 pub(crate) mod diagonal_runs;
 pub(crate) mod envelope;
 pub(crate) mod full_matrix;
+mod sorting;
 pub(crate) mod sparse_cholesky;
 mod sparse_symmetric;
 mod step_matrix;
 
+pub use sorting::{sort_by, sort_by_key};
 pub use sparse_symmetric::SparseSymmetric;
 pub use step_matrix::StepMatrix;
 

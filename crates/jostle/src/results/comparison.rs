@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use crate::linear::sort_by;
 use crate::quantity::{Quantity, Unit};
 
 /// Agreement of one computed history with a measured one at the same instants.
@@ -117,7 +118,9 @@ impl ImpactScore {
                 candidates.push(((c - m).abs(), i, j));
             }
         }
-        candidates.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(a.2.cmp(&b.2)));
+        sort_by(&mut candidates, |a, b| {
+            a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(a.2.cmp(&b.2))
+        });
         let mut used = (vec![false; measured.len()], vec![false; computed.len()]);
         let mut pairs = Vec::new();
         for (_, i, j) in candidates {

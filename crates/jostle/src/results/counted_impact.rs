@@ -2,6 +2,7 @@
 //! "What counts as an impact").
 
 use crate::history::Impact;
+use crate::linear::sort_by;
 
 /// A counted impact: one closed episode, or several in close succession.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,7 +75,7 @@ pub fn find_simultaneous(contacts: &mut [Vec<CountedImpact>]) -> Poundings {
             edges.push((counted.impact.end, 1, contact, index));
         }
     }
-    edges.sort_by(|a, b| {
+    sort_by(&mut edges, |a, b| {
         a.0.total_cmp(&b.0)
             .then((a.1, a.2, a.3).cmp(&(b.1, b.2, b.3)))
     });

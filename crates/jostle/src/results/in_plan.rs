@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use crate::history::{FaceImpact, FloorPeaks, Impact, Sliding};
 use crate::interface::{Contact, MOST_POINTS, PlanPart};
+use crate::linear::sort_by;
 use crate::quantity::{Quantity, Unit};
 use crate::stepping::Outcome;
 use crate::system::System;
@@ -325,7 +326,7 @@ fn whole_impact(face: &FaceImpact, impacts: &[&Impact]) -> Option<Impact> {
             }
         })
         .collect();
-    points.sort_by(|a, b| a.start.total_cmp(&b.start));
+    sort_by(&mut points, |a, b| a.start.total_cmp(&b.start));
     let (first, last) = (
         points.first()?,
         points.iter().max_by(|a, b| a.end.total_cmp(&b.end))?,

@@ -5,6 +5,7 @@ use super::summarise::{Run, springs_of};
 use super::summary::{ShearFailure, ShearFailureSummary};
 use crate::history::SpringEvent;
 use crate::hysteresis::Side;
+use crate::linear::sort_by;
 use crate::structure::{MemberEnd, SpringPlace};
 
 /// Columns of a building that failed; `None` if none can fail.
@@ -54,7 +55,7 @@ pub(super) fn shear_failures(building: usize, run: &Run) -> Option<ShearFailureS
                 .and_then(|event| impact_at(building, event.time, run)),
         });
     }
-    list.sort_by(|a, b| a.failed_s.total_cmp(&b.failed_s));
+    sort_by(&mut list, |a, b| a.failed_s.total_cmp(&b.failed_s));
     Some(ShearFailureSummary {
         total: columns.len(),
         failed: failed.len(),

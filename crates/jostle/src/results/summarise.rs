@@ -8,6 +8,7 @@ use crate::contact::{LawKind, RestitutionIs};
 use crate::history::Impact;
 use crate::hysteresis::{Side, Stage};
 use crate::interface::LinkElement;
+use crate::linear::sort_by;
 use crate::model::{Gap, LinkLaw, Model, Solver};
 use crate::motion::GroundMotion;
 use crate::results::capacity;
@@ -220,7 +221,7 @@ fn hinge_summary(building: &BuildingSystem, outcome: &Outcome) -> HingeSummary {
         list: all.into_iter().filter(|s| s.cracked_s.is_some()).collect(),
     };
     let never = f64::INFINITY;
-    summary.list.sort_by(|a, b| {
+    sort_by(&mut summary.list, |a, b| {
         let key = |s: &SpringSummary| [s.yielded_s.unwrap_or(never), s.cracked_s.unwrap_or(never)];
         let (a, b) = (key(a), key(b));
         a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1]))
@@ -422,7 +423,7 @@ fn link_summary(index: usize, run: &Run) -> LinkSummary {
 pub(super) fn counted_impacts(index: usize, gap: &Gap, run: &Run) -> Vec<CountedImpact> {
     let own = impacts_of(run.system, run.outcome, index);
     let mut impacts: Vec<&Impact> = own.iter().collect();
-    impacts.sort_by(|a, b| a.start.total_cmp(&b.start));
+    sort_by(&mut impacts, |a, b| a.start.total_cmp(&b.start));
     counted(impacts, gap.minimum_separation)
 }
 

@@ -9,10 +9,7 @@ use super::{modal, series};
 use crate::model::Solver;
 use crate::motion::GroundMotion;
 use crate::state::State;
-use crate::stiffness::DirectStiffness;
 use crate::system::System;
-use crate::transfer::ProductEquations;
-use crate::transfer::riccati::RiccatiSweep;
 
 /// Runs a system from rest through a ground motion. `observer` is called now and then and may stop the run.
 ///
@@ -98,14 +95,8 @@ fn step_through(
             Err(error) => Outcome::not_begun(system, error),
         },
         Solver::Series => series::simulate(system, motion, plan, settings, state, observer),
-        Solver::Riccati => {
-            within_tolerance::<RiccatiSweep>(system, motion, plan, settings, state, observer)
-        }
-        Solver::Stiffness => {
-            within_tolerance::<DirectStiffness>(system, motion, plan, settings, state, observer)
-        }
-        Solver::Product => {
-            within_tolerance::<ProductEquations>(system, motion, plan, settings, state, observer)
+        Solver::Riccati | Solver::Stiffness | Solver::Product => {
+            within_tolerance(system, motion, plan, settings, state, observer)
         }
     }
 }
@@ -138,14 +129,8 @@ pub(super) fn simulate_like(
             }
         }
         Solver::Series => series::run(system, motion, plan, settings, rest(), observer),
-        Solver::Riccati => {
-            run_directly::<RiccatiSweep>(system, motion, plan, settings, rest(), observer)
-        }
-        Solver::Stiffness => {
-            run_directly::<DirectStiffness>(system, motion, plan, settings, rest(), observer)
-        }
-        Solver::Product => {
-            run_directly::<ProductEquations>(system, motion, plan, settings, rest(), observer)
+        Solver::Riccati | Solver::Stiffness | Solver::Product => {
+            run_directly(system, motion, plan, settings, rest(), observer)
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use crate::linear::sort_by_key;
 use crate::model::{SharedColumn, SpacePlace};
 use crate::structure::element::{self, ElementStiffness, Part, THETA, X, Y};
 use crate::structure::{AssembledBuilding, Member, MemberEnd, SpringPlace};
@@ -674,7 +675,7 @@ fn merged(mut entries: Vec<(usize, f64)>) -> Vec<(usize, f64)> {
     let greatest = entries
         .iter()
         .fold(0.0_f64, |most, (_, v)| most.max(v.abs()));
-    entries.sort_by_key(|(dof, _)| *dof);
+    sort_by_key(&mut entries, |(dof, _)| *dof);
     let mut list: Vec<(usize, f64)> = Vec::new();
     for (dof, value) in entries {
         match list.last_mut() {

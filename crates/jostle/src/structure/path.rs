@@ -1,5 +1,6 @@
 //! The transfer path: displacements of a building in the order of the recursion.
 
+use crate::linear::{sort_by, sort_by_key};
 use crate::structure::element::{THETA, X, Y};
 use crate::structure::{StickModel, Support};
 
@@ -46,7 +47,7 @@ impl Path {
         let mut roots: Vec<usize> = (0..last_met.len())
             .filter(|&root| last_met[root].is_some())
             .collect();
-        roots.sort_by_key(|&root| last_met[root]);
+        sort_by_key(&mut roots, |&root| last_met[root]);
         let mut number = vec![None; last_met.len()];
         for (dof, &root) in roots.iter().enumerate() {
             number[root] = Some(dof);
@@ -257,9 +258,9 @@ fn node_order(stick_model: &StickModel) -> Vec<(usize, usize)> {
             .filter(|&node| stage(node) == inside)
             .collect();
         if inside == 0 {
-            interior.sort_by(by_height);
+            sort_by(&mut interior, by_height);
         } else {
-            interior.sort_by(along_column);
+            sort_by(&mut interior, along_column);
         }
         let mut chains: Vec<Vec<usize>> = Vec::new();
         for &node in &interior {
@@ -276,7 +277,9 @@ fn node_order(stick_model: &StickModel) -> Vec<(usize, usize)> {
         }
         // Longest first: chains that are parallel at one link are parallel at every link before. Upwards, so that
         // those on the ground, with one end less, are adjacent.
-        chains.sort_by(|a, b| b.len().cmp(&a.len()).then_with(|| by_height(&a[0], &b[0])));
+        sort_by(&mut chains, |a, b| {
+            b.len().cmp(&a.len()).then_with(|| by_height(&a[0], &b[0]))
+        });
         let longest = chains.first().map_or(0, Vec::len);
         for link in 0..longest {
             let side_by_side = chains.iter().filter_map(|chain| chain.get(link));
@@ -285,7 +288,7 @@ fn node_order(stick_model: &StickModel) -> Vec<(usize, usize)> {
         rank += longest;
     }
     let mut joints: Vec<usize> = (0..nodes.len()).filter(|&node| stage(node) == 2).collect();
-    joints.sort_by(by_height);
+    sort_by(&mut joints, by_height);
     order.extend(
         joints
             .into_iter()

@@ -5,6 +5,7 @@
 //! of R counts twice in K, by its square. Forces of members are k D u_f.
 
 use crate::linear::envelope::Envelope;
+use crate::linear::sort_by_key;
 use crate::model::{LumpedFloor, PlanPoint, SpaceFrame, SpacePlace, SpaceSection};
 
 /// A space frame over the motions of the mat under it, if there is one, and of its floors: u_x, u_y and θ of each at its centre of mass,
@@ -119,7 +120,7 @@ impl Joints {
         }
         let mut order: Vec<usize> = (0..per_floor).collect();
         if lines_x > lines_y {
-            order.sort_by_key(|own| (own % lines_x, own / lines_x));
+            sort_by_key(&mut order, |own| (own % lines_x, own / lines_x));
         }
         let mut unknowns: Vec<Option<JointUnknowns>> = vec![None; floors * per_floor];
         let mut count = 0;
@@ -533,7 +534,9 @@ fn carried_by_columns(
         .filter(|index| is_column(&members[*index]))
         .filter(|index| frame.members[*index].section.axial_rigidity.is_none())
         .collect();
-    rigid.sort_by_key(|index| std::cmp::Reverse(members[*index].place.storey()));
+    sort_by_key(&mut rigid, |index| {
+        std::cmp::Reverse(members[*index].place.storey())
+    });
     for column in rigid {
         let SpacePlace::Column { line, storey } = members[column].place else {
             continue;

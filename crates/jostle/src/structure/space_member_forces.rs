@@ -8,6 +8,7 @@ use super::space_frame::CondensedFrame;
 use super::space_joints::{JointedFrame, JointedMember};
 use super::spring_place::{MemberEnd, SpringPlace};
 use super::stick_model::DeformationElement;
+use crate::linear::sort_by_key;
 use crate::model::{PlanAxis, SpacePlace};
 use crate::structure::AssembledBuilding;
 
@@ -205,7 +206,9 @@ impl JointedCuts<'_> {
         let mut rigid: Vec<usize> = (0..members.len())
             .filter(|index| is_column(members[*index].place) && members[*index].axial.is_none())
             .collect();
-        rigid.sort_by_key(|index| std::cmp::Reverse(members[*index].place.storey()));
+        sort_by_key(&mut rigid, |index| {
+            std::cmp::Reverse(members[*index].place.storey())
+        });
         for column in rigid {
             let storey = members[column].place.storey();
             let [line, _] = members[column].place.crossings();

@@ -8,6 +8,7 @@ use crate::interface::{
     Contact, Coulomb, DofRow, EdgeEnd, Friction, LinkElement, PlanPlace, Port, PortPair,
     PushedFloor, Row, faces_of_gap, narrowest, sticking_stiffness, unique_below,
 };
+use crate::linear::sort_by;
 use crate::model::{
     Base, Building, Damping, FloorPairs, LEVEL_TOLERANCE, Level, Link, LinkLaw, LumpedFloor, Model,
     ModelFault, PlanPoint, Structure,
@@ -202,13 +203,13 @@ impl System {
                     }),
                 }
             }
-            contacts.sort_by(|a, b| a.height.total_cmp(&b.height));
+            sort_by(&mut contacts, |a, b| a.height.total_cmp(&b.height));
             self.contacts.extend(contacts);
         }
         let mut joined_inside = vec![0; self.buildings.len()];
         for (index, (link, joined)) in model.links.iter().zip(&row.links).enumerate() {
             let mut pairs = joined.pairs.clone();
-            pairs.sort_by(|a, b| mean(a).total_cmp(&mean(b)));
+            sort_by(&mut pairs, |a, b| mean(a).total_cmp(&mean(b)));
             let inside = link.is_inside();
             let ends: Vec<_> = if inside {
                 ports_inside(self, link)
@@ -546,7 +547,7 @@ fn ports_inside(system: &System, link: &Link) -> Vec<Result<PortPair, String>> {
         .iter()
         .map(|[one, other]| Ok(PortPair([port(*one)?, port(*other)?])))
         .collect();
-    found.sort_by(|a: &Result<PortPair, String>, b| {
+    sort_by(&mut found, |a: &Result<PortPair, String>, b| {
         let height =
             |ports: &Result<PortPair, String>| ports.as_ref().map_or(0.0, PortPair::height);
         height(a).total_cmp(&height(b))

@@ -14,6 +14,7 @@ use super::condensed_beam::{BeamFactor, CondensedBeam};
 use super::layout::{Layout, Link, NotAFrame};
 use super::{Heading, Transfer};
 use crate::linear::full_matrix::{FullMatrix, PivotedLu};
+use crate::linear::sort_by;
 use crate::linear::{NotPositive, StepMatrix};
 use crate::structure::AssembledBuilding;
 use crate::structure::StepEquations;
@@ -217,7 +218,7 @@ fn moves(layout: &Layout) -> Vec<Pass> {
             places.push((layout.height(line.nodes[place]), column, place));
         }
     }
-    places.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    sort_by(&mut places, |a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     let mut passes = Vec::new();
     for (index, &(height, column, place)) in places.iter().enumerate() {
         let line = &layout.columns[column];

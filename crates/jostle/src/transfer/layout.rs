@@ -2,6 +2,7 @@
 
 use super::{BeamSegment, Heading, LumpedMass, PlanarHinge, Transfer};
 use crate::linear::StepMatrix;
+use crate::linear::sort_by;
 use crate::structure::AssembledBuilding;
 use crate::structure::Equations;
 use crate::structure::element::{self, THETA, X, Y};
@@ -292,7 +293,7 @@ fn column_lines(
     if bases.is_empty() {
         return Err(NotAFrame::NoBase);
     }
-    bases.sort_by(|&a, &b| nodes[a].x.total_cmp(&nodes[b].x));
+    sort_by(&mut bases, |&a, &b| nodes[a].x.total_cmp(&nodes[b].x));
     let mut columns = Vec::new();
     for base in bases {
         let mut line = ColumnLine {

@@ -3,18 +3,19 @@
 use super::integrator::{BuildingCoefficients, Coefficients};
 use super::joints::Joints;
 use super::links::LinkFactor;
+use super::solver::{SolverEquations, SolverFactor};
 use crate::history::Work;
 use crate::interface::Port;
 use crate::linear::NotPositive;
 use crate::model::Integrator;
-use crate::structure::StepEquations;
 use crate::system::System;
+use crate::transfer::riccati::RiccatiScratch;
 
 /// Data that depend on the step size but not on the state.
-pub(crate) struct StepFactors<E: StepEquations> {
+pub(crate) struct StepFactors {
     pub(crate) coefficients: Coefficients,
     pub(crate) buildings: Vec<BuildingCoefficients>,
-    factors: Vec<E::Factor>,
+    factors: Vec<SolverFactor>,
     /// Stiffness of every spring that yields for which the factors hold.
     tangents: Vec<f64>,
     /// Springs of one building whose stiffness has changed.
@@ -26,12 +27,12 @@ pub(crate) struct StepFactors<E: StepEquations> {
     pub(super) links: LinkFactor,
 }
 
-impl<E: StepEquations> StepFactors<E> {
+impl StepFactors {
     pub(super) fn blank(system: &System, joints: &Joints) -> Self {
         Self {
             coefficients: Coefficients::default(),
             buildings: vec![BuildingCoefficients::default(); system.buildings.len()],
-            factors: vec![E::Factor::default(); system.buildings.len()],
+            factors: vec![SolverFactor::default(); system.buildings.len()],
             columns: vec![Vec::new(); joints.points.len()],
             tangents: Vec::new(),
             changed: Vec::new(),
@@ -46,7 +47,7 @@ impl<E: StepEquations> StepFactors<E> {
         integrator: Integrator,
         step: f64,
         system: &System,
-        equations: &[E],
+        equations: &[SolverEquations],
         tangents: &[f64],
         work: &mut Work,
     ) -> Result<(), (usize, NotPositive)> {
@@ -76,7 +77,7 @@ impl<E: StepEquations> StepFactors<E> {
         &mut self,
         system: &System,
         joints: &Joints,
-        equations: &[E],
+        equations: &[SolverEquations],
         tangents: &[f64],
         work: &mut Work,
     ) -> Result<(), (usize, NotPositive)> {
@@ -125,9 +126,9 @@ impl<E: StepEquations> StepFactors<E> {
     pub(crate) fn solve(
         &self,
         system: &System,
-        equations: &[E],
+        equations: &[SolverEquations],
         load: &mut [f64],
-        scratch: &mut E::Scratch,
+        scratch: &mut RiccatiScratch,
         work: &mut Work,
     ) {
         for (index, building) in system.buildings.iter().enumerate() {
@@ -143,8 +144,8 @@ impl<E: StepEquations> StepFactors<E> {
         index: usize,
         system: &System,
         joints: &Joints,
-        equations: &[E],
-        scratch: &mut E::Scratch,
+        equations: &[SolverEquations],
+        scratch: &mut RiccatiScratch,
         work: &mut Work,
     ) {
         for point in joints.sides[index].into_iter().flatten() {

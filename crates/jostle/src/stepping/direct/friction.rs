@@ -9,9 +9,8 @@ use crate::stepping::events::Cubic;
 use crate::stepping::gap_forces::StepForce;
 use crate::stepping::runner::RunState;
 use crate::stepping::step_friction::{FRICTION_PARTS, FrictionPath, StepFriction, StepStart};
-use crate::structure::StepEquations;
 
-impl<E: StepEquations> Direct<E> {
+impl Direct {
     /// Friction along a contact, and its place among the trials.
     fn friction_along<'a>(
         &self,

@@ -11,7 +11,6 @@ use crate::stepping::coupling::{Closed, scaled_compliance};
 use crate::stepping::events::{Crossing, Cubic};
 use crate::stepping::runner::{LinkTouch, RunState};
 use crate::stepping::step_link::StepLink;
-use crate::structure::StepEquations;
 use crate::system::System;
 
 /// The factorised equations of all links at one step size, while no contact is closed.
@@ -82,7 +81,7 @@ pub(super) fn law_of(link: &LinkElement) -> ForceLaw {
     }
 }
 
-impl<E: StepEquations> Direct<E> {
+impl Direct {
     /// Shortening of a link now, and its rate \[m, m/s\].
     fn link_motion(&self, run: &RunState<'_>, index: usize) -> [f64; 2] {
         let link = &run.system.links[index];

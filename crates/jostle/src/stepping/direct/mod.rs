@@ -7,6 +7,7 @@ mod joints;
 mod kernels;
 mod links;
 mod plan_forces;
+mod solver;
 mod springs;
 mod trial;
 mod velocity_jump;
@@ -33,17 +34,18 @@ use crate::stepping::plan::Plan;
 use crate::stepping::recorder::{Instant, Recorder};
 use crate::stepping::runner::{ContactTrial, Jump, LinkTouch, RunState, Runner, Stepper};
 use crate::stepping::step_friction::FrictionPath;
-use crate::structure::StepEquations;
 use crate::system::System;
+use crate::transfer::riccati::RiccatiScratch;
 use factors::StepFactors;
 use joints::Joints;
 use kernels::Advance;
 use links::Links;
+use solver::SolverEquations;
 use springs::YieldingSprings;
 use velocity_jump::{JumpFactor, JumpScratch};
 
 /// Runs a system with the steps of the plan, without an estimate of the error.
-pub(super) fn run_directly<E: StepEquations>(
+pub(super) fn run_directly(
     system: &System,
     motion: &GroundMotion,
     plan: &Plan,
@@ -53,7 +55,7 @@ pub(super) fn run_directly<E: StepEquations>(
 ) -> Outcome {
     let mut run = RunState::new(system, motion, plan, settings);
     (run.time, run.phases) = (state.time, state.contacts.clone());
-    let stepper = Direct::<E>::new(&run, settings, state);
+    let stepper = Direct::new(&run, settings, state);
     let mut runner = Runner { run, stepper };
     let end = runner.run_to_end(observer);
     runner.report_unfinished_impacts();
@@ -62,11 +64,11 @@ pub(super) fn run_directly<E: StepEquations>(
 }
 
 /// All degrees of freedom of all buildings, and how their steps are solved.
-pub(super) struct Direct<E: StepEquations> {
-    equations: Vec<E>,
-    scratch: E::Scratch,
+pub(super) struct Direct {
+    equations: Vec<SolverEquations>,
+    scratch: RiccatiScratch,
     /// The first serves steps off the grid, the others one division of the free-vibration step each.
-    factors: Vec<StepFactors<E>>,
+    factors: Vec<StepFactors>,
     divisions: Vec<u32>,
     /// Displacements, velocities, accelerations and springs; time and contacts are those of the run.
     state: State,
@@ -80,7 +82,7 @@ pub(super) struct Direct<E: StepEquations> {
     joints: Joints,
     links: Links,
     /// For sudden changes of velocity, factorised when first needed.
-    jump_factors: Vec<Option<JumpFactor<E>>>,
+    jump_factors: Vec<Option<JumpFactor>>,
     jump: JumpScratch,
     audit: EnergyAudit,
     recorder: Recorder,
@@ -98,7 +100,7 @@ pub(super) struct Direct<E: StepEquations> {
 /// what dashpots take within a step into an oscillation of accelerations from step to step, which decays slowly.
 const AFTER_JUMP: u32 = 64;
 
-impl<E: StepEquations> Direct<E> {
+impl Direct {
     fn new(run: &RunState<'_>, settings: Settings, state: State) -> Self {
         let (system, motion, plan) = (run.system, run.motion, run.plan);
         let joints = Joints::new(system);
@@ -119,8 +121,10 @@ impl<E: StepEquations> Direct<E> {
         recorder.reserve((1.2 * rows.min(steps) + 100.0).min(1e6) as usize);
         let buildings = system.buildings.iter();
         Self {
-            equations: buildings.map(|building| E::new(building)).collect(),
-            scratch: E::Scratch::default(),
+            equations: buildings
+                .map(|building| SolverEquations::new(plan.solver, building))
+                .collect(),
+            scratch: RiccatiScratch::default(),
             factors: vec![StepFactors::blank(system, &joints)],
             divisions: vec![0],
             unbalanced: unbalanced_load(run, &state, &links, plan.integrator),
@@ -325,7 +329,7 @@ impl<E: StepEquations> Direct<E> {
     }
 }
 
-impl<E: StepEquations> Stepper for Direct<E> {
+impl Stepper for Direct {
     /// Where steps follow from the tolerance: without them, accelerations with a peak at a corner would be of first order. Not
     /// where buildings yield, whose forces have corners of their own.
     fn ends_steps_at_corners(&self, run: &RunState<'_>) -> bool {

@@ -12,7 +12,7 @@ use crate::linear::NotPositive;
 use crate::state::State;
 use crate::stepping::outcome::StepError;
 use crate::stepping::runner::RunState;
-use crate::structure::{StepEquations, YieldingSpring};
+use crate::structure::YieldingSpring;
 use crate::system::{BuildingSystem, System};
 
 /// A spring in the trial step.
@@ -123,7 +123,7 @@ const MOST_ITERATIONS: usize = 30;
 /// Bisections of the line search.
 const HALVINGS: usize = 12;
 
-impl<E: StepEquations> Direct<E> {
+impl Direct {
     /// Solves the step whose loads stand in `increment`, springs and contacts together.
     pub(super) fn find_spring_forces(
         &mut self,

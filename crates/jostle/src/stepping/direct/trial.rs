@@ -10,9 +10,8 @@ use crate::stepping::coupling::Closed;
 use crate::stepping::outcome::StepError;
 use crate::stepping::runner::RunState;
 use crate::stepping::step_friction::StepFriction;
-use crate::structure::StepEquations;
 
-impl<E: StepEquations> Direct<E> {
+impl Direct {
     /// Solves the step to `end` without accepting it: fills `increment` and `trials`.
     pub(super) fn solve_step(
         &mut self,

@@ -1,17 +1,18 @@
 //! Sudden changes of velocity under the momentum law (docs/contact.md, N1 and N2).
 
 use super::Direct;
+use super::solver::{SolverEquations, SolverFactor};
 use crate::contact::momentum;
 use crate::interface::Port;
 use crate::linear::StepMatrix;
 use crate::stepping::runner::{Jump, RunState};
-use crate::structure::StepEquations;
 use crate::system::{BuildingSystem, System};
+use crate::transfer::riccati::RiccatiScratch;
 
 /// K + K′ + s C + G M with s and G so large that damping says how massless degrees of freedom follow, where it acts on
 /// them, and that massive ones do not give way.
-pub(super) struct JumpFactor<E: StepEquations> {
-    factor: E::Factor,
+pub(super) struct JumpFactor {
+    factor: SolverFactor,
     mass_factor: f64,
 }
 
@@ -20,9 +21,9 @@ const HEAVY: f64 = 1e13;
 /// s: slower processes have no effect on a sudden change \[1/s\].
 const SUDDEN: f64 = 1e9;
 
-impl<E: StepEquations> JumpFactor<E> {
+impl JumpFactor {
     /// `None` when every degree of freedom has mass, or nothing can be said about the others.
-    fn new(building: &BuildingSystem, equations: &E) -> Option<Self> {
+    fn new(building: &BuildingSystem, equations: &SolverEquations) -> Option<Self> {
         let own = &building.equations;
         let mut matrix = StepMatrix {
             stiffness: 1.0 + own.beta * SUDDEN,
@@ -38,7 +39,7 @@ impl<E: StepEquations> JumpFactor<E> {
             })
             .fold(1.0, f64::max);
         matrix.mass = HEAVY * stiffest;
-        let mut factor = E::Factor::default();
+        let mut factor = SolverFactor::default();
         equations
             .factorize(&matrix, &own.initial_tangents(), &mut factor)
             .ok()
@@ -51,11 +52,11 @@ impl<E: StepEquations> JumpFactor<E> {
     /// Changes massless degrees of freedom with the massive ones.
     fn follow(
         &self,
-        equations: &E,
+        equations: &SolverEquations,
         mass: &[f64],
         change: &mut [f64],
         load: &mut [f64],
-        scratch: &mut E::Scratch,
+        scratch: &mut RiccatiScratch,
     ) {
         for ((load, mass), change) in load.iter_mut().zip(mass).zip(change.iter()) {
             *load = self.mass_factor * mass * change;
@@ -107,7 +108,7 @@ fn compliance_at_once(system: &System, contact: usize) -> f64 {
     gives.sum()
 }
 
-impl<E: StepEquations> Direct<E> {
+impl Direct {
     /// A contact closing at `rate` opens at once with `restitution` times that.
     pub(super) fn strike(
         &mut self,

@@ -7,7 +7,6 @@ use crate::stepping::outcome::{Accuracy, Observer, Outcome, RunEnd, Settings};
 use crate::stepping::peak_change::change_of_peaks;
 use crate::stepping::plan::Plan;
 use crate::stepping::sensitivity::first_parted;
-use crate::structure::StepEquations;
 use crate::system::System;
 
 /// Largest number of refinements.
@@ -90,7 +89,7 @@ impl Change {
 /// of both over r² − 1 (L. F. Richardson, 1911, Phil. Trans. R. Soc. A 210, 307–357). Accelerations of modes that a step does
 /// not resolve fall more slowly. So two runs decide only if the error would be within the tolerance at first order too;
 /// otherwise a third one gives the order (P. J. Roache, 1994, J. Fluids Eng. 116, 405–413).
-pub(in crate::stepping) fn within_tolerance<E: StepEquations>(
+pub(in crate::stepping) fn within_tolerance(
     system: &System,
     motion: &GroundMotion,
     plan: &Plan,
@@ -99,7 +98,7 @@ pub(in crate::stepping) fn within_tolerance<E: StepEquations>(
     observer: &mut Observer<'_>,
 ) -> Outcome {
     let mut run =
-        |plan: &Plan| run_directly::<E>(system, motion, plan, settings, state.clone(), observer);
+        |plan: &Plan| run_directly(system, motion, plan, settings, state.clone(), observer);
     if !plan.is_automatic(system, motion) || plan.frequency_error(system, motion).is_none() {
         return run(plan);
     }

@@ -12,6 +12,7 @@ use super::passed_kernels::{Drive, FollowPassed};
 use super::reduced::{Reduced, in_blocks};
 use super::unit_force::UnitForce;
 use crate::history::MemberHistory;
+use crate::linear::sort_by_key;
 use crate::simd;
 use crate::state::ContactPhase;
 use crate::stepping::member_ratios::MemberRatios;
@@ -139,7 +140,7 @@ impl MemberRows {
             kind_of[joint.section.forms[1]] = 1;
         }
         // Blocks of one kind, storey by storey: their rows come near their peaks together.
-        own.sort_by_key(|form| kind_of[*form]);
+        sort_by_key(&mut own, |form| kind_of[*form]);
         let dense = |list: &[(usize, f64)]| {
             basis.of_shapes(|vector| list.iter().map(|(dof, share)| share * vector[*dof]).sum())
         };

@@ -10,6 +10,7 @@ use super::links::own_dashpots;
 use super::mode_kernels::LANES;
 use super::reduced::Reduced;
 use crate::interface::PortPair;
+use crate::linear::sort_by_key;
 use crate::system::{Direction, System};
 
 /// Displacements of a floor that move a point of it, on either side of a contact.
@@ -355,7 +356,7 @@ fn floor_groups(rows: &[PlanRow]) -> Vec<FloorGroup> {
         .into_values()
         .flat_map(|groups| groups.into_iter().enumerate());
     let mut all: Vec<(usize, FloorGroup)> = numbered.collect();
-    all.sort_by_key(|(number, group)| {
+    sort_by_key(&mut all, |(number, group)| {
         let apart = group
             .places
             .map(|place| place.wrapping_sub(group.places[0]));
