@@ -9,7 +9,7 @@ use jostle::results::response::FloorResponse;
 use jostle::results::summary::{
     BuildingSummary, ContactSummary, ExceededSummary, GapSummary, LinkSummary, Summary,
 };
-use jostle::separation::{Code, Requirement, Requirements};
+use jostle::separation::{Requirement, Requirements};
 use jostle_io::Input;
 
 use crate::floor_spectra_text::write_floor_spectra;
@@ -629,43 +629,44 @@ fn write_link(text: &mut String, link: &LinkSummary) -> std::fmt::Result {
     )
 }
 
-/// The gaps that codes require, by the same rules as `jostle gap` and the report; why others are left out, if the model names its
-/// codes.
+/// The gaps that codes require, by the same rules as `jostle gap` and the report: of codes that the model names all, with those
+/// left out and why; otherwise from the narrowest to the widest.
 fn write_codes(
     text: &mut String,
     required: &Requirements,
     [has_impacts, are_named]: [bool; 2],
 ) -> std::fmt::Result {
-    // GB 50011 has one width for each intensity.
-    let (of_intensity, others): (Vec<&Requirement>, Vec<&Requirement>) = required
-        .rules
-        .iter()
-        .filter(|rule| rule.code.is_some())
-        .partition(|rule| rule.code == Some(Code::Gb50011));
-    let mut widths: Vec<String> = others
-        .iter()
-        .map(|rule| format!("{} {:.0}", rule.name, rule.width * 1e3))
-        .collect();
-    if !of_intensity.is_empty() {
-        let joints = of_intensity.iter();
-        let joints = joints.map(|rule| format!("{:.0}", rule.width * 1e3));
-        let joints: Vec<String> = joints.collect();
-        let joints = format!("GB 50011 {} (intensity 6 to 9)", joints.join(" / "));
-        widths.insert(0, joints);
-    }
-    if !widths.is_empty() {
-        let from = if has_impacts {
-            ", from displacements with impacts"
-        } else {
-            ""
+    let from = if has_impacts {
+        ", from displacements with impacts"
+    } else {
+        ""
+    };
+    let rules = required.rules.iter().filter(|rule| rule.code.is_some());
+    let mut rules: Vec<&Requirement> = rules.collect();
+    if !are_named && rules.len() > 1 {
+        rules.sort_by(|a, b| a.width.total_cmp(&b.width));
+        let [first, .., last] = rules[..] else {
+            return Ok(());
         };
+        return writeln!(
+            text,
+            "  Codes require {:.0} mm ({}) to {:.0} mm ({}){from}; jostle gap lists {}.",
+            first.width * 1e3,
+            first.name,
+            last.width * 1e3,
+            last.name,
+            rules.len()
+        );
+    }
+    let widths = rules.iter();
+    let widths = widths.map(|rule| format!("{} {:.0}", rule.name, rule.width * 1e3));
+    let widths: Vec<String> = widths.collect();
+    if !widths.is_empty() {
         write_list(text, &format!("  Codes require{from} [mm]: "), &widths)?;
     }
-    // Of codes that nobody named, only widths are of interest here.
-    let left_out = required.left_out.iter().filter(|_| are_named);
-    let left_out: Vec<String> = left_out
-        .map(|rule| format!("{} needs {}", rule.name, rule.needs))
-        .collect();
+    let left_out = required.left_out.iter();
+    let left_out = left_out.map(|rule| format!("{} needs {}", rule.name, rule.needs));
+    let left_out: Vec<String> = left_out.collect();
     if !left_out.is_empty() {
         write_list(text, "  Left out: ", &left_out)?;
     }

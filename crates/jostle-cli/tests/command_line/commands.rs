@@ -22,7 +22,7 @@ fn run_without_a_model_runs_the_example_and_writes_everything() {
         "J1",
         "J2",
         "1 impact",
-        "GB 50011",
+        "Codes require",
         "jostle-out/paper/report.html",
     ] {
         assert!(text.contains(part), "\"{part}\" should stand in:\n{text}");
