@@ -167,11 +167,10 @@ fn what_states_its_size_keeps_it() {
         let motion = read(&text).expect("sound").ground_motion().expect("one");
         motion.across().expect("a motion across").peak()
     };
-    let sine = "kind = \"sine\", amplitude = \"1.2 m/s2\", period = \"0.5 s\"";
+    let sine = "kind = \"sine\", amplitude = \"1.2 m/s2\", period = \"0.5 s\", duration = \"8 s\"";
     assert!((peak_across(&format!("{{ {sine} }}")) - 1.2).abs() < 1e-3);
     assert!((peak_across(&format!("{{ {sine}, scale = 2 }}")) - 2.4).abs() < 2e-3);
-    let ricker =
-        "{ kind = \"ricker\", amplitude = \"1.2 m/s2\", period = \"0.5 s\", centre = \"1 s\" }";
+    let ricker = "{ kind = \"ricker\", amplitude = \"1.2 m/s2\", period = \"0.5 s\", centre = \"1 s\", duration = \"8 s\" }";
     assert!((peak_across(ricker) - 1.2).abs() < 1e-3);
     let record = "record = \"el-centro-1940-ns\"";
     assert!((peak_across(&format!("{{ {record}, pga = \"1 m/s2\" }}")) - 1.0).abs() < 1e-9);

@@ -223,9 +223,14 @@ fn rules_that_are_not_shown_are_not_explained() {
     let combined = "SRSS and ABS combine";
     let mut run = two_frames(0.1);
     assert!(render(&run.page()).contains(combined));
+    // Between floors as well.
     for contact in &mut run.summary.gaps[0].contacts {
         contact.floors[1] = None;
     }
+    let text = render(&run.page());
+    assert!(text.contains("GB 50011-2010") && text.contains(combined));
+    // Where nothing touches, only rules of heights are left.
+    run.summary.gaps[0].contacts.clear();
     let text = render(&run.page());
     assert!(text.contains("GB 50011-2010") && !text.contains(combined));
 }
