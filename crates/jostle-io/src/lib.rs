@@ -70,7 +70,7 @@ pub use motion_spec::{
 };
 pub use nearest::nearest as nearest_name;
 pub use output::{OutputError, put_in_place, summary_json, write_atomically, write_summary_json};
-pub use pushover::{pushover_csv, pushover_json};
+pub use pushover::{pushover_csv, pushover_json, pushover_tree};
 pub use quantities_page::{quantity_list, quantity_reference};
 pub use quantity::{Dimension, QuantityError, in_unit_of, parse_quantity};
 pub use record::measured::{MeasuredColumn, MeasuredTable};

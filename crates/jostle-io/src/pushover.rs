@@ -52,16 +52,21 @@ pub fn pushover_csv(pushed: &[PushedBuilding]) -> String {
 /// Everything about the curves, as JSON with a final line break.
 #[must_use]
 pub fn pushover_json(title: &str, pushed: &[PushedBuilding]) -> String {
+    format!("{:#}\n", pushover_tree(title, pushed))
+}
+
+/// The same as a tree.
+#[must_use]
+pub fn pushover_tree(title: &str, pushed: &[PushedBuilding]) -> Value {
     let curves: Vec<Value> = pushed
         .iter()
         .flat_map(|one| one.curves.iter().map(move |curve| curve_json(one, curve)))
         .collect();
-    let all = json!({
+    json!({
         "jostle": env!("CARGO_PKG_VERSION"),
         "title": title,
         "curves": curves,
-    });
-    format!("{all:#}\n")
+    })
 }
 
 fn curve_json(one: &PushedBuilding, curve: &Pushover) -> Value {

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use jostle_io::write_atomically;
+use jostle_validation::bits::Comparison;
 use jostle_validation::certify::record::{self, Record};
 use jostle_validation::{
     Extent, bits, certify, document, families, harmonic, loops, misses, pairs, paper,
@@ -25,7 +26,7 @@ usage: jostle-validation [--full] [--check] [--reference] [--pairs [FIRST LAST [
   --certify-report FILE …  writes the tables of docs/certify.md and its figure from such files
   --certify-dump K FOLDER [--seed S]  writes random model K as a model file, with its record if it has one of its own
   --certify-file FILE [TOLERANCE …]  prints the reference of a model file, and how far both solvers are from it
-  --bits [--write]  compares digests of the results of many models with those on record, or records them
+  --bits [FAMILY …] [--write]  compares the results of many models with those on record, number by number, or records them
   --reference   makes the reference runs of the built-in model anew; takes minutes";
 
 fn main() -> ExitCode {
@@ -146,38 +147,56 @@ fn one_family(title: &str) -> ExitCode {
     }
 }
 
-/// Compares the digests of many results with those on record, or records them.
+/// Compares the results of many models with those on record, or records them.
 fn bits_of(arguments: &[String]) -> ExitCode {
-    let pins = bits::pins();
-    if arguments.iter().any(|argument| argument == "--write") {
-        return written(&in_crate("data/bits.txt"), &bits::describe(&pins));
+    let folder = in_crate("data/pins");
+    let (options, families): (Vec<String>, Vec<String>) = arguments
+        .iter()
+        .cloned()
+        .partition(|argument| argument.starts_with("--"));
+    let write = options.iter().any(|option| option == "--write");
+    if options.iter().any(|option| option != "--write") {
+        say(USAGE);
+        return ExitCode::from(2);
     }
-    let file = in_crate("data/bits.txt");
-    let Ok(recorded) = std::fs::read_to_string(&file) else {
-        say(&format!("{}: cannot be read", file.display()));
-        return ExitCode::FAILURE;
-    };
-    match bits::moved(&pins, &recorded) {
-        None => {
+    if write {
+        return match bits::record(&folder, &families) {
+            Ok(bytes) => {
+                say(&format!("recorded {bytes} bytes in {}", folder.display()));
+                ExitCode::SUCCESS
+            }
+            Err(why) => {
+                say(&why);
+                ExitCode::FAILURE
+            }
+        };
+    }
+    match bits::compare(&folder, &families) {
+        Err(why) => {
+            say(&why);
+            ExitCode::FAILURE
+        }
+        Ok(Comparison::OtherLibrary) => {
             say(
                 "the mathematical library differs from the recorded one: nothing can be compared bit by bit",
             );
             ExitCode::SUCCESS
         }
-        Some(moved) if moved.is_empty() => {
+        Ok(Comparison::Compared {
+            results,
+            values,
+            moved,
+        }) if moved.is_empty() => {
             say(&format!(
-                "{} results, every bit as recorded",
-                pins.len() - 1
+                "{values} values of {results} results, every bit as recorded"
             ));
             ExitCode::SUCCESS
         }
-        Some(moved) => {
-            say(&format!(
-                "{} of {} results moved: {}",
-                moved.len(),
-                pins.len() - 1,
-                moved.join(", ")
-            ));
+        Ok(Comparison::Compared { results, moved, .. }) => {
+            for own in &moved {
+                say(&own.to_string());
+            }
+            say(&format!("{} of {results} results moved", moved.len()));
             ExitCode::FAILURE
         }
     }

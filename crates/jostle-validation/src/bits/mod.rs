@@ -1,238 +1,201 @@
-//! Digests of the results of many models. A change of structure must not change them.
+//! Results of many models on record, number by number. A change of structure must not change them.
+//!
+//! Every model is run as the command line runs it, by every solver that is listed for it. All numbers and texts of its summary are
+//! recorded but the wall time and the version; long lists and histories as digests, part by part, with their extremes or last
+//! values. A comparison names the model, the number that moved first and the one that moved most.
 
-use std::fmt::Write;
-use std::ops::ControlFlow;
-
-use jostle::stepping::find_sensitivity;
-use jostle::{Column, Outcome, Plan, Pounding, Run, Settings, Summary, System, simulate};
-use rayon::prelude::*;
-use serde_json::Value;
-use sha2::{Digest, Sha256};
-
+mod answers;
+mod compared;
+mod digest;
+mod drawing;
+mod examples;
+mod families;
+mod histories;
 mod in_plane;
+mod in_space;
+mod isolated;
+mod library;
+mod linked;
+mod numbers;
+mod on_grounds;
+mod on_soil;
+mod pinned;
+mod recorded;
+mod run_results;
+mod yielding;
 
-use in_plane::{Case, cases};
+use std::path::Path;
 
-/// One run and the digest of its results.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Pin {
-    /// Model and solver.
-    pub name: String,
-    /// SHA-256 of summary, impacts and histories, shortened; or that the solver refuses the model.
-    pub digest: String,
+use jostle_io::write_atomically;
+use rayon::prelude::*;
+
+pub use compared::{Change, Moved};
+use families::{Case, FAMILIES, Family};
+use numbers::Entries;
+use recorded::{Recorded, pack, unpack};
+
+/// File of the digest of the mathematical library.
+const LIBRARY: &str = "library.txt";
+
+/// Names of the families of models.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    FAMILIES.iter().map(|family| family.name)
 }
 
-/// Keys that digests omit: the wall time, and numbers of the summary that were added after the digests were recorded.
-const OMITTED: [&str; 3] = ["wall_s", "total_force_peak_n", "total_force_peak_at_s"];
-
-/// The same among the numbers of a building itself.
-const OMITTED_OF_BUILDINGS: [&str; 6] = [
-    "drift_peak",
-    "total_acceleration_peak_m_s2",
-    "residual_drift_peak",
-    "hinges_cracked",
-    "hinges_yielded",
-    "ductility",
-];
-
-fn is_omitted(path: &str, key: &str) -> bool {
-    let of_building = path.starts_with(".buildings[") && path.find(']') == Some(path.len() - 1);
-    OMITTED.contains(&key) || (of_building && OMITTED_OF_BUILDINGS.contains(&key))
+/// Results of this program beside those on record.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Comparison {
+    /// Another mathematical library makes other bits: nothing can be compared.
+    OtherLibrary,
+    /// They were compared.
+    Compared {
+        /// Models, each under one solver.
+        results: usize,
+        /// Numbers, texts and digests on record.
+        values: usize,
+        /// Those that moved.
+        moved: Vec<Moved>,
+    },
 }
 
-/// Feeds every number of a tree with its path, except omitted ones.
-fn numbers(path: &mut String, value: &Value, digest: &mut Sha256) {
-    let length = path.len();
-    match value {
-        Value::Object(map) => {
-            for (key, value) in map {
-                if is_omitted(path, key) {
-                    continue;
-                }
-                let _ = write!(path, ".{key}");
-                numbers(path, value, digest);
-                path.truncate(length);
-            }
-        }
-        Value::Array(list) => {
-            for (index, value) in list.iter().enumerate() {
-                let _ = write!(path, "[{index}]");
-                numbers(path, value, digest);
-                path.truncate(length);
-            }
-        }
-        Value::Number(number) => {
-            digest.update(path.as_bytes());
-            digest.update(number.to_string().as_bytes());
-        }
-        Value::Bool(_) | Value::Null | Value::String(_) => {}
+/// Compares the results of families with the files in a folder; of all families if none is named.
+///
+/// # Errors
+/// A family that does not exist, or a file that cannot be read, in words.
+pub fn compare(folder: &Path, only: &[String]) -> Result<Comparison, String> {
+    let chosen = chosen(only)?;
+    let known = folder.join(LIBRARY);
+    let known = std::fs::read_to_string(&known).map_err(|e| format!("{}: {e}", known.display()))?;
+    if known.trim() != library::library() {
+        return Ok(Comparison::OtherLibrary);
     }
-}
-
-fn feed(outcome: &Outcome, summary: &Value, digest: &mut Sha256) {
-    numbers(&mut String::new(), summary, digest);
-    let mut bits = |values: &[f64]| {
-        for value in values {
-            digest.update(value.to_bits().to_le_bytes());
-        }
-    };
-    for impact in &outcome.impacts {
-        bits(&[
-            impact.contact as f64,
-            impact.start,
-            impact.end,
-            impact.peak_force,
-            impact.peak_force_at,
-            impact.peak_indentation,
-            impact.impact_speed,
-            impact.separation_speed,
-            impact.impulse,
-            impact.dissipated,
-        ]);
+    let mut recorded = Vec::new();
+    for family in &chosen {
+        let file = folder.join(family.file());
+        let bytes = std::fs::read(&file).map_err(|e| format!("{}: {e}", file.display()))?;
+        let all = unpack(&bytes);
+        recorded.push(all.ok_or_else(|| format!("{}: not a file of results", file.display()))?);
     }
-    if let Some(history) = &outcome.history {
-        // Closings came later than the recorded digests.
-        let older = history
-            .columns()
+    let mut moved = Vec::new();
+    let (mut results, mut values) = (0, 0);
+    for (old, new) in recorded.iter().zip(compute(&chosen)) {
+        results += new.len();
+        values += old.iter().map(|own| own.entries.len()).sum::<usize>();
+        let nothing = Entries::new();
+        for own in &new {
+            let on_record = old.iter().find(|other| other.name == own.name);
+            let on_record = on_record.map_or(&nothing, |other| &other.entries);
+            moved.extend(Moved::find(&own.name, on_record, &own.entries));
+        }
+        let gone = old
             .iter()
-            .map(|column| !matches!(column, Column::Closing { .. }));
-        let older: Vec<bool> = older.collect();
-        for row in 0..history.len() {
-            let values = history.row(row).iter().zip(&older);
-            let kept: Vec<f64> = values
-                .filter(|(_, kept)| **kept)
-                .map(|(value, _)| *value)
-                .collect();
-            bits(&kept);
-        }
+            .filter(|own| new.iter().all(|other| other.name != own.name));
+        moved.extend(gone.filter_map(|own| Moved::find(&own.name, &own.entries, &nothing)));
     }
-    if let Some(springs) = &outcome.spring_history {
-        for spring in 0..outcome.springs.len() {
-            for [deformation, force] in springs.of_spring(spring) {
-                bits(&[deformation.into(), force.into()]);
-            }
-        }
-    }
-}
-
-/// `None` where the solver refuses the model.
-fn digest(case: &Case) -> Option<String> {
-    let input = case.input.clone()?;
-    let motion = input.ground_motion().ok()?;
-    let mut model = input.model;
-    model.analysis.solver = Some(case.solver);
-    let system = System::assemble(&model).ok()?;
-    let plan = Plan::choose(&system, &motion, &model.analysis).ok()?;
-    let mut digest = Sha256::new();
-    for pounding in [Pounding::Included, Pounding::Excluded] {
-        let settings = Settings {
-            pounding,
-            record_interval: Some(0.01),
-        };
-        let go_on = |_| ControlFlow::Continue(());
-        let mut outcome = simulate(&system, &motion, &plan, settings, go_on);
-        if pounding == Pounding::Included {
-            find_sensitivity(&system, &motion, &plan, None, &mut outcome, go_on);
-        }
-        let summary = Summary::new(&Run {
-            model: &model,
-            system: &system,
-            motion: &motion,
-            plan: &plan,
-            outcome: &outcome,
-            without_contact: None,
-            wall: 0.0,
-        });
-        let summary = serde_json::to_value(summary).ok()?;
-        feed(&outcome, &summary, &mut digest);
-    }
-    Some(
-        digest.finalize()[..12]
-            .iter()
-            .fold(String::new(), |mut text, byte| {
-                let _ = write!(text, "{byte:02x}");
-                text
-            }),
-    )
-}
-
-/// Digest of what the functions of the system's mathematical library give: other ones, other bits everywhere.
-fn library() -> Pin {
-    let mut digest = Sha256::new();
-    for step in 1..2000 {
-        let x = f64::from(step) * 0.007_31;
-        for value in [
-            x.sin(),
-            x.cos(),
-            x.tan(),
-            x.exp(),
-            (-x).exp_m1(),
-            x.ln(),
-            x.powf(1.5),
-            x.powf(0.4),
-            x.atan2(2.0),
-            x.tanh(),
-            x.cbrt(),
-            (x / 20.0).asin(),
-        ] {
-            digest.update(value.to_bits().to_le_bytes());
-        }
-    }
-    let bytes = digest.finalize();
-    Pin {
-        name: LIBRARY.into(),
-        digest: bytes[..12].iter().map(|b| format!("{b:02x}")).collect(),
-    }
-}
-
-/// Name of the pin of the mathematical library.
-pub const LIBRARY: &str = "library";
-
-/// Runs every model; the pin of the mathematical library comes first.
-#[must_use]
-pub fn pins() -> Vec<Pin> {
-    let mut pins = vec![library()];
-    let all: Vec<Pin> = cases()
-        .into_par_iter()
-        .map(|case| Pin {
-            digest: digest(&case).unwrap_or_else(|| "none".into()),
-            name: case.name,
-        })
-        .collect();
-    pins.extend(all);
-    pins
-}
-
-/// Pins as the file of data has them.
-#[must_use]
-pub fn describe(pins: &[Pin]) -> String {
-    pins.iter().fold(String::new(), |mut text, pin| {
-        let _ = writeln!(text, "{}: {}", pin.name, pin.digest);
-        text
+    Ok(Comparison::Compared {
+        results,
+        values,
+        moved,
     })
 }
 
-/// Names of pins that differ from a file of data; `None` where another mathematical library makes other bits.
-#[must_use]
-pub fn moved(pins: &[Pin], recorded: &str) -> Option<Vec<String>> {
-    let recorded: std::collections::HashMap<&str, &str> = recorded
-        .lines()
-        .filter_map(|line| line.split_once(": "))
-        .collect();
-    let same = |pin: &Pin| recorded.get(pin.name.as_str()) == Some(&pin.digest.as_str());
-    let own = pins.iter().find(|pin| pin.name == LIBRARY)?;
-    if !same(own) {
-        return None;
+/// Records the results of families in a folder; of all families if none is named. Returns the number of bytes written.
+///
+/// # Errors
+/// A family that does not exist, another mathematical library beside families that stay, or a file that cannot be written.
+pub fn record(folder: &Path, only: &[String]) -> Result<usize, String> {
+    let chosen = chosen(only)?;
+    let library = library::library() + "\n";
+    let place = folder.join(LIBRARY);
+    let known = std::fs::read_to_string(&place).ok();
+    if chosen.len() < FAMILIES.len() && known.is_some_and(|known| known != library) {
+        return Err(
+            "the mathematical library differs from the recorded one: record all families".into(),
+        );
     }
-    let mut names: Vec<String> = pins
+    let write = |file: &str, bytes: &[u8]| {
+        write_atomically(&folder.join(file), bytes).map_err(|error| error.to_string())
+    };
+    write(LIBRARY, library.as_bytes())?;
+    let mut written = 0;
+    for (family, results) in chosen.iter().zip(compute(&chosen)) {
+        let bytes = pack(&results).map_err(|error| error.to_string())?;
+        write(&family.file(), &bytes)?;
+        written += bytes.len();
+    }
+    Ok(written)
+}
+
+/// Families of these names; all if there are none.
+fn chosen(only: &[String]) -> Result<Vec<&'static Family>, String> {
+    if let Some(unknown) = only
         .iter()
-        .filter(|pin| !same(pin))
-        .map(|pin| pin.name.clone())
+        .find(|name| !names().any(|known| known == **name))
+    {
+        let known: Vec<&str> = names().collect();
+        return Err(format!(
+            "there is no family {unknown}; there are {}",
+            known.join(", ")
+        ));
+    }
+    let wanted = |family: &&Family| only.is_empty() || only.iter().any(|name| name == family.name);
+    Ok(FAMILIES.iter().filter(wanted).collect())
+}
+
+/// Results of families, on all processors, in the order of their cases.
+fn compute(families: &[&Family]) -> Vec<Vec<Recorded>> {
+    let cases: Vec<(usize, Case)> = families
+        .iter()
+        .enumerate()
+        .flat_map(|(index, family)| family.cases().into_iter().map(move |case| (index, case)))
         .collect();
-    let gone = recorded
-        .keys()
-        .filter(|name| pins.iter().all(|pin| pin.name != **name));
-    names.extend(gone.map(|name| format!("{name} (no longer run)")));
-    names.sort();
-    Some(names)
+    let computed: Vec<(usize, Recorded)> = cases
+        .into_par_iter()
+        .with_max_len(1)
+        .map(|(index, case)| (index, case.recorded()))
+        .collect();
+    let mut sorted: Vec<Vec<Recorded>> = families.iter().map(|_| Vec::new()).collect();
+    for (index, recorded) in computed {
+        sorted[index].push(recorded);
+    }
+    sorted
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashSet;
+    use std::path::Path;
+
+    use super::families::FAMILIES;
+    use super::unpack;
+
+    #[test]
+    fn models_have_names_of_their_own() {
+        let names: Vec<String> = FAMILIES
+            .iter()
+            .flat_map(|family| family.cases())
+            .map(|case| case.name)
+            .collect();
+        let different: HashSet<&String> = names.iter().collect();
+        assert_eq!(different.len(), names.len());
+    }
+
+    #[test]
+    fn every_model_is_run_by_some_solver() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/pins");
+        for family in FAMILIES.iter().filter(|family| family.name != "answers") {
+            let bytes = std::fs::read(folder.join(family.file())).expect("part of the repository");
+            let recorded = unpack(&bytes).expect("a file of results");
+            for model in (family.models)() {
+                let own = recorded.iter().filter(|own| {
+                    let name = own.name.strip_prefix(&model.name);
+                    name.is_some_and(|solver| solver.starts_with(' '))
+                });
+                let refused = |path: &str| path == ".refused" || path == ".unread";
+                let mut run = own.filter(|own| own.entries.iter().all(|(path, _)| !refused(path)));
+                let problem = model.input.as_ref().err();
+                assert!(run.next().is_some(), "{}: {problem:?}", model.name);
+            }
+        }
+    }
 }

@@ -19,7 +19,7 @@ pub struct Drawn {
     pub pulse: Option<Pulse>,
 }
 
-pub(super) const LAWS: [&str; 11] = [
+pub(crate) const LAWS: [&str; 11] = [
     "linear",
     "kelvin",
     "kelvin-no-tension",
@@ -33,7 +33,7 @@ pub(super) const LAWS: [&str; 11] = [
     "restitution",
 ];
 
-pub(super) fn gap(random: &mut Random, between: [&str; 2], law: &str) -> Value {
+pub(crate) fn gap(random: &mut Random, between: [&str; 2], law: &str) -> Value {
     let mut words = law.split(' ');
     let law = words.next().unwrap_or("linear");
     let mut gap = Map::new();
