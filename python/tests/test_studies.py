@@ -137,10 +137,10 @@ def test_codes_and_their_inputs_can_be_chosen() -> None:
     rules = {rule.rule: rule for rule in gap.rules}
     codes = {rule.code for rule in gap.rules}
     assert codes == {None, "en1998", "asce7"} and gap.left_out == ()
-    asce = rules["ASCE 7"]
+    asce = rules["ASCE 7-16"]
     assert asce.gap == pytest.approx(5.5 / 8 * rules["SRSS"].gap)
     assert asce.inputs[0].endswith("C_d = 5.5 (default), R = 8 (default)") and asce.setbacks is None
-    line = rules["ASCE 7, line"]
+    line = rules["ASCE 7-16, line"]
     assert line.setbacks is not None and sum(line.setbacks) == pytest.approx(line.gap)
     reduced = jostle.Model.loads(TOWERS + '\n[codes]\nshow = "en1998"\nmotion = "reduced"\n')
     (gap,) = jostle.critical_gap(reduced, outcomes=False)

@@ -47,7 +47,7 @@ mod tests {
             prop_assert_eq!(ours, theirs);
             let (mut ours, mut theirs) = (list.clone(), list);
             sort_by(&mut ours, |a, b| b.0.cmp(&a.0));
-            theirs.sort_by(|a, b| b.0.cmp(&a.0));
+            theirs.sort_by_key(|own| std::cmp::Reverse(own.0));
             prop_assert_eq!(ours, theirs);
         }
     }

@@ -231,8 +231,8 @@ impl System {
                             closing_at_rest: closing_at_rest(self, &ports),
                         };
                         if let (true, Some(building)) = (inside, link.between[0]) {
-                            let own = self.buildings[building].structure.inner_links.iter_mut();
-                            let next = own.skip(joined_inside[building]).next();
+                            let mut own = self.buildings[building].structure.inner_links.iter_mut();
+                            let next = own.nth(joined_inside[building]);
                             joined_inside[building] += 1;
                             if let Some(next) = next {
                                 next.link = self.links.len();
