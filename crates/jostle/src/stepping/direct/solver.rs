@@ -9,6 +9,10 @@ use crate::transfer::{ProductEquations, ProductFactor};
 
 /// The step equations of one building. One type for all solvers, so that stepping is compiled once: the choice costs one
 /// branch per solution.
+#[allow(
+    clippy::large_enum_variant,
+    reason = "nearly all buildings have the largest"
+)]
 pub(super) enum SolverEquations {
     Riccati(RiccatiSweep),
     Stiffness(DirectStiffness),
