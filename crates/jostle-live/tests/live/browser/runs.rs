@@ -66,6 +66,10 @@ fn the_address_restores_the_state_and_pages_do_not_disturb_each_other() {
     assert!(!other.model().contains("70 cm/s2"));
     // The address of another state in the same tab does not load the page, but shows the state; Undo leads back.
     let hash = address.split('#').nth(1).unwrap();
+    // Its own address follows its last change first.
+    other.wait(&format!(
+        "({STATE})(location.hash).then((state) => state.text.includes('width = \"300 mm\"'))"
+    ));
     other.value(&format!("location.hash = {hash:?}"));
     other.wait("document.getElementById('text').value.includes('width = \"47 mm\"')");
     other.settled();
