@@ -59,7 +59,7 @@ fn the_address_restores_the_state_and_pages_do_not_disturb_each_other() {
     assert!(other.model().contains("width = \"47 mm\""));
     assert_eq!(other.text("document.getElementById('measure').value"), "2");
     let kept = page.headline();
-    other.type_into("gap[0].width", "300 mm");
+    other.type_into("gap[0].width", "310 mm");
     assert_ne!(other.headline(), kept);
     assert_eq!(page.headline(), kept);
     page.type_into("motion.pga", "70 cm/s2");
@@ -68,7 +68,7 @@ fn the_address_restores_the_state_and_pages_do_not_disturb_each_other() {
     let hash = address.split('#').nth(1).unwrap();
     // Its own address follows its last change first.
     other.wait(&format!(
-        "({STATE})(location.hash).then((state) => state.text.includes('width = \"300 mm\"'))"
+        "({STATE})(location.hash).then((state) => state.text.includes('width = \"310 mm\"'))"
     ));
     other.value(&format!("location.hash = {hash:?}"));
     other.wait("document.getElementById('text').value.includes('width = \"47 mm\"')");
@@ -76,7 +76,7 @@ fn the_address_restores_the_state_and_pages_do_not_disturb_each_other() {
     assert_eq!(other.headline(), kept);
     other.click("undo");
     assert!(
-        other.model().contains("width = \"300 mm\""),
+        other.model().contains("width = \"310 mm\""),
         "{}",
         other.model()
     );
@@ -87,7 +87,7 @@ fn the_address_restores_the_state_and_pages_do_not_disturb_each_other() {
     ));
     assert_eq!(read, false, "half an address holds a state");
     other.settled();
-    assert!(other.model().contains("width = \"300 mm\""));
+    assert!(other.model().contains("width = \"310 mm\""));
     page.assert_content();
     other.assert_content();
 }
