@@ -542,15 +542,29 @@ fn describe_building(
             )
         }
     };
-    match damping {
-        Damping::AllModes { .. } => writeln!(text, "  {damped}"),
-        _ => writeln!(
-            text,
-            "  {damped} α = {} 1/s, β = {} s",
-            decimals(equations.alpha, 5),
-            decimals(equations.beta, 6)
-        ),
+    if let Damping::AllModes { .. } = damping {
+        return writeln!(text, "  {damped}");
     }
+    writeln!(
+        text,
+        "  {damped} α = {} 1/s, β = {} s",
+        decimals(equations.alpha, 5),
+        decimals(equations.beta, 6)
+    )?;
+    let modes = building.lateral_modes().take(5);
+    let acting: Vec<String> = modes
+        .map(|mode| format!("{:.2}", 100.0 * building.damping_ratio(mode)))
+        .collect();
+    let before = if building.equations.springs.is_empty() {
+        ""
+    } else {
+        " before it yields"
+    };
+    writeln!(
+        text,
+        "  damping of its lateral modes{before} {} %",
+        acting.join(", ")
+    )
 }
 
 /// A ratio in per cent, rounded to two decimals.

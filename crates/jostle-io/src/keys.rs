@@ -669,6 +669,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Damping, "modes", Modes, "[1, 3]; [1, 2] with two lateral modes, [1] with one", "Lateral modes that have this ratio. \"all\": same ratio in every mode (elastic buildings, modal solver only)."),
     optional(S::Damping, "alpha", Quantity(D::Frequency), "Rayleigh coefficient on the masses, instead of ratio."),
     optional(S::Damping, "beta", Quantity(D::Time), "Rayleigh coefficient on the stiffness, instead of ratio."),
+    default(S::Damping, "yielding", Choice(&["initial", "tangent", "none"]), "\"initial\" for storeys, columns and walls in plan; \"none\" for hinges of members", "Damping in proportion to stiffness of parts that yield: by their initial stiffness, by their present one, or none. It never acts on isolators, bases, soil or columns that fail in shear."),
 
     optional(S::ShearFailure, "rule", Choice(CAPACITY_RULES), "Rule for the shear strength of columns with bars and ties, under their axial load."),
     optional(S::ShearFailure, "strength", PerStorey(D::Force), "Shear strength of the columns, instead of rule."),

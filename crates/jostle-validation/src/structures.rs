@@ -8,7 +8,7 @@ use jostle::stepping::{ContactSteps, simulate_from};
 use jostle::structure::StepEquations;
 use jostle::structure::{Discretization, Hinge, Member, Node, Spring, StickModel, Support};
 use jostle::system::BuildingSystem;
-use jostle::{GroundMotion, Outcome, Plan, Pounding, RunEnd, Settings, Solver, State, System};
+use jostle::{GroundMotion, Outcome, Plan, Pounding, ProportionalDamping, RunEnd, Settings, Solver, State, System};
 use jostle::{RiccatiFactor, RiccatiSweep};
 use serde_json::Value;
 
@@ -50,7 +50,7 @@ pub(crate) fn explicit_frame(name: &str, frame: &Value) -> BuildingSystem {
                 hysteresis: None,
                 translational_stiffness: [or_rigid("/Kx"), or_rigid("/Ky")],
                 dashpots: [0.0; 3],
-                proportional_damping: true,
+                proportional_damping: ProportionalDamping::Initial,
             });
         }
     }

@@ -2,11 +2,12 @@
 
 use std::fmt::Write;
 
+use jostle::ProportionalDamping;
 use jostle::hysteresis::Hysteresis;
 use jostle::structure::{Spring, StickModel, Support};
 use jostle::system::BuildingSystem;
 
-use super::script::{Script, comment, python_bool, rounded, text};
+use super::script::{Script, comment, python_bool, python_damping, rounded, text};
 use super::ties::{COMPONENTS, Ties, is_held, is_vertical, stiffnesses};
 
 impl Script<'_> {
@@ -230,7 +231,7 @@ impl Script<'_> {
                 .into_iter()
                 .map(|material| (1, material))
                 .collect();
-            self.spring(first, last, &directions, true);
+            self.spring(first, last, &directions, ProportionalDamping::Initial);
         }
         Ok(())
     }
@@ -280,7 +281,7 @@ impl Script<'_> {
         first: usize,
         last: usize,
         directions: &[(usize, usize)],
-        damped: bool,
+        damped: ProportionalDamping,
     ) {
         let tag = self.element();
         let pairs: Vec<String> = directions
@@ -291,7 +292,7 @@ impl Script<'_> {
             self.springs,
             "    ({tag}, {first}, {last}, ({}), {}),",
             pairs.join(" "),
-            python_bool(damped)
+            python_damping(damped)
         );
     }
 }

@@ -6,11 +6,12 @@
 
 use std::fmt::Write;
 
+use jostle::ProportionalDamping;
 use jostle::interface::LinkElement;
 use jostle::structure::{Node, Spring, Support};
 use jostle::system::BuildingSystem;
 
-use super::script::{Script, python_bool, rounded};
+use super::script::{Script, python_damping, rounded};
 use super::soil::{Matrix, SoilSpring, springs_of};
 use super::ties::Ties;
 
@@ -53,7 +54,7 @@ impl Script<'_> {
         }
         if spring.dashpot != 0.0 {
             let material = self.materials.elastic(0.0, spring.dashpot);
-            self.spring(first, last, &[(1, material)], false);
+            self.spring(first, last, &[(1, material)], ProportionalDamping::None);
         }
         Ok(())
     }
@@ -63,7 +64,7 @@ impl Script<'_> {
         [first, last]: [usize; 2],
         material: usize,
         turning: Turning,
-        damped: bool,
+        damped: ProportionalDamping,
     ) {
         let tag = self.element();
         let share = match turning {
@@ -73,7 +74,7 @@ impl Script<'_> {
         let _ = writeln!(
             self.levered,
             "    ({tag}, {first}, {last}, {material}, {share:?}, {}),",
-            python_bool(damped)
+            python_damping(damped)
         );
     }
 
@@ -94,7 +95,7 @@ impl Script<'_> {
             let stiffness = STIFF * foundation.stiffness[2] / (lever * lever);
             let material = self.materials.elastic(stiffness, 0.0);
             let ends = [base_tag, self.tag(index, foot)];
-            self.lever(ends, material, Turning::Both, false);
+            self.lever(ends, material, Turning::Both, ProportionalDamping::None);
             self.remark(
                 "Feet of columns are held on their foundation by springs 10⁷ times as stiff as the soil in rocking; all other \
                  displacements that are equal are tied.",
@@ -114,16 +115,16 @@ impl Script<'_> {
             let tag = self.tag(index, number);
             if node.y > 0.0 {
                 let below = self.on_foundation(index, building, ties, [node.x, base.y]);
-                self.lever([below, tag], material, Turning::First, false);
+                self.lever([below, tag], material, Turning::First, ProportionalDamping::None);
             }
             // Floors of a shear building do not rise, and columns that keep their length rise with the foundation.
             if node.support == Support::Free && own(number).is_none() {
                 if (node.x - base.x).abs() <= SAME_LINE {
                     let ground = self.ground_point(index, [node.x, node.y]);
-                    self.spring(ground, tag, &[(2, material)], false);
+                    self.spring(ground, tag, &[(2, material)], ProportionalDamping::None);
                 } else {
                     let beside = self.on_foundation(index, building, ties, [base.x, node.y]);
-                    self.lever([beside, tag], material, Turning::First, false);
+                    self.lever([beside, tag], material, Turning::First, ProportionalDamping::None);
                 }
             }
         }
@@ -164,15 +165,15 @@ impl Script<'_> {
                         _ => 6,
                     };
                     let ground = self.ground_point(founded[at].0, place(at, 0.0));
-                    self.spring(ground, bases[at].0, &[(direction, material)], false);
+                    self.spring(ground, bases[at].0, &[(direction, material)], ProportionalDamping::None);
                 }
                 SoilSpring::Between([left, right], direction) => {
                     let ends = [bases[left].0, bases[right].0];
-                    self.spring(ends[0], ends[1], &[(direction, material)], false);
+                    self.spring(ends[0], ends[1], &[(direction, material)], ProportionalDamping::None);
                 }
                 SoilSpring::Lever(at, None) => {
                     let ground = self.ground_point(founded[at].0, place(at, LEVER));
-                    self.lever([bases[at].0, ground], material, Turning::First, false);
+                    self.lever([bases[at].0, ground], material, Turning::First, ProportionalDamping::None);
                 }
                 SoilSpring::Lever(at, Some(other)) => {
                     // The node that turns below, that of the neighbour above it.
@@ -181,7 +182,7 @@ impl Script<'_> {
                     let [x, y] = place(at, LEVER);
                     let above =
                         self.on_foundation(founded[other].0, beside, &ties(other), [x + shift, y]);
-                    self.lever([bases[at].0, above], material, Turning::First, false);
+                    self.lever([bases[at].0, above], material, Turning::First, ProportionalDamping::None);
                 }
             }
         }

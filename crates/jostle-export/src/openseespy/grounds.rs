@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use jostle::structure::Support;
 use jostle::system::BuildingSystem;
-use jostle::{GroundMotion, OwnGround};
+use jostle::{GroundMotion, OwnGround, ProportionalDamping};
 
 use super::motion::write_wave;
 use super::script::{Script, comment};
@@ -55,7 +55,7 @@ impl Script<'_> {
                 }
                 if !dashpots.is_empty() {
                     let tag = self.tag(index, number);
-                    self.spring(ground, tag, &dashpots, false);
+                    self.spring(ground, tag, &dashpots, ProportionalDamping::None);
                 }
             }
         }

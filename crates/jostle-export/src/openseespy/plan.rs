@@ -15,7 +15,7 @@ use std::fmt::Write;
 use jostle::interface::Port;
 use jostle::structure::Mat;
 use jostle::system::BuildingSystem;
-use jostle::{ModelFault, PlanPoint, Structure, Tier, TierStorey};
+use jostle::{ModelFault, PlanPoint, ProportionalDamping, Structure, Tier, TierStorey};
 
 use super::script::{Script, comment, python_bool, rounded, text};
 
@@ -77,7 +77,7 @@ impl Script<'_> {
         }
         for storey in 0..lumped.len() {
             if let Some(springs) = tiers.storeys.get(storey) {
-                self.add_storey_in_plan(index, building, storey, springs, true);
+                self.add_storey_in_plan(index, building, storey, springs, ProportionalDamping::Initial);
             }
             let yielding = tiers.yielding.iter();
             for spring in yielding.filter(|spring| spring.storey == storey) {
@@ -100,12 +100,13 @@ impl Script<'_> {
                 let first = self.point(index, lower, spring.at);
                 let last = self.point(index, Some(floors[storey]), spring.at);
                 let directions = [(DIRECTIONS[spring.axis.index()], material)];
-                self.spring(first, last, &directions, false);
+                let damped = own.yielding_damping.unwrap_or_default();
+                self.spring(first, last, &directions, damped);
             }
             if own.gravity.p_delta {
                 let mut springs = tiers.softening(&lumped, storey);
                 springs.stiffness = springs.stiffness.map(|stiffness| -stiffness);
-                self.add_storey_in_plan(index, building, storey, &springs, false);
+                self.add_storey_in_plan(index, building, storey, &springs, ProportionalDamping::None);
             }
         }
         if let Some(frame) = &tiers.space_frame {
@@ -152,7 +153,7 @@ impl Script<'_> {
         building: &BuildingSystem,
         storey: usize,
         springs: &TierStorey,
-        damped: bool,
+        damped: ProportionalDamping,
     ) {
         let floors = &building.discretization.floors;
         let foot = building.discretization.mat.map(|mat| mat.node);
@@ -185,7 +186,7 @@ impl Script<'_> {
             if stiffness != 0.0 || dashpot != 0.0 {
                 let material = self.materials.elastic(stiffness, dashpot);
                 let both = [DIRECTIONS[0], DIRECTIONS[1]].map(|direction| (direction, material));
-                self.spring(ground, above, &both, false);
+                self.spring(ground, above, &both, ProportionalDamping::None);
             }
             if let Some([along_x, ..]) = own.slider {
                 let curve = along_x.backbone();
@@ -220,7 +221,7 @@ impl Script<'_> {
             let dashpots: Vec<(usize, usize)> = dashpots
                 .map(|(direction, mass)| (direction, self.materials.elastic(0.0, alpha * mass)))
                 .collect();
-            self.spring(below, last, &dashpots, false);
+            self.spring(below, last, &dashpots, ProportionalDamping::None);
         }
     }
 

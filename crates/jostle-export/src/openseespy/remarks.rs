@@ -29,7 +29,8 @@ impl Script<'_> {
             let springs = building.equations.springs.iter();
             let kinds = springs.filter_map(|spring| of_rule(spring.hysteresis.rule()));
             let kinds: Vec<Kind> = kinds.collect();
-            damped |= building.equations.beta != 0.0 && !kinds.is_empty();
+            damped |= building.equations.beta != 0.0
+                && building.equations.springs.iter().any(|spring| spring.damped_by_tangent);
             found.extend(kinds);
         }
         found.extend(system.model_links().iter().filter_map(|link| {
@@ -43,7 +44,8 @@ impl Script<'_> {
         }
         if damped {
             self.remark(
-                "Stiffness-proportional damping acts on no spring that yields, as in jostle.",
+                "Springs damped by their tangents have OpenSees' damping by the stiffness at the end of the last step, as in jostle; \
+                 where that falls, OpenSees' damping is negative, and jostle's zero.",
             );
         }
     }

@@ -1,6 +1,6 @@
 //! The tables of a script.
 
-use jostle::ModelFault;
+use jostle::{ModelFault, ProportionalDamping};
 
 use super::materials::Materials;
 use super::space_frame::joints_of;
@@ -195,6 +195,15 @@ pub(super) fn comment(value: &str) -> String {
         .chars()
         .map(|c| if c.is_control() { ' ' } else { c })
         .collect()
+}
+
+/// How Rayleigh damping acts on a spring, in Python.
+pub(super) fn python_damping(damping: ProportionalDamping) -> &'static str {
+    match damping {
+        ProportionalDamping::Initial => "\"initial\"",
+        ProportionalDamping::Tangent => "\"tangent\"",
+        ProportionalDamping::None => "None",
+    }
 }
 
 pub(super) fn python_bool(value: bool) -> &'static str {

@@ -5,9 +5,9 @@ use std::fmt::Write;
 
 use jostle::structure::{MemberEnd, SpringPlace};
 use jostle::system::BuildingSystem;
-use jostle::{Building, PlanAxis, SpaceFrame, SpacePlace, Structure};
+use jostle::{Building, PlanAxis, ProportionalDamping, SpaceFrame, SpacePlace, Structure};
 
-use super::script::{Script, rounded};
+use super::script::{Script, python_damping, rounded};
 
 /// Stiffness of springs that join a member to its joint where it has no hinge, in units of the stiffest member \[–\].
 const STIFF: f64 = 1e6;
@@ -124,7 +124,14 @@ impl Script<'_> {
         let sticks = &building.discretization.stick_model;
         // Rises, and turns about x and about y of the lines.
         let [vertical, turning] = hinges.stiff;
-        let mut springs = vec![(joint, tag, 3, self.materials.elastic(vertical, 0.0))];
+        let rigid = ProportionalDamping::None;
+        let mut springs = vec![(
+            joint,
+            tag,
+            3,
+            self.materials.elastic(vertical, 0.0),
+            rigid,
+        )];
         let places = &building.discretization.spring_places;
         for axis in PlanAxis::BOTH {
             let wanted = SpringPlace::InSpace {
@@ -137,26 +144,31 @@ impl Script<'_> {
             let found = places.iter().position(|place| *place == wanted);
             let hinge = found.map(|at| &sticks.hinges[at]);
             springs.push(
-                match hinge.and_then(|own| Some((own.ends, own.hysteresis?))) {
-                    Some((ends, hysteresis)) => {
+                match hinge.and_then(|own| Some((own, own.ends, own.hysteresis?))) {
+                    Some((hinge, ends, hysteresis)) => {
                         let material = self.materials.yielding(&hysteresis)?;
                         // Strain is that of the second node against the first; the rotation of a hinge counts the other way.
                         let [first, last] = match sticks.space_ends.contains(&ends[0]) {
                             true => [joint, tag],
                             false => [tag, joint],
                         };
-                        (first, last, direction, material)
+                        let damped = hinge.proportional_damping;
+                        (first, last, direction, material, damped)
                     }
-                    None => (joint, tag, direction, self.materials.elastic(turning, 0.0)),
+                    None => {
+                        let material = self.materials.elastic(turning, 0.0);
+                        (joint, tag, direction, material, rigid)
+                    }
                 },
             );
         }
         let [c, s] = frame.direction;
         let springs: Vec<String> = springs
             .into_iter()
-            .map(|(first, last, direction, material)| {
+            .map(|(first, last, direction, material, damped)| {
                 let element = self.element();
-                format!("({element}, {first}, {last}, {direction}, {material})")
+                let damped = python_damping(damped);
+                format!("({element}, {first}, {last}, {direction}, {material}, {damped})")
             })
             .collect();
         let _ = writeln!(

@@ -108,13 +108,13 @@ impl Script<'_> {
         table(
             out,
             "SPRINGS",
-            "element, first node, last node, (direction, material), whether Rayleigh damping acts",
+            "element, first node, last node, (direction, material), the stiffness on which Rayleigh damping acts",
             &self.springs,
         )?;
         table(
             out,
             "LEVERED",
-            "element, first node, last node, material of the shear between them, share of the rotation of the first node, whether Rayleigh damping acts",
+            "element, first node, last node, material of the shear between them, share of the rotation of the first node, the stiffness on which Rayleigh damping acts",
             &self.levered,
         )?;
         table(
@@ -186,7 +186,7 @@ impl Script<'_> {
         table(
             out,
             "HINGED_ENDS",
-            "end of a member, its joint, unit vector of the lines along x, (first element, directions, materials) of springs",
+            "end of a member, its joint, unit vector of the lines along x, springs: element, nodes, direction, material, the stiffness on which Rayleigh damping acts",
             &self.space_hinges,
         )?;
         self.write_motion(out)?;

@@ -3,7 +3,7 @@
 use jostle::hysteresis::{Hysteresis, Side};
 use jostle::model::{FrameHinges, Hinges};
 use jostle::separation::BuildingCodes;
-use jostle::{Base, Building, Damping, Gravity, Model, PlanPoint, Structure};
+use jostle::{Base, Building, Damping, Gravity, Model, PlanPoint, ProportionalDamping, Structure};
 use std::path::Path;
 
 use super::damper::{self, Damper};
@@ -206,6 +206,7 @@ fn read(
         base: Base::default(),
         gravity: Gravity::default(),
         hinges: None,
+        yielding_damping: None,
     };
     let is_shear = kind == Kind::Shear;
     if kind != Kind::Given {
@@ -239,15 +240,16 @@ fn read(
         preload: flag("gravity"),
         p_delta: flag("p_delta"),
     };
-    building.damping = match (damped, reader.get(&view, "damping")) {
-        (Some(damping), None) => damping,
+    let (damping, on_yielding) = match (damped, reader.get(&view, "damping")) {
+        (Some(damping), None) => (damping, None),
         (Some(damping), Some(field)) => {
             *reader.bad(&field, "cannot be combined with a damping matrix") =
                 Some("leave out damping, or the matrix C".into());
-            damping
+            (damping, None)
         }
         (None, _) => read_damping(reader, &view, building.floors(), is_shear),
     };
+    (building.damping, building.yielding_damping) = (damping, on_yielding);
     let stated = match kind {
         Kind::Given => None,
         Kind::Frame | Kind::Shear | Kind::FramesInPlan | Kind::SpaceFrame => {
@@ -473,17 +475,24 @@ fn read_damping(
     view: &View<'_>,
     floors: usize,
     is_shear: bool,
-) -> Damping {
+) -> (Damping, Option<ProportionalDamping>) {
     let usual = Damping::Ratio {
         ratio: 0.05,
         modes: Vec::new(),
     };
     let Some(field) = reader.get(view, "damping") else {
-        return usual;
+        return (usual, None);
     };
     let Some(view) = reader.open(&field, &[Section::Damping]) else {
-        return usual;
+        return (usual, None);
     };
+    let on_yielding = reader.get(&view, "yielding").and_then(|field| {
+        match reader.choice(&field, &["initial", "tangent", "none"], &[])? {
+            "initial" => Some(ProportionalDamping::Initial),
+            "tangent" => Some(ProportionalDamping::Tangent),
+            _ => Some(ProportionalDamping::None),
+        }
+    });
     let number = |reader: &mut Reader<'_>, key, dimension| {
         let field = reader.get(&view, key)?;
         reader.quantity(&field, dimension)
@@ -515,20 +524,20 @@ fn read_damping(
             *reader.bad(&field, "mixes ratio and modes with alpha and beta") =
                 Some("keep either ratio and modes, or alpha and beta".into());
         }
-        return Damping::Rayleigh {
+        let damping = Damping::Rayleigh {
             alpha: alpha.unwrap_or(0.0),
             beta: beta.unwrap_or(0.0),
         };
+        return (damping, on_yielding);
     }
-    if all {
-        return Damping::AllModes {
-            ratio: ratio.unwrap_or(0.05),
-        };
-    }
-    Damping::Ratio {
-        ratio: ratio.unwrap_or(0.05),
-        modes: modes.unwrap_or_default(),
-    }
+    let ratio = ratio.unwrap_or(0.05);
+    let damping = if all {
+        Damping::AllModes { ratio }
+    } else {
+        let modes = modes.unwrap_or_default();
+        Damping::Ratio { ratio, modes }
+    };
+    (damping, on_yielding)
 }
 
 /// Springs and dashpots under the building.

@@ -119,6 +119,10 @@ pub struct Building {
     pub gravity: Gravity,
     /// Springs that crack and yield; `None` is elastic.
     pub hinges: Option<Hinges>,
+    /// What stiffness-proportional damping does on parts that yield; `None` is usual: it acts on storeys and on columns and walls at
+    /// points of a plan with their initial stiffness, and not on hinges of members, which stand in series with members that keep
+    /// theirs. It never acts on isolators, bases, soil, or columns that fail in shear.
+    pub yielding_damping: Option<ProportionalDamping>,
 }
 
 impl Default for Building {
@@ -137,6 +141,7 @@ impl Default for Building {
             base: Base::default(),
             gravity: Gravity::default(),
             hinges: None,
+            yielding_damping: None,
         }
     }
 }
@@ -462,6 +467,18 @@ pub enum Damping {
         /// Fraction of critical damping, 0 ≤ ratio < 1 \[–\].
         ratio: f64,
     },
+}
+
+/// How stiffness-proportional damping acts on a spring. On an elastic one, both stiffnesses are the same.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ProportionalDamping {
+    /// β times its initial stiffness, whether it has yielded or not.
+    #[default]
+    Initial,
+    /// β times its stiffness at the start of a step, none where that falls.
+    Tangent,
+    /// Not at all.
+    None,
 }
 
 /// Springs, dashpots and sliders that join floors of two neighbours, of a building and a rigid wall, or of one building.

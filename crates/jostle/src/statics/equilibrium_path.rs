@@ -354,6 +354,7 @@ fn holding_spring(dof: usize, stiffness: f64) -> Option<YieldingSpring> {
         dofs: [Some(dof), None],
         levers: [None; 2],
         hysteresis: Hysteresis::new(HysteresisRule::Elastic, backbone).ok()?,
+        damped_by_tangent: false,
         carries_base_shear: false,
     })
 }

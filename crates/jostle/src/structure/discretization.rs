@@ -11,8 +11,8 @@ use super::stick_model::{Coupling, Hinge, Member, Node, Spring, StickModel, Supp
 use super::tiers::discretize_tiers;
 use crate::hysteresis::{Hysteresis, Side};
 use crate::model::{
-    Base, Building, Frame, FrameHinges, Given, Hinges, Isolation, Joint, Section, SharedColumn,
-    Shear, ShearEnds, ShearSpring, Structure,
+    Base, Building, Frame, FrameHinges, Given, Hinges, Isolation, Joint, ProportionalDamping, Section,
+    SharedColumn, Shear, ShearEnds, ShearSpring, Structure,
 };
 
 /// A stick model and where its floors and faces are. The default has no nodes.
@@ -100,7 +100,34 @@ impl Discretization {
         if let (Some(isolation), false) = (&building.base.isolation, in_plan) {
             discretization.put_on_bearings(isolation);
         }
+        if let Some(asked) = building.yielding_damping {
+            discretization.damp_what_yields(asked);
+        }
         discretization
+    }
+
+    /// Sets how stiffness-proportional damping acts on the parts of the building above its base that yield.
+    fn damp_what_yields(&mut self, asked: ProportionalDamping) {
+        let StickModel {
+            hinges,
+            springs,
+            plan_springs,
+            ..
+        } = &mut self.stick_model;
+        // In the order of their places.
+        let hinges = hinges.iter_mut().filter(|own| own.hysteresis.is_some());
+        let hinges = hinges.map(|own| &mut own.proportional_damping);
+        let springs = springs.iter_mut().filter(|own| own.hysteresis.is_some());
+        let springs = springs.map(|own| &mut own.proportional_damping);
+        let in_plan = plan_springs
+            .iter_mut()
+            .map(|own| &mut own.proportional_damping);
+        let all = hinges.chain(springs).chain(in_plan);
+        for (own, place) in all.zip(&self.spring_places) {
+            if place.is_damped_with_structure() {
+                *own = asked;
+            }
+        }
     }
 
     /// A wall on its spring and dashpot, as a building of one floor.
@@ -115,7 +142,7 @@ impl Discretization {
         stick_model.nodes[wall].mass = mass;
         stick_model.springs.push(Spring {
             dashpot: damping,
-            proportional_damping: false,
+            proportional_damping: ProportionalDamping::None,
             ..Spring::elastic([ground, wall], stiffness)
         });
         Self {
@@ -161,7 +188,7 @@ impl Discretization {
             }
             let dashpot = |from: usize, dashpot: f64| Spring {
                 dashpot,
-                proportional_damping: false,
+                proportional_damping: ProportionalDamping::None,
                 ..Spring::elastic([from, node], 0.0)
             };
             sticks.springs.push(dashpot(ground, -alpha * mass));
@@ -201,7 +228,7 @@ impl Discretization {
         let dashpot = isolation.dashpot(mass);
         let spring = |hysteresis: Option<Hysteresis>| Spring {
             hysteresis,
-            proportional_damping: false,
+            proportional_damping: ProportionalDamping::None,
             ..Spring::elastic([ground, mat], 0.0)
         };
         sticks.springs.push(Spring {
@@ -308,7 +335,7 @@ impl StickModel {
                 properties.vertical_stiffness,
             ],
             dashpots: [0.0; 3],
-            proportional_damping: true,
+            proportional_damping: ProportionalDamping::Initial,
         });
         end
     }
@@ -343,7 +370,7 @@ impl StickModel {
                 hysteresis: None,
                 translational_stiffness: [None; 2],
                 dashpots: [0.0; 3],
-                proportional_damping: false,
+                proportional_damping: ProportionalDamping::None,
             });
             node
         } else {
@@ -359,7 +386,7 @@ impl StickModel {
         };
         self.springs.push(Spring {
             hysteresis: Some(hysteresis),
-            proportional_damping: false,
+            proportional_damping: ProportionalDamping::None,
             ..Spring::elastic(ends, hysteresis.backbone().initial())
         });
         node
@@ -380,7 +407,7 @@ impl StickModel {
             Some(hysteresis) => {
                 self.springs.push(Spring {
                     hysteresis: Some(hysteresis),
-                    proportional_damping: false,
+                    proportional_damping: ProportionalDamping::None,
                     ..Spring::elastic([ground, foot], hysteresis.backbone().initial())
                 });
                 Some(0.0)
@@ -398,7 +425,7 @@ impl StickModel {
                 base.vertical_damping,
                 base.rotational_damping,
             ],
-            proportional_damping: false,
+            proportional_damping: ProportionalDamping::None,
         });
         foot
     }
@@ -664,7 +691,7 @@ fn discretize_shear(shear: &Shear, base: &Base, springs: &[Hysteresis]) -> Discr
         stick_model.springs.push(Spring {
             dashpot: base.horizontal_damping,
             hysteresis: base.horizontal_hinge,
-            proportional_damping: false,
+            proportional_damping: ProportionalDamping::None,
             ..Spring::elastic([below, foot], stiffness)
         });
         below = foot;
@@ -684,7 +711,6 @@ fn discretize_shear(shear: &Shear, base: &Base, springs: &[Hysteresis]) -> Discr
         let hysteresis = springs.get(floors.len()).copied();
         stick_model.springs.push(Spring {
             hysteresis,
-            proportional_damping: hysteresis.is_none(),
             ..Spring::elastic([below, floor], *stiffness)
         });
         floors.push(floor);

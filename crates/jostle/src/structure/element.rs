@@ -1,8 +1,10 @@
 //! Stiffness of the massless elements between lumped masses, in global axes.
 
 use crate::linear::StepMatrix;
+use crate::model::ProportionalDamping;
 use crate::structure::{
     Coupling, DeformationElement, Hinge, Member, Node, RigidFoundation, Spring, StickModel,
+    StickPlanSpring,
 };
 
 /// Displacement of a node: horizontal, vertical, rotation.
@@ -81,6 +83,7 @@ pub(crate) fn untied(stick_model: &StickModel) -> impl Iterator<Item = ElementSt
         )
         .chain(stick_model.couplings.iter().map(of_coupling))
         .chain(stick_model.deformation_elements.iter().map(of_deformations))
+        .chain(stick_model.plan_springs.iter().map(of_plan_spring))
         .chain(foundation.map(of_soil))
 }
 
@@ -225,19 +228,15 @@ pub(crate) fn of_hinge(hinge: &Hinge) -> ElementStiffness {
     let [i, j] = hinge.ends;
     let mut stiffness = ElementStiffness::default();
     let [horizontal, vertical] = hinge.translational_stiffness;
-    // Yielding hinges have a tangent instead, see `Equations::springs`.
-    let turning = hinge
-        .rotational_stiffness
-        .filter(|_| hinge.hysteresis.is_none());
+    let turning = hinge.rotational_stiffness;
     let directions = [(X, horizontal), (Y, vertical), (THETA, turning)];
     for (component, value) in directions {
         let (a, b) = ((i, component), (j, component));
-        stiffness.couple(
-            part_of(hinge.proportional_damping),
-            a,
-            b,
-            value.unwrap_or(0.0),
-        );
+        let value = value.unwrap_or(0.0);
+        let yields = hinge.hysteresis.is_some() && component == THETA;
+        for (part, value) in parts_of(value, yields, hinge.proportional_damping) {
+            stiffness.couple(part, a, b, value);
+        }
         stiffness.couple(Part::Dashpot, a, b, hinge.dashpots[component]);
     }
     stiffness
@@ -247,8 +246,8 @@ pub(crate) fn of_hinge(hinge: &Hinge) -> ElementStiffness {
 pub(crate) fn of_spring(spring: &Spring, foundation: Option<&RigidFoundation>) -> ElementStiffness {
     let [i, j] = spring.ends;
     let mut stiffness = ElementStiffness::default();
-    if spring.hysteresis.is_none() {
-        let part = part_of(spring.proportional_damping);
+    let (yields, damping) = (spring.hysteresis.is_some(), spring.proportional_damping);
+    for (part, value) in parts_of(spring.stiffness, yields, damping) {
         match (spring.lever, foundation) {
             (Some(lever), Some(foundation)) => stiffness.combine(
                 part,
@@ -257,9 +256,9 @@ pub(crate) fn of_spring(spring: &Spring, foundation: Option<&RigidFoundation>) -
                     ((j, X), 1.0),
                     ((foundation.node, THETA), lever),
                 ],
-                spring.stiffness,
+                value,
             ),
-            _ => stiffness.couple(part, (i, X), (j, X), spring.stiffness),
+            _ => stiffness.couple(part, (i, X), (j, X), value),
         }
     }
     stiffness.couple(Part::Undamped, (i, X), (j, X), -spring.softening);
@@ -318,13 +317,47 @@ fn of_deformations(element: &DeformationElement) -> ElementStiffness {
     stiffness
 }
 
-/// The matrix for the stiffness of a hinge or a spring.
-pub(crate) fn part_of(proportional_damping: bool) -> Part {
-    if proportional_damping {
-        Part::Elastic
-    } else {
-        Part::Undamped
+/// What yields between two floors in plan, as far as it is linear.
+fn of_plan_spring(spring: &StickPlanSpring) -> ElementStiffness {
+    let [lower, upper] = spring.ends;
+    let (initial, component) = (spring.hysteresis.backbone().initial(), spring.component);
+    let mut stiffness = ElementStiffness::default();
+    for (part, value) in parts_of(initial, true, spring.proportional_damping) {
+        let shares = [
+            ((upper, component), 1.0),
+            ((lower, component), -1.0),
+            ((upper, THETA), spring.levers[1]),
+            ((lower, THETA), -spring.levers[0]),
+        ];
+        stiffness.combine(part, &shares, value);
     }
+    stiffness
+}
+
+/// The matrix for the stiffness of an elastic hinge or spring.
+pub(crate) fn part_of(proportional_damping: ProportionalDamping) -> Part {
+    match proportional_damping {
+        ProportionalDamping::Initial | ProportionalDamping::Tangent => Part::Elastic,
+        ProportionalDamping::None => Part::Undamped,
+    }
+}
+
+/// The matrices for a stiffness. What yields has its tangent among the springs, see `Equations::springs`; the damping of its initial
+/// stiffness stays, that stiffness itself cancels.
+fn parts_of(
+    stiffness: f64,
+    yields: bool,
+    damping: ProportionalDamping,
+) -> impl Iterator<Item = (Part, f64)> {
+    let parts = match (yields, damping) {
+        (false, _) => [Some((part_of(damping), stiffness)), None],
+        (true, ProportionalDamping::Initial) => [
+            Some((Part::Elastic, stiffness)),
+            Some((Part::Undamped, -stiffness)),
+        ],
+        (true, _) => [None, None],
+    };
+    parts.into_iter().flatten()
 }
 
 impl ElementStiffness {

@@ -2,6 +2,7 @@
 
 use crate::hysteresis::Hysteresis;
 use crate::linear::SparseSymmetric;
+use crate::model::ProportionalDamping;
 use crate::structure::element::{self, Part, X, Y};
 use crate::structure::path::Path;
 use crate::structure::{PlanMat, StickModel, Support};
@@ -33,8 +34,8 @@ pub struct Equations {
     /// C′: base dashpots.
     pub dashpots: SparseSymmetric,
     /// Springs that yield: hinges first, then storey springs, then those in plan, each in the order of the stick model, then three rows
-    /// of every force in plan that is the same in every direction. They are not part of K, and stiffness-proportional damping does
-    /// not act on them.
+    /// of every force in plan that is the same in every direction. They are not part of K + K′. Where stiffness-proportional damping
+    /// acts on them with their initial stiffness, that stands in K, and its negative in K′.
     pub springs: Vec<YieldingSpring>,
     /// Number of springs that yield by themselves; the rows of forces in plan follow them.
     pub single_springs: usize,
@@ -59,6 +60,8 @@ pub struct YieldingSpring {
     pub levers: [Option<(usize, f64)>; 2],
     /// Rule and backbone.
     pub hysteresis: Hysteresis,
+    /// Whether stiffness-proportional damping acts on it with its present stiffness.
+    pub damped_by_tangent: bool,
     /// Whether its force is part of the base shear.
     pub(crate) carries_base_shear: bool,
 }
@@ -261,6 +264,17 @@ impl Equations {
             .collect()
     }
 
+    /// Coefficient of the dashpot beside a spring that yields, at its present stiffness \[N·s/m, N·m·s/rad\].
+    #[must_use]
+    #[inline]
+    pub fn tangent_dashpot(&self, spring: &YieldingSpring, tangent: f64) -> f64 {
+        if spring.damped_by_tangent {
+            self.beta * tangent.max(0.0)
+        } else {
+            0.0
+        }
+    }
+
     /// xᵀ (K + K′) x: twice the strain energy, P-Delta included \[J\].
     #[must_use]
     pub fn strain(&self, x: &[f64]) -> f64 {
@@ -340,25 +354,30 @@ fn yielding_springs(stick_model: &StickModel, path: &Path) -> Vec<YieldingSpring
     let foundation = stick_model.foundation.as_ref().map(|own| own.node);
     let sway = foundation.and_then(|node| path.dof(node, X));
     let turning = foundation.and_then(|node| path.dof(node, element::THETA));
-    let spring = |[first, second]: [usize; 2], component: usize, hysteresis: Hysteresis| {
+    let spring = |[first, second]: [usize; 2],
+                  component: usize,
+                  hysteresis: Hysteresis,
+                  damping: ProportionalDamping| {
         let dofs = [first, second].map(|node| path.dof(node, component));
         YieldingSpring {
             dofs,
             levers: [None; 2],
             hysteresis,
+            damped_by_tangent: damping == ProportionalDamping::Tangent,
             carries_base_shear: component == X && dofs.contains(&sway),
         }
     };
     let hinges = stick_model.hinges.iter().filter_map(|hinge| {
         let hysteresis = hinge.hysteresis?;
-        Some(spring(hinge.ends, element::THETA, hysteresis))
+        let damping = hinge.proportional_damping;
+        Some(spring(hinge.ends, element::THETA, hysteresis, damping))
     });
     // A storey is positive when its upper floor is to the right of its lower one.
     let storeys = stick_model.springs.iter().filter_map(|storey| {
         let [lower, upper] = storey.ends;
         Some(YieldingSpring {
             levers: [turning.zip(storey.lever), None],
-            ..spring([upper, lower], X, storey.hysteresis?)
+            ..spring([upper, lower], X, storey.hysteresis?, storey.proportional_damping)
         })
     });
     let in_plan = stick_model.plan_springs.iter().map(|own| {
@@ -369,7 +388,7 @@ fn yielding_springs(stick_model: &StickModel, path: &Path) -> Vec<YieldingSpring
         };
         YieldingSpring {
             levers: [lever(upper, own.levers[1]), lever(lower, -own.levers[0])],
-            ..spring([upper, lower], own.component, own.hysteresis)
+            ..spring([upper, lower], own.component, own.hysteresis, own.proportional_damping)
         }
     });
     let bearings = stick_model.plan_mat.iter().flat_map(|mat| {
@@ -386,6 +405,7 @@ fn yielding_springs(stick_model: &StickModel, path: &Path) -> Vec<YieldingSpring
                 dofs,
                 levers: [turning.zip((arm != 0.0).then_some(arm)), None],
                 hysteresis,
+                damped_by_tangent: false,
                 carries_base_shear: row == 0,
             })
         })

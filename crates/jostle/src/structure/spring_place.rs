@@ -195,6 +195,13 @@ impl SpringPlace {
         }
     }
 
+    /// Whether it is part of the structure above the base that stiffness-proportional damping may act on: a storey, a column or
+    /// wall at a point of a plan, or a hinge of a member, but not the shear of a column, which is rigid until it fails.
+    #[must_use]
+    pub fn is_damped_with_structure(&self) -> bool {
+        !(self.is_isolation() || matches!(self, Self::Base { .. } | Self::Shear { .. }))
+    }
+
     /// Whether it belongs to the isolation of a building rather than to its structure.
     #[must_use]
     pub fn is_isolation(&self) -> bool {

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use crate::hysteresis::Hysteresis;
+use crate::model::ProportionalDamping;
 
 /// Lumped masses and the massless elements between them, in the plane.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -142,8 +143,8 @@ pub struct Hinge {
     /// Force and moment per relative velocity in x, y, θ, ≥ 0; not used where the hinge is rigid
     /// \[N·s/m, N·s/m, N·m·s/rad\].
     pub dashpots: [f64; 3],
-    /// Whether stiffness-proportional damping of the building acts here too; never on a spring that yields.
-    pub proportional_damping: bool,
+    /// How stiffness-proportional damping of the building acts here.
+    pub proportional_damping: ProportionalDamping,
 }
 
 impl Hinge {
@@ -152,7 +153,7 @@ impl Hinge {
     pub fn yielding(ends: [usize; 2], hysteresis: Hysteresis) -> Self {
         Self {
             hysteresis: Some(hysteresis),
-            proportional_damping: false,
+            proportional_damping: ProportionalDamping::None,
             ..Self::rotational(ends, hysteresis.backbone().initial())
         }
     }
@@ -166,7 +167,7 @@ impl Hinge {
             hysteresis: None,
             translational_stiffness: [None, None],
             dashpots: [0.0; 3],
-            proportional_damping: true,
+            proportional_damping: ProportionalDamping::Initial,
         }
     }
 }
@@ -185,8 +186,8 @@ pub struct Spring {
     pub softening: f64,
     /// Force per relative velocity, ≥ 0 \[N·s/m\].
     pub dashpot: f64,
-    /// Whether stiffness-proportional damping of the building acts here too.
-    pub proportional_damping: bool,
+    /// How stiffness-proportional damping of the building acts here.
+    pub proportional_damping: ProportionalDamping,
     /// Height between its ends over a rigid foundation, whose rotation times this height adds to the deformation, counter-clockwise
     /// like a displacement of the second end to the right; P-Delta acts on displacements alone \[m\].
     pub lever: Option<f64>,
@@ -202,7 +203,7 @@ impl Spring {
             hysteresis: None,
             softening: 0.0,
             dashpot: 0.0,
-            proportional_damping: true,
+            proportional_damping: ProportionalDamping::Initial,
             lever: None,
         }
     }
@@ -221,6 +222,8 @@ pub struct StickPlanSpring {
     pub at: [f64; 2],
     /// What it remembers; positive is the displacement of the upper end against the lower one.
     pub hysteresis: Hysteresis,
+    /// How stiffness-proportional damping of the building acts here.
+    pub proportional_damping: ProportionalDamping,
 }
 
 /// A stiffness over one deformation, or over two that are coupled: an element of a member of a space frame.

@@ -11,7 +11,7 @@ use super::space_frame::{Assembly, condense};
 use super::space_joints::add_space_joints;
 use super::spring_place::SpringPlace;
 use super::stick_model::{Node, StickModel, StickPlanSpring, Support};
-use crate::model::{Gravity, Isolation, PlanPoint, Tiers};
+use crate::model::{Gravity, Isolation, PlanPoint, ProportionalDamping, Tiers};
 
 /// Motion of a plan point per displacement of a floor with its centre of mass at `centre`: rows x, across and rotation.
 pub(crate) fn motion_at(point: PlanPoint, centre: PlanPoint) -> [[f64; 3]; 3] {
@@ -101,6 +101,7 @@ pub(super) fn discretize_tiers(
             levers: [below.map_or(arm_of_mat, arm), arm(storey)],
             at: own.at,
             hysteresis: own.hysteresis,
+            proportional_damping: ProportionalDamping::Initial,
         });
         let storey = storey + 1;
         spring_places.push(match own.element {

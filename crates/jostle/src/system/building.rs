@@ -13,6 +13,7 @@ use crate::hysteresis::HysteresisMemory;
 use crate::interface::DofRow;
 use crate::model::{Building, Damping, Gravity, LEVEL_TOLERANCE, PlanPoint, usual_damping_modes};
 use crate::motion::Ground;
+use crate::simd;
 use crate::statics::{Collapse, Settled, under_gravity};
 use crate::structure::motion_at;
 use crate::structure::{
@@ -393,6 +394,27 @@ impl BuildingSystem {
         let equations = &mut self.structure.equations;
         (equations.alpha, equations.beta) = (alpha, beta);
         Ok(())
+    }
+
+    /// Share of critical damping that a mode really has, φᵀCφ/(2ω φᵀMφ): Rayleigh damping of what it acts on, dashpots of the base,
+    /// and those of links between floors; springs that yield as long as they have not \[–\].
+    #[must_use]
+    pub fn damping_ratio(&self, mode: &Mode) -> f64 {
+        if let Some(ratio) = self.modal_damping {
+            return ratio;
+        }
+        let (equations, shape) = (&self.equations, &mode.shape);
+        let mass = simd::weighted_square(&equations.mass, shape);
+        let by_members = equations.beta * equations.stiffness.quadratic_form(shape);
+        let springs = equations.springs.iter().map(|spring| {
+            let dashpot = equations.tangent_dashpot(spring, spring.hysteresis.initial_tangent());
+            dashpot * spring.deformation(shape).powi(2)
+        });
+        let links = self.inner_links.iter();
+        let links = links.map(|link| link.damping * link.shortened_by(shape).powi(2));
+        let beside = equations.dashpots.quadratic_form(shape);
+        let damped = by_members + beside + springs.sum::<f64>() + links.sum::<f64>();
+        0.5 * (equations.alpha + damped / mass) / mode.circular_frequency
     }
 
     /// φᵀKφ of a lateral mode, counted from 1, without the springs of links between floors, ω² if there are none \[rad²/s²\].

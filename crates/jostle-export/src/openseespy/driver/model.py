@@ -124,6 +124,13 @@ def add_contacts():
         first, last = building["nodes"]
         # On the initial stiffness of everything that is not a bare spring.
         ops.region(number, "-node", *range(first, last + 1), "-rayleigh", building["alpha"], 0.0, building["beta"], 0.0)
+        # What yields and is damped by its tangent: by that at the last step.
+        nodes = range(first, last + 1)
+        springs = [row for row in (*SPRINGS, *LEVERED) if row[1] in nodes or row[2] in nodes]
+        springs += [spring for *_, springs in HINGED_ENDS for spring in springs if spring[1] in nodes]
+        by_tangent = [row[0] for row in springs if row[-1] == "tangent"]
+        if by_tangent:
+            ops.region(len(BUILDINGS) + number, "-eleOnly", *by_tangent, "-rayleigh", 0.0, 0.0, 0.0, building["beta"])
 
 
 def build_in_space():
@@ -193,8 +200,9 @@ def build_in_space():
     for name, tag, *arguments in MATERIALS:
         ops.uniaxialMaterial(name, tag, *arguments)
     for _, _, (x, y), springs in HINGED_ENDS:
-        for tag, first, last, direction, material in springs:
-            ops.element("zeroLength", tag, first, last, "-mat", material, "-dir", direction, "-orient", x, y, 0.0, -y, x, 0.0)
+        for tag, first, last, direction, material, damped in springs:
+            extra = ["-doRayleigh", 1] if damped else []
+            ops.element("zeroLength", tag, first, last, "-mat", material, "-dir", direction, *extra, "-orient", x, y, 0.0, -y, x, 0.0)
     for tag, first, last, springs, damped in SPRINGS:
         directions, materials = [pair[0] for pair in springs], [pair[1] for pair in springs]
         extra = ["-doRayleigh", 1] if damped else []

@@ -633,7 +633,9 @@ fn unbalanced_load(
         equations.dashpots.multiply_add(v, &mut resisted);
         let springs = equations.springs.iter();
         for (spring, memory) in springs.zip(&state.springs[building.spring_range()]) {
-            spring.push(memory.force(), &mut resisted);
+            let tangent = spring.hysteresis.unloading_stiffness(memory);
+            let damped = equations.tangent_dashpot(spring, tangent) * spring.deformation(v);
+            spring.push(memory.force() + damped, &mut resisted);
         }
         for (k, dof) in range.enumerate() {
             let inertia = equations.mass[k] * (state.acceleration[dof] + equations.alpha * v[k]);

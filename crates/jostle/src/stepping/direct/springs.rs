@@ -3,7 +3,8 @@
 //! Every spring is linear near its last known point, m = m_r + k_t (δ − δ_r). The step is solved, contacts
 //! included, and repeated with the lines at the new deformations until every spring lies on the line it was solved
 //! with. Forces increase with deformation, or fall so slowly that masses outweigh it, so the step has one solution; the
-//! number of lines is finite, so it is reached exactly.
+//! number of lines is finite, so it is reached exactly. Damping in proportion to tangents is a dashpot beside the spring, with the
+//! tangent at the start of the step.
 
 use super::{Direct, plan_forces};
 use crate::history::{SpringEvent, SpringTotals};
@@ -26,6 +27,9 @@ pub(super) struct SpringTrial {
     rate_term: f64,
     /// Rates of the deformation; that at the end belongs to no change of deformation.
     rates: Rates,
+    /// Dashpot beside it over the step \[N·s/m, N·m·s/rad\], and its force at the end if the deformation does not change.
+    dashpot: f64,
+    damped: f64,
     /// Force with which the solution before was balanced there.
     pub(super) balance: f64,
     /// Result of the solution: deformation, force on the line, and response of the rule.
@@ -51,6 +55,16 @@ impl SpringTrial {
         }
     }
 
+    /// Slope of its force over the step, dashpot included.
+    fn slope(&self) -> f64 {
+        self.tangent + self.dashpot * self.rates.per_deformation
+    }
+
+    /// Force of the dashpot beside it at the end of the step, after a change of deformation.
+    fn damped_after(&self, change: f64) -> f64 {
+        self.damped + self.dashpot * self.rates.per_deformation * change
+    }
+
     /// Whether it is on the line within rounding.
     fn fits(&self, yield_force: f64) -> bool {
         let apart = (self.answer - self.on_line).abs();
@@ -68,6 +82,8 @@ pub(super) struct YieldingSprings {
     wanted: Vec<f64>,
     /// Forces with which the last step was balanced; those of the rules differ by rounding.
     balanced: Vec<f64>,
+    /// Forces of the dashpots beside springs at its end.
+    pub(super) damped: Vec<f64>,
     /// Loads of the step without springs.
     loads: Vec<f64>,
     stages: Vec<Stage>,
@@ -88,6 +104,15 @@ impl YieldingSprings {
             return Self::default();
         }
         let known = || springs().zip(&state.springs);
+        let damped = system.buildings.iter().flat_map(|building| {
+            let v = &state.velocity[building.range()];
+            let equations = &building.equations;
+            let memories = &state.springs[building.spring_range()];
+            equations.springs.iter().zip(memories).map(|(spring, memory)| {
+                let tangent = spring.hysteresis.unloading_stiffness(memory);
+                equations.tangent_dashpot(spring, tangent) * spring.deformation(v)
+            })
+        });
         Self {
             trials: vec![SpringTrial::default(); count],
             tangents: known()
@@ -95,6 +120,7 @@ impl YieldingSprings {
                 .collect(),
             wanted: vec![0.0; count],
             balanced: state.springs.iter().map(HysteresisMemory::force).collect(),
+            damped: damped.collect(),
             loads: vec![0.0; system.len()],
             stages: known()
                 .map(|(spring, memory)| spring.hysteresis.stage(memory))
@@ -178,8 +204,10 @@ impl Direct {
                 &self.state.velocity[range.clone()],
                 &self.state.acceleration[range],
             );
-            let trials = &mut self.yielding.trials[building.spring_range()];
-            for (spring, trial) in building.equations.springs.iter().zip(trials) {
+            let equations = &building.equations;
+            let trials = self.yielding.trials[building.spring_range()].iter_mut();
+            let known = trials.zip(&self.yielding.tangents[building.spring_range()]);
+            for (spring, (trial, tangent)) in equations.springs.iter().zip(known) {
                 let rate = spring.deformation(v);
                 let rate_term = k.d_v * rate + k.d_a * spring.deformation(a);
                 trial.rate_term = own.shift * rate_term;
@@ -189,16 +217,16 @@ impl Direct {
                     per_deformation: k.c,
                     step: k.step,
                 };
+                trial.tangent = *tangent;
+                trial.dashpot = equations.tangent_dashpot(spring, *tangent);
+                trial.damped = trial.dashpot * trial.rates.after;
             }
-        }
-        for (trial, tangent) in self.yielding.trials.iter_mut().zip(&self.yielding.tangents) {
-            trial.tangent = *tangent;
         }
     }
 
     /// Brings the factors of a slot up to the tangents of the present lines.
     fn retune(&mut self, run: &mut RunState<'_>, slot: usize) -> Result<(), StepError> {
-        let tangents = self.yielding.trials.iter().map(|trial| trial.tangent);
+        let tangents = self.yielding.trials.iter().map(SpringTrial::slope);
         for (place, tangent) in self.yielding.wanted.iter_mut().zip(tangents) {
             *place = tangent;
         }
@@ -247,15 +275,16 @@ impl Direct {
         for building in &run.system.buildings {
             let (range, springs) = (building.range(), building.spring_range());
             let load = &mut self.increment[range];
-            let now = self.state.springs[springs.clone()]
-                .iter()
-                .zip(&self.yielding.balanced[springs.clone()]);
+            let balanced = self.yielding.balanced[springs.clone()].iter();
+            let balanced = balanced.zip(&self.yielding.damped[springs.clone()]);
+            let now = self.state.springs[springs.clone()].iter().zip(balanced);
             let trials = &self.yielding.trials[springs];
-            for ((spring, trial), (memory, balanced)) in
+            for ((spring, trial), (memory, (balanced, damped))) in
                 building.equations.springs.iter().zip(trials).zip(now)
             {
                 let force = balanced - trial.force
-                    + trial.tangent * (trial.deformation - memory.deformation() + trial.rate_term);
+                    + trial.tangent * (trial.deformation - memory.deformation() + trial.rate_term)
+                    + (damped - trial.damped_after(-trial.rate_term));
                 spring.push(force, load);
             }
         }
@@ -374,6 +403,9 @@ impl Direct {
             let change = trial.reached - memory.deformation();
             let work = 0.5 * (self.yielding.balanced[index] + trial.on_line) * change;
             self.audit.springs += work;
+            let damped = trial.damped_after(change);
+            self.audit.damped += 0.5 * (self.yielding.damped[index] + damped) * change;
+            self.yielding.damped[index] = damped;
             spring
                 .hysteresis
                 .commit(memory, trial.reached, trial.answer);

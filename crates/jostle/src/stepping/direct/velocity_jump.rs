@@ -23,7 +23,11 @@ const SUDDEN: f64 = 1e9;
 
 impl JumpFactor {
     /// `None` when every degree of freedom has mass, or nothing can be said about the others.
-    fn new(building: &BuildingSystem, equations: &SolverEquations) -> Option<Self> {
+    fn new(
+        building: &BuildingSystem,
+        equations: &SolverEquations,
+        tangents: &[f64],
+    ) -> Option<Self> {
         let own = &building.equations;
         let mut matrix = StepMatrix {
             stiffness: 1.0 + own.beta * SUDDEN,
@@ -39,9 +43,13 @@ impl JumpFactor {
             })
             .fold(1.0, f64::max);
         matrix.mass = HEAVY * stiffest;
+        let mut stiffness = own.initial_tangents();
+        for ((stiffness, spring), tangent) in stiffness.iter_mut().zip(&own.springs).zip(tangents) {
+            *stiffness += SUDDEN * own.tangent_dashpot(spring, *tangent);
+        }
         let mut factor = SolverFactor::default();
         equations
-            .factorize(&matrix, &own.initial_tangents(), &mut factor)
+            .factorize(&matrix, &stiffness, &mut factor)
             .ok()
             .map(|()| Self {
                 factor,
@@ -149,8 +157,13 @@ impl Direct {
         let system = &run.system.buildings[building];
         let (range, own) = (system.range(), &system.equations);
         let massless = own.mass.contains(&0.0);
-        if massless && self.jump_factors[building].is_none() {
-            self.jump_factors[building] = JumpFactor::new(system, &self.equations[building]);
+        let springs = system.spring_range();
+        // Dashpots at the tangents of springs change from jump to jump.
+        let changes = own.springs.iter().any(|spring| spring.damped_by_tangent);
+        if massless && (changes || self.jump_factors[building].is_none()) {
+            let tangents = &self.yielding.tangents[springs.clone()];
+            self.jump_factors[building] =
+                JumpFactor::new(system, &self.equations[building], tangents);
             run.work.factorizations += 1;
         }
         self.jump.clear(own.len());
@@ -174,6 +187,16 @@ impl Direct {
             acceleration.iter_mut().for_each(|force| *force *= own.beta);
         }
         own.dashpots.multiply_add(velocity, acceleration);
+        if changes {
+            let tangents = &self.yielding.tangents[springs.clone()];
+            let damped = self.yielding.damped[springs].iter_mut();
+            for (spring, (damped, tangent)) in own.springs.iter().zip(damped.zip(tangents)) {
+                let rate = spring.deformation(velocity);
+                let change = own.tangent_dashpot(spring, *tangent) * rate;
+                spring.push(change, acceleration);
+                *damped += change;
+            }
+        }
         for ((a, v), mass) in acceleration.iter_mut().zip(&*velocity).zip(&own.mass) {
             *a = if *mass > 0.0 {
                 -own.alpha * v - *a / mass

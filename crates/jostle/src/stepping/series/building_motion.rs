@@ -1,13 +1,13 @@
 //! The motion of one building over a tried step: a power series from one change of a spring to the next.
 
 use super::operators::Operators;
+use super::push::Push;
 use pulp::{Arch, NullaryFnOnce};
 
 use super::power_series::{Evaluation, Expansion, LANES, PowerSeries, Rates, padded};
 use super::spring_line::{Leaving, SpringLine};
 use crate::hysteresis::{HysteresisMemory, Side, Stage};
-use crate::interface::DofRow;
-use crate::structure::{Equations, YieldingSpring};
+use crate::structure::Equations;
 
 /// A part of a step over which every spring stays on its line.
 #[derive(Clone, Debug)]
@@ -21,24 +21,6 @@ pub(super) struct Segment {
     /// Of every spring, its force at the start and at the end \[N\].
     pub(super) forces: [Vec<f64>; 2],
     pub(super) tangents: Vec<f64>,
-}
-
-/// The force of a contact on a building over a step, positive to the right: a parabola of time.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Push {
-    /// Over the degrees of freedom of the building.
-    pub(super) row: DofRow,
-    /// Coefficients of the powers of the time since the start of the step \[N, N/s, N/s²\].
-    pub(super) force: [f64; 3],
-}
-
-impl Push {
-    /// Force and its rate at a time since the start of the step \[N, N/s\].
-    #[inline]
-    pub(super) fn at(&self, time: f64) -> [f64; 2] {
-        let [c0, c1, c2] = self.force;
-        [c0 + time * (c1 + time * c2), c1 + 2.0 * time * c2]
-    }
 }
 
 /// Ground acceleration over a step: at its start \[m/s²\], and its slope \[m/s³\].
@@ -179,11 +161,6 @@ impl BuildingMotion {
         }
     }
 
-    /// Force of a spring now \[N\], at the present displacements.
-    pub(super) fn force_now(&self, spring: usize, own: &YieldingSpring, u: &[f64]) -> f64 {
-        self.springs[0].lines[spring].force_at(own.deformation(u))
-    }
-
     /// Memories of the springs, brought to the present displacements.
     pub(super) fn memories_at<'a>(
         &'a self,
@@ -203,31 +180,22 @@ impl BuildingMotion {
         })
     }
 
-    /// Accelerations for displacements and velocities, with forces of the springs and pushes at a time of the step.
-    pub(super) fn accelerations(
-        &self,
+    /// Accelerations for displacements and velocities now, with the forces of the springs and the pushes now.
+    pub(super) fn accelerations_now(
+        &mut self,
+        equations: &Equations,
         [u, v]: [&[f64]; 2],
         ground: f64,
-        spring_forces: impl Iterator<Item = f64>,
         pushes: &[Push],
-        time: f64,
         accelerations: &mut [f64],
     ) {
-        let operators = &self.operators;
-        for (a, driven) in accelerations.iter_mut().zip(&operators.driven) {
-            *a = -driven * ground;
+        if self.operators.damping_changes() {
+            self.tune(NOW);
         }
-        operators.damp(v, accelerations);
-        operators.resist_elastically(u, accelerations);
-        for (spring, force) in spring_forces.enumerate() {
-            operators.pull(spring, force, accelerations);
-        }
-        for push in pushes {
-            let [force, _] = push.at(time);
-            for &(dof, share) in push.row.entries() {
-                accelerations[dof] += share * force * operators.inverse_mass[dof];
-            }
-        }
+        let lines = self.springs[NOW].lines.iter().zip(&equations.springs);
+        let forces = lines.map(|(line, spring)| line.force_at(spring.deformation(u)));
+        self.operators
+            .accelerations([u, v], ground, forces, pushes, 0.0, accelerations);
     }
 
     /// Rates of the accelerations for velocities and accelerations, under ground acceleration of a slope.
@@ -363,6 +331,14 @@ impl BuildingMotion {
         }
         segment.tangents.copy_from_slice(&self.tangents);
         let operators = &self.operators;
+        // Where dashpots change with the stiffness of springs, accelerations change with the lines.
+        if operators.damping_changes() {
+            let [u, v, a, _] = &mut segment.start;
+            let n = operators.size;
+            let forces = segment.forces[0].iter().copied();
+            let shaken = ground.start + ground.slope * at;
+            operators.accelerations([&u[..n], &v[..n]], shaken, forces, pushes, at, &mut a[..n]);
+        }
         let [by_time, by_square] = &mut self.loads;
         for (load, driven) in by_time.iter_mut().zip(&operators.driven) {
             *load = -driven * ground.slope;

@@ -1,6 +1,6 @@
 //! Forces of closed contacts over a tried step.
 
-use super::building_motion::Push;
+use super::push::Push;
 use super::stepper::SeriesStepper;
 use crate::state::ContactPhase;
 use crate::stepping::coupling::Closed;

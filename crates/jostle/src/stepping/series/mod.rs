@@ -11,6 +11,7 @@ mod contacts;
 mod operators;
 mod peaks;
 mod power_series;
+mod push;
 mod spring_line;
 mod stepper;
 

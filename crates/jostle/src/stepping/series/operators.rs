@@ -1,6 +1,7 @@
 //! M⁻¹K, M⁻¹C and M⁻¹r of one building, by diagonals.
 
 use super::power_series::padded;
+use super::push::Push;
 use crate::linear::SparseSymmetric;
 use crate::structure::Equations;
 
@@ -29,6 +30,10 @@ pub(super) struct Operators {
     pub(super) damping: Vec<f64>,
     /// α, where damping is αM alone \[1/s\].
     pub(super) uniform_damping: Option<f64>,
+    /// M⁻¹C without the dashpots of springs, which change with their stiffness; empty if no spring has one \[1/s\].
+    steady_damping: Vec<f64>,
+    /// Dashpot of every spring over its present stiffness \[s\].
+    delays: Vec<f64>,
     /// Degrees of freedom of the springs.
     pub(super) springs: Vec<[Option<usize>; 2]>,
     /// Bound on the rate of the motion while no spring is stiffer than at first \[1/s\].
@@ -72,6 +77,8 @@ impl Operators {
             stiffness: blank.clone(),
             damping: blank,
             uniform_damping: None,
+            steady_damping: Vec::new(),
+            delays: Vec::new(),
             springs,
             rate: 0.0,
         };
@@ -95,7 +102,12 @@ impl Operators {
             }
         }
         let damped = equations.beta != 0.0 && !equations.stiffness.is_zero();
-        if !damped && equations.dashpots.is_zero() {
+        let delays = equations.springs.iter();
+        let delays = delays.map(|spring| equations.tangent_dashpot(spring, 1.0));
+        if delays.clone().any(|delay| delay > 0.0) {
+            built.delays = delays.collect();
+            built.steady_damping.clone_from(&built.damping);
+        } else if !damped && equations.dashpots.is_zero() {
             built.uniform_damping = Some(equations.alpha);
         }
         let initial = equations.springs.iter();
@@ -121,17 +133,22 @@ impl Operators {
         (0..self.size).map(row_sum).fold(0.0, f64::max)
     }
 
-    /// Sets the stiffness of the springs \[N/m\].
+    /// Sets the stiffness of the springs \[N/m\], and what damping follows it.
     pub(super) fn set_tangents(&mut self, tangents: impl Iterator<Item = f64>) {
         self.stiffness.copy_from_slice(&self.elastic);
+        self.damping[..self.steady_damping.len()].copy_from_slice(&self.steady_damping);
         for (spring, tangent) in tangents.enumerate() {
             let dofs = self.springs[spring];
+            let delay = self.delays.get(spring).copied().unwrap_or(0.0);
+            let dashpot = delay * tangent.max(0.0);
             for (own, sign) in dofs.into_iter().zip([1.0, -1.0]) {
                 let Some(row) = own else { continue };
                 for (other, other_sign) in dofs.into_iter().zip([1.0, -1.0]) {
                     let Some(column) = other else { continue };
                     let place = self.place(row, column);
-                    self.stiffness[place] += sign * other_sign * tangent * self.inverse_mass[row];
+                    let by = sign * other_sign * self.inverse_mass[row];
+                    self.stiffness[place] += by * tangent;
+                    self.damping[place] += by * dashpot;
                 }
             }
         }
@@ -147,6 +164,37 @@ impl Operators {
         if let Some(dof) = second {
             acceleration[dof] += force * self.inverse_mass[dof];
         }
+    }
+
+    /// Accelerations for displacements and velocities, with forces of the springs and pushes at a time of the step.
+    pub(super) fn accelerations(
+        &self,
+        [u, v]: [&[f64]; 2],
+        ground: f64,
+        spring_forces: impl Iterator<Item = f64>,
+        pushes: &[Push],
+        time: f64,
+        accelerations: &mut [f64],
+    ) {
+        for (a, driven) in accelerations.iter_mut().zip(&self.driven) {
+            *a = -driven * ground;
+        }
+        self.damp(v, accelerations);
+        self.resist_elastically(u, accelerations);
+        for (spring, force) in spring_forces.enumerate() {
+            self.pull(spring, force, accelerations);
+        }
+        for push in pushes {
+            let [force, _] = push.at(time);
+            for &(dof, share) in push.row.entries() {
+                accelerations[dof] += share * force * self.inverse_mass[dof];
+            }
+        }
+    }
+
+    /// Whether damping follows the stiffness of springs.
+    pub(super) fn damping_changes(&self) -> bool {
+        !self.delays.is_empty()
     }
 
     /// Adds −M⁻¹(K + K′) x, without springs that yield.

@@ -1,7 +1,8 @@
 //! Stepping by power series.
 
-use super::building_motion::{BuildingMotion, GAUSS, GroundLine, Push};
+use super::building_motion::{BuildingMotion, GAUSS, GroundLine};
 use super::peaks::SeriesPeaks;
+use super::push::Push;
 use crate::contact::momentum;
 use crate::history::{FoundationPeaks, SpringEvent, SpringTotals};
 use crate::hysteresis::Stage;
@@ -316,15 +317,13 @@ impl SeriesStepper {
                 }
             }
         }
-        let buildings = run.system.buildings.iter().zip(&self.motions);
+        let buildings = run.system.buildings.iter().zip(&mut self.motions);
         for ((building, motion), pushes) in buildings.zip(&self.pushes) {
-            let range = building.range();
+            let (equations, range) = (&building.equations, building.range());
             let u = &self.state.displacement[range.clone()];
             let v = &self.state.velocity[range.clone()];
-            let springs = building.equations.springs.iter().enumerate();
-            let forces = springs.map(|(index, spring)| motion.force_now(index, spring, u));
             let a = &mut self.state.acceleration[range];
-            motion.accelerations([u, v], run.ground[0][0], forces, pushes, 0.0, a);
+            motion.accelerations_now(equations, [u, v], run.ground[0][0], pushes, a);
         }
     }
 

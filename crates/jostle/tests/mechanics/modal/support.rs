@@ -4,7 +4,7 @@ use jostle::eigen::{Mode, modes_dense};
 use jostle::linear::NotPositive;
 use jostle::structure::{Discretization, Hinge, Member, Node, Spring, StickModel, Support};
 use jostle::system::BuildingSystem;
-use jostle::{Building, Frame, Joint, Structure};
+use jostle::{Building, Frame, Joint, ProportionalDamping, Structure};
 use jostle_testkit::models;
 use jostle_testkit::models::UNDAMPED;
 pub(crate) use jostle_testkit::models::concrete as section;
@@ -73,7 +73,7 @@ pub(crate) fn stored_frame(frame: &Value, compressed: f64) -> BuildingSystem {
                 rotational_stiffness: Some(number(element, "Ktheta")),
                 hysteresis: None,
                 dashpots: [0.0; 3],
-                proportional_damping: true,
+                proportional_damping: ProportionalDamping::Initial,
                 translational_stiffness: [element["Kx"].as_f64(), element["Ky"].as_f64()],
             });
         }

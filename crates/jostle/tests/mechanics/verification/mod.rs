@@ -5,6 +5,7 @@ mod bad_models_are_refused;
 mod base_gravity_and_shifted_equilibrium;
 mod contact_laws;
 mod corners;
+mod damping_of_yielding;
 mod direct_in_space;
 mod direct_runs_refine_their_steps;
 mod energy_balances;
