@@ -8,7 +8,10 @@ use jostle::stepping::{ContactSteps, simulate_from};
 use jostle::structure::StepEquations;
 use jostle::structure::{Discretization, Hinge, Member, Node, Spring, StickModel, Support};
 use jostle::system::BuildingSystem;
-use jostle::{GroundMotion, Outcome, Plan, Pounding, ProportionalDamping, RunEnd, Settings, Solver, State, System};
+use jostle::{
+    GroundMotion, Outcome, Plan, Pounding, ProportionalDamping, RunEnd, Settings, Solver, State,
+    System,
+};
 use jostle::{RiccatiFactor, RiccatiSweep};
 use serde_json::Value;
 

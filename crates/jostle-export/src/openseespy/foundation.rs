@@ -115,7 +115,12 @@ impl Script<'_> {
             let tag = self.tag(index, number);
             if node.y > 0.0 {
                 let below = self.on_foundation(index, building, ties, [node.x, base.y]);
-                self.lever([below, tag], material, Turning::First, ProportionalDamping::None);
+                self.lever(
+                    [below, tag],
+                    material,
+                    Turning::First,
+                    ProportionalDamping::None,
+                );
             }
             // Floors of a shear building do not rise, and columns that keep their length rise with the foundation.
             if node.support == Support::Free && own(number).is_none() {
@@ -124,7 +129,12 @@ impl Script<'_> {
                     self.spring(ground, tag, &[(2, material)], ProportionalDamping::None);
                 } else {
                     let beside = self.on_foundation(index, building, ties, [base.x, node.y]);
-                    self.lever([beside, tag], material, Turning::First, ProportionalDamping::None);
+                    self.lever(
+                        [beside, tag],
+                        material,
+                        Turning::First,
+                        ProportionalDamping::None,
+                    );
                 }
             }
         }
@@ -165,15 +175,30 @@ impl Script<'_> {
                         _ => 6,
                     };
                     let ground = self.ground_point(founded[at].0, place(at, 0.0));
-                    self.spring(ground, bases[at].0, &[(direction, material)], ProportionalDamping::None);
+                    self.spring(
+                        ground,
+                        bases[at].0,
+                        &[(direction, material)],
+                        ProportionalDamping::None,
+                    );
                 }
                 SoilSpring::Between([left, right], direction) => {
                     let ends = [bases[left].0, bases[right].0];
-                    self.spring(ends[0], ends[1], &[(direction, material)], ProportionalDamping::None);
+                    self.spring(
+                        ends[0],
+                        ends[1],
+                        &[(direction, material)],
+                        ProportionalDamping::None,
+                    );
                 }
                 SoilSpring::Lever(at, None) => {
                     let ground = self.ground_point(founded[at].0, place(at, LEVER));
-                    self.lever([bases[at].0, ground], material, Turning::First, ProportionalDamping::None);
+                    self.lever(
+                        [bases[at].0, ground],
+                        material,
+                        Turning::First,
+                        ProportionalDamping::None,
+                    );
                 }
                 SoilSpring::Lever(at, Some(other)) => {
                     // The node that turns below, that of the neighbour above it.
@@ -182,7 +207,12 @@ impl Script<'_> {
                     let [x, y] = place(at, LEVER);
                     let above =
                         self.on_foundation(founded[other].0, beside, &ties(other), [x + shift, y]);
-                    self.lever([bases[at].0, above], material, Turning::First, ProportionalDamping::None);
+                    self.lever(
+                        [bases[at].0, above],
+                        material,
+                        Turning::First,
+                        ProportionalDamping::None,
+                    );
                 }
             }
         }

@@ -77,7 +77,13 @@ impl Script<'_> {
         }
         for storey in 0..lumped.len() {
             if let Some(springs) = tiers.storeys.get(storey) {
-                self.add_storey_in_plan(index, building, storey, springs, ProportionalDamping::Initial);
+                self.add_storey_in_plan(
+                    index,
+                    building,
+                    storey,
+                    springs,
+                    ProportionalDamping::Initial,
+                );
             }
             let yielding = tiers.yielding.iter();
             for spring in yielding.filter(|spring| spring.storey == storey) {
@@ -106,7 +112,13 @@ impl Script<'_> {
             if own.gravity.p_delta {
                 let mut springs = tiers.softening(&lumped, storey);
                 springs.stiffness = springs.stiffness.map(|stiffness| -stiffness);
-                self.add_storey_in_plan(index, building, storey, &springs, ProportionalDamping::None);
+                self.add_storey_in_plan(
+                    index,
+                    building,
+                    storey,
+                    &springs,
+                    ProportionalDamping::None,
+                );
             }
         }
         if let Some(frame) = &tiers.space_frame {

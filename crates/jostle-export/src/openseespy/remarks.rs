@@ -30,7 +30,11 @@ impl Script<'_> {
             let kinds = springs.filter_map(|spring| of_rule(spring.hysteresis.rule()));
             let kinds: Vec<Kind> = kinds.collect();
             damped |= building.equations.beta != 0.0
-                && building.equations.springs.iter().any(|spring| spring.damped_by_tangent);
+                && building
+                    .equations
+                    .springs
+                    .iter()
+                    .any(|spring| spring.damped_by_tangent);
             found.extend(kinds);
         }
         found.extend(system.model_links().iter().filter_map(|link| {

@@ -125,13 +125,7 @@ impl Script<'_> {
         // Rises, and turns about x and about y of the lines.
         let [vertical, turning] = hinges.stiff;
         let rigid = ProportionalDamping::None;
-        let mut springs = vec![(
-            joint,
-            tag,
-            3,
-            self.materials.elastic(vertical, 0.0),
-            rigid,
-        )];
+        let mut springs = vec![(joint, tag, 3, self.materials.elastic(vertical, 0.0), rigid)];
         let places = &building.discretization.spring_places;
         for axis in PlanAxis::BOTH {
             let wanted = SpringPlace::InSpace {

@@ -11,8 +11,8 @@ use super::stick_model::{Coupling, Hinge, Member, Node, Spring, StickModel, Supp
 use super::tiers::discretize_tiers;
 use crate::hysteresis::{Hysteresis, Side};
 use crate::model::{
-    Base, Building, Frame, FrameHinges, Given, Hinges, Isolation, Joint, ProportionalDamping, Section,
-    SharedColumn, Shear, ShearEnds, ShearSpring, Structure,
+    Base, Building, Frame, FrameHinges, Given, Hinges, Isolation, Joint, ProportionalDamping,
+    Section, SharedColumn, Shear, ShearEnds, ShearSpring, Structure,
 };
 
 /// A stick model and where its floors and faces are. The default has no nodes.

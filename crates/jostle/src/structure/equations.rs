@@ -377,7 +377,12 @@ fn yielding_springs(stick_model: &StickModel, path: &Path) -> Vec<YieldingSpring
         let [lower, upper] = storey.ends;
         Some(YieldingSpring {
             levers: [turning.zip(storey.lever), None],
-            ..spring([upper, lower], X, storey.hysteresis?, storey.proportional_damping)
+            ..spring(
+                [upper, lower],
+                X,
+                storey.hysteresis?,
+                storey.proportional_damping,
+            )
         })
     });
     let in_plan = stick_model.plan_springs.iter().map(|own| {
@@ -388,7 +393,12 @@ fn yielding_springs(stick_model: &StickModel, path: &Path) -> Vec<YieldingSpring
         };
         YieldingSpring {
             levers: [lever(upper, own.levers[1]), lever(lower, -own.levers[0])],
-            ..spring([upper, lower], own.component, own.hysteresis, own.proportional_damping)
+            ..spring(
+                [upper, lower],
+                own.component,
+                own.hysteresis,
+                own.proportional_damping,
+            )
         }
     });
     let bearings = stick_model.plan_mat.iter().flat_map(|mat| {

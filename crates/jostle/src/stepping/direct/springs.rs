@@ -108,10 +108,14 @@ impl YieldingSprings {
             let v = &state.velocity[building.range()];
             let equations = &building.equations;
             let memories = &state.springs[building.spring_range()];
-            equations.springs.iter().zip(memories).map(|(spring, memory)| {
-                let tangent = spring.hysteresis.unloading_stiffness(memory);
-                equations.tangent_dashpot(spring, tangent) * spring.deformation(v)
-            })
+            equations
+                .springs
+                .iter()
+                .zip(memories)
+                .map(|(spring, memory)| {
+                    let tangent = spring.hysteresis.unloading_stiffness(memory);
+                    equations.tangent_dashpot(spring, tangent) * spring.deformation(v)
+                })
         });
         Self {
             trials: vec![SpringTrial::default(); count],

@@ -481,6 +481,11 @@ impl BuildingMotion {
     ) -> StepWork {
         let mut work = StepWork::default();
         for segment in &self.segments[..self.used] {
+            if self.operators.damping_changes() {
+                self.tangents.copy_from_slice(&segment.tangents);
+                self.operators
+                    .set_tangents(segment.tangents.iter().copied());
+            }
             let quadrature = Quadrature {
                 operators: &self.operators,
                 segment,

@@ -60,7 +60,9 @@ fn storeys_that_never_yield_are_damped_like_elastic_ones() {
     let peaks = |outcome: &Outcome| -> Vec<f64> {
         let floors = outcome.floors.iter().flatten();
         let of_floors = floors.flat_map(|floor| [floor.total_acceleration, floor.storey_drift]);
-        of_floors.chain(outcome.base_shear.iter().copied()).collect()
+        of_floors
+            .chain(outcome.base_shear.iter().copied())
+            .collect()
     };
     let tolerance = 1e-3;
     let elastic = outcome(&pair(None), None, tolerance).1;
@@ -78,7 +80,10 @@ fn storeys_that_never_yield_are_damped_like_elastic_ones() {
             Some(ProportionalDamping::Tangent),
         ] {
             let off = off(damping, solver);
-            assert!(off < 2.0 * tolerance, "{damping:?} by {solver:?}: {off:.1e}");
+            assert!(
+                off < 2.0 * tolerance,
+                "{damping:?} by {solver:?}: {off:.1e}"
+            );
         }
         assert!(off(Some(ProportionalDamping::None), solver) > 0.1);
     }
@@ -149,15 +154,25 @@ fn damping_acts_on_what_has_yielded_as_stated() {
         for (solver, allowed) in [(None, 2e-5), (Some(Solver::Riccati), 5e-4)] {
             let own = outcome(&model, solver, 1e-5).1;
             let floor = &own.floors[0][0];
-            let moved = floor.displacement_max.value.max(-floor.displacement_min.value);
+            let moved = floor
+                .displacement_max
+                .value
+                .max(-floor.displacement_min.value);
             for (own, known) in [moved, floor.total_acceleration].iter().zip(known) {
                 let off = (own / known - 1.0).abs();
-                assert!(off < allowed, "{damping:?} by {solver:?}: {own} for {known}, {off:.1e}");
+                assert!(
+                    off < allowed,
+                    "{damping:?} by {solver:?}: {own} for {known}, {off:.1e}"
+                );
             }
-            assert!(own.energy.imbalance() < 1e-3, "{:?}", own.energy);
+            let lost = own.energy.imbalance();
+            assert!(lost < 1e-4, "{damping:?} by {solver:?}: {lost:.1e}");
         }
         found.push(known[0]);
     }
     // The more is damped, the less it moves.
-    assert!(found[0] < 0.97 * found[1] && found[1] < 0.97 * found[2], "{found:?}");
+    assert!(
+        found[0] < 0.97 * found[1] && found[1] < 0.97 * found[2],
+        "{found:?}"
+    );
 }
