@@ -194,6 +194,7 @@ fn peaks(page: &Page) -> Markup {
                 th scope="col" { (message::building()) } th.number scope="col" { (message::floor()) }
                 th.number scope="col" { (message::displacement_across()) br; span.unit { "[mm]" } } th.number scope="col" { (message::rotation()) br; span.unit { "[mrad]" } }
                 th.number scope="col" { (message::corner()) br; span.unit { "[mm]" } } th.number scope="col" { (message::drift_across()) br; span.unit { "[%]" } }
+                th.number scope="col" { (message::drift_at_a_corner()) br; span.unit { "[%]" } }
                 th.number scope="col" { (message::shear_across()) br; span.unit { "[kN]" } } th.number scope="col" { (message::torque()) br; span.unit { "[kN·m]" } }
                 th.number scope="col" { (message::acceleration_across()) br; span.unit { "[m/s²]" } }
             } }
@@ -207,6 +208,7 @@ fn peaks(page: &Page) -> Markup {
                                 td.number { (format::fixed(plan.rotation_max_rad * 1e3, 2)) " / " (format::fixed(plan.rotation_min_rad * 1e3, 2)) }
                                 td.number { (format::fixed(plan.corner_displacement_peak_m * 1e3, 1)) }
                                 td.number { (format::fixed(plan.storey_drift_across_peak * 100.0, 2)) }
+                                td.number { (format::fixed(plan.storey_drift_corner_peak * 100.0, 2)) }
                                 td.number { (format::fixed(plan.storey_shear_across_peak_n * 1e-3, 1)) }
                                 td.number { (format::fixed(plan.storey_torque_peak_n_m * 1e-3, 0)) }
                                 td.number { (format::fixed(plan.total_acceleration_across_peak_m_s2, 2)) }

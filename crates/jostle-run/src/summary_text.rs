@@ -129,8 +129,8 @@ fn write_in_plan(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::
         .fold(8, usize::max);
     writeln!(
         text,
-        "\n{:width$}  {:>18}  {:>18}  {:>9}  {:>12}  {:>13}",
-        "", "roof across", "rotation", "corner", "shear across", "base torque"
+        "\n{:width$}  {:>18}  {:>18}  {:>9}  {:>12}  {:>12}  {:>13}",
+        "", "roof across", "rotation", "corner", "corner drift", "shear across", "base torque"
     )?;
     for building in buildings {
         let roof = building.floors.last().and_then(|floor| floor.in_plan);
@@ -139,13 +139,14 @@ fn write_in_plan(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::
         };
         writeln!(
             text,
-            "{:width$}  {:>+6.1} / {:>+6.1} mm  {:>+5.2} / {:>+5.2} mrad  {:6.1} mm  {:>9} kN  {:>8} kN·m",
+            "{:width$}  {:>+6.1} / {:>+6.1} mm  {:>+5.2} / {:>+5.2} mrad  {:6.1} mm  {:>10.2} %  {:>9} kN  {:>8} kN·m",
             building.name,
             roof.displacement_across_max_m * 1e3,
             roof.displacement_across_min_m * 1e3,
             roof.rotation_max_rad * 1e3,
             roof.rotation_min_rad * 1e3,
             roof.corner_displacement_peak_m * 1e3,
+            own.drift_corner_peak * 100.0,
             kn(own.base_shear_across_peak_n),
             kn(own.base_torque_peak_n_m)
         )?;

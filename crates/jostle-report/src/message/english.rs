@@ -688,10 +688,11 @@ messages! {
     rotation = "rotation";
     corner = "corner";
     drift_across = "drift across";
+    drift_at_a_corner = "drift at a corner";
     shear_across = "shear across";
     torque = "torque";
     acceleration_across = "acceleration across";
-    drift_shear_and_torque = "Drift, shear and torque are those of the storey below the floor; torques are about the centre of mass of the lowest floor.";
+    drift_shear_and_torque = "Drift, shear and torque are those of the storey below the floor: drift along and across of the vertical line through the centre of mass of the floor, at a corner the greatest of any corner of the smaller plan, in all directions. Torques are about the centre of mass of the lowest floor.";
     name_without_contact(name) = "{name} without contact";
     roof_displacement_across = "Roof displacement across";
     roof_rotation = "Roof rotation";

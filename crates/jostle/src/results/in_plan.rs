@@ -34,6 +34,8 @@ pub struct FloorInPlan {
     pub total_acceleration_across_peak_m_s2: f64,
     /// Greatest drift ratio across of the storey below, either sign \[–\].
     pub storey_drift_across_peak: f64,
+    /// Greatest drift ratio of the storey below at a corner of the smaller plan, along x and across together \[–\].
+    pub storey_drift_corner_peak: f64,
     /// Greatest shear across of the storey below, either sign \[N\].
     pub storey_shear_across_peak_n: f64,
     /// Greatest torque of the storey below about the centre of mass of the lowest floor, either sign \[N·m\].
@@ -54,7 +56,8 @@ impl FloorInPlan {
         Quantity::<Self>::real("rotation_min_at_s", Unit::S, "its instant", |f| f.rotation_min_at_s),
         Quantity::<Self>::real("corner_displacement_peak_m", Unit::M, "greatest horizontal displacement of a corner", |f| f.corner_displacement_peak_m).in_study(),
         Quantity::<Self>::real("total_acceleration_across_peak_m_s2", Unit::M_S2, "greatest total acceleration across", |f| f.total_acceleration_across_peak_m_s2).in_study(),
-        Quantity::<Self>::real("storey_drift_across_peak", Unit::NONE, "greatest drift ratio across of the storey", |f| f.storey_drift_across_peak).in_study(),
+        Quantity::<Self>::real("storey_drift_across_peak", Unit::NONE, "greatest drift ratio across of the storey, of the vertical line through the centre of mass of its upper floor", |f| f.storey_drift_across_peak).in_study(),
+        Quantity::<Self>::real("storey_drift_corner_peak", Unit::NONE, "greatest drift ratio of the storey at a corner of the smaller plan, along x and across together", |f| f.storey_drift_corner_peak).in_study(),
         Quantity::<Self>::real("storey_shear_across_peak_n", Unit::N, "greatest shear across of the storey", |f| f.storey_shear_across_peak_n).in_study(),
         Quantity::<Self>::real("storey_torque_peak_n_m", Unit::NM, "greatest torque of the storey about the centre of mass of the lowest floor", |f| f.storey_torque_peak_n_m).in_study(),
     ];
@@ -73,6 +76,8 @@ pub struct BuildingInPlan {
     pub rotation_peak_rad: f64,
     /// Greatest drift ratio across of any storey, either sign \[–\].
     pub drift_across_peak: f64,
+    /// Greatest drift ratio of any storey at a corner of the smaller plan, along x and across together \[–\].
+    pub drift_corner_peak: f64,
 }
 
 #[rustfmt::skip]
@@ -84,6 +89,7 @@ impl BuildingInPlan {
         Quantity::<Self>::real("corner_displacement_peak_m", Unit::M, "greatest horizontal displacement of a corner of any floor", |b| b.corner_displacement_peak_m).in_study().compared(),
         Quantity::<Self>::real("rotation_peak_rad", Unit::RAD, "greatest rotation of any floor", |b| b.rotation_peak_rad).in_study().compared(),
         Quantity::<Self>::real("drift_across_peak", Unit::NONE, "greatest drift ratio across of any storey", |b| b.drift_across_peak).in_study().compared(),
+        Quantity::<Self>::real("drift_corner_peak", Unit::NONE, "greatest drift ratio of any storey at a corner of the smaller plan, along x and across together; codes judge it", |b| b.drift_corner_peak).in_study().compared(),
     ];
 }
 
@@ -216,6 +222,7 @@ pub(super) fn floor_in_plan(index: usize, floor: usize, outcome: &Outcome) -> Op
         corner_displacement_peak_m: peaks.corner_displacement.get(floor).copied().unwrap_or(0.0),
         total_acceleration_across_peak_m_s2: across.total_acceleration,
         storey_drift_across_peak: across.storey_drift,
+        storey_drift_corner_peak: peaks.corner_drift.get(floor).copied().unwrap_or(0.0),
         storey_shear_across_peak_n: across.storey_shear,
         storey_torque_peak_n_m: turning.storey_shear,
     })
@@ -232,6 +239,7 @@ pub(super) fn building_in_plan(index: usize, outcome: &Outcome) -> Option<Buildi
         corner_displacement_peak_m: greatest(&|floor| floor.corner_displacement_peak_m),
         rotation_peak_rad: greatest(&|floor| floor.rotation_max_rad.max(-floor.rotation_min_rad)),
         drift_across_peak: greatest(&|floor| floor.storey_drift_across_peak),
+        drift_corner_peak: greatest(&|floor| floor.storey_drift_corner_peak),
         base_shear_across_peak_n: mat.map_or(lowest.storey_shear_across_peak_n, |own| {
             own.base_shear_across
         }),

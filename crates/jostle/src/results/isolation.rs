@@ -113,6 +113,7 @@ fn mat_in_plan(index: usize, outcome: &Outcome) -> Option<FloorInPlan> {
         corner_displacement_peak_m: own.corner,
         total_acceleration_across_peak_m_s2: own.total_acceleration_across,
         storey_drift_across_peak: 0.0,
+        storey_drift_corner_peak: 0.0,
         storey_shear_across_peak_n: own.base_shear_across,
         storey_torque_peak_n_m: own.base_torque,
     })

@@ -146,6 +146,13 @@ pub(super) fn building_response(
 /// Drift ratios of the storeys at the end \[–\].
 fn residual_drifts(building: &BuildingSystem, outcome: &Outcome) -> Vec<f64> {
     let u = &outcome.state.displacement;
+    if !building.plan_storeys.is_empty() {
+        let own = &u[building.range()];
+        let storeys = building.plan_storeys.iter();
+        return storeys
+            .map(|storey| storey.apart(own)[0] / storey.height)
+            .collect();
+    }
     let mut below = building.foot.map_or(0.0, |dof| u[dof]);
     let turned = building.rocking(u);
     let mut drift = |floor: &crate::system::Floor| {

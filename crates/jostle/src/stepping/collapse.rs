@@ -1,13 +1,14 @@
 //! When a building that yields has collapsed.
 
 use super::outcome::StepError;
+use super::plan_drifts::PlanDrifts;
 use crate::history::FloorPeaks;
 use crate::system::System;
 
 /// Storey drift from which a building that yields or leans has collapsed \[–\].
 const COLLAPSE_DRIFT: f64 = 0.25;
 
-/// Looks at the drifts so far, building by building. Elastic buildings may lean as far as they like: their numbers are those of
+/// Looks at the drifts so far, building by building, in space at the corners as well. Elastic buildings may lean as far as they like: their numbers are those of
 /// their model.
 ///
 /// # Errors
@@ -15,21 +16,25 @@ const COLLAPSE_DRIFT: f64 = 0.25;
 pub(super) fn check_collapse(
     system: &System,
     floors: &[Vec<FloorPeaks>],
+    in_plan: &[PlanDrifts],
     time: f64,
 ) -> Result<(), StepError> {
-    for (building, floors) in system.buildings.iter().zip(floors) {
+    for (index, (building, floors)) in system.buildings.iter().zip(floors).enumerate() {
         if building.equations.springs.is_empty() {
             continue;
         }
         // Along x, and across in space; rotations have no drift ratio.
         let count = building.floors.len();
         let storeys = floors.iter().take(2 * count).enumerate();
-        let worst = storeys.max_by(|a, b| a.1.storey_drift.total_cmp(&b.1.storey_drift));
-        if let Some((storey, peaks)) = worst.filter(|(_, p)| p.storey_drift > COLLAPSE_DRIFT) {
+        let storeys = storeys.map(|(storey, peaks)| (storey % count, peaks.storey_drift));
+        let corners = in_plan.get(index).into_iter().flat_map(PlanDrifts::corners);
+        let all = storeys.chain(corners.enumerate());
+        let worst = all.max_by(|a, b| a.1.total_cmp(&b.1));
+        if let Some((storey, drift)) = worst.filter(|(_, drift)| *drift > COLLAPSE_DRIFT) {
             return Err(StepError::Collapse {
                 building: building.name.clone(),
-                storey: storey % count + 1,
-                drift: peaks.storey_drift,
+                storey: storey + 1,
+                drift,
                 time,
             });
         }

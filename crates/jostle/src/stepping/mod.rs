@@ -26,6 +26,7 @@ mod near_contacts;
 mod outcome;
 mod peak_change;
 mod plan;
+mod plan_drifts;
 mod predicted_force;
 mod recorder;
 mod refined;

@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 
 use super::member_ratios::MemberRatios;
 use super::plan::Plan;
+use super::plan_drifts::PlanDrifts;
 use super::refined::Refined;
 use crate::history::{
     Energy, Extreme, FaceImpact, FloorPeaks, FoundationPeaks, History, Impact, LinkTotals,
@@ -171,6 +172,9 @@ pub struct PlanPeaks {
     pub turning: Vec<FloorPeaks>,
     /// Greatest horizontal displacement of a corner \[m\].
     pub corner_displacement: Vec<f64>,
+    /// Greatest drift ratio of a vertical line through a corner of the smaller of both plans of a storey, along x and across together
+    /// \[–\].
+    pub corner_drift: Vec<f64>,
 }
 
 impl PlanPeaks {
@@ -180,6 +184,7 @@ impl PlanPeaks {
         peaks: &mut Vec<FloorPeaks>,
         floors: usize,
         corner_displacement: Vec<f64>,
+        drifts: &PlanDrifts,
     ) -> Self {
         let mut across = peaks.split_off(floors.min(peaks.len()));
         let turning = across.split_off(across.len() / 2);
@@ -187,6 +192,7 @@ impl PlanPeaks {
             across,
             turning,
             corner_displacement,
+            corner_drift: drifts.corners().collect(),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Difference of the reported peaks of two runs of one system.
 
-use super::outcome::Outcome;
+use super::outcome::{Outcome, PlanPeaks};
 use crate::history::{Extreme, FloorPeaks, FoundationPeaks, Impact, LinkTotals};
 use crate::structure::MemberSection;
 use crate::system::System;
@@ -46,9 +46,12 @@ pub(super) fn change_of_peaks(system: &System, [a, b]: [&Outcome; 2]) -> f64 {
             let least = LEAST_ROTATION * unit * greatest_of(lateral().map(values));
             worst = worst.max(relative_to(least, turning().map(values)));
         }
-        let corners = in_plan.map(|own| own.corner_displacement.iter());
-        let [a_corners, b_corners] = corners;
-        worst = worst.max(relative(a_corners.zip(b_corners).map(|(a, b)| [*a, *b])));
+        let of_corners: [fn(&PlanPeaks) -> &Vec<f64>; 2] =
+            [|own| &own.corner_displacement, |own| &own.corner_drift];
+        for of in of_corners {
+            let [a, b] = in_plan.map(|own| of(own).iter());
+            worst = worst.max(relative(a.zip(b).map(|(a, b)| [*a, *b])));
+        }
         let greatest = greatest_of(lateral().map(|(a, b)| [a, b].map(|f| f.total_acceleration)));
         let count = lateral().count();
         if greatest > 0.0 {

@@ -7,6 +7,7 @@ use super::events::Cubic;
 use super::mat_peaks::MatRecorder;
 use super::member_peaks::MemberPeaks;
 use super::outcome::PlanPeaks;
+use super::plan_drifts::PlanDrifts;
 use crate::history::{
     Column, Energy, EnergyTerm, Extreme, FloorPeaks, FoundationPeaks, History, SpringHistory,
     SupportPeaks,
@@ -24,6 +25,8 @@ pub(crate) struct Recorder {
     /// Of every displacement of the floors, direction by direction.
     pub(crate) floors: Vec<Vec<FloorPeaks>>,
     corners: CornerDistances,
+    /// Drifts in space, building by building.
+    pub(crate) drifts: Vec<PlanDrifts>,
     mats: MatRecorder,
     pub(crate) closing: Vec<Extreme>,
     pub(crate) base_shear: Vec<f64>,
@@ -161,6 +164,9 @@ impl Recorder {
                 .map(|b| vec![FloorPeaks::default(); b.tracks.len()])
                 .collect(),
             corners: CornerDistances::new(system),
+            drifts: (system.buildings.iter())
+                .map(|building| PlanDrifts::new(building, |dof| dof))
+                .collect(),
             mats: MatRecorder::new(system),
             closing: vec![Extreme::default(); system.contacts.len()],
             base_shear: vec![0.0; system.buildings.len()],
@@ -205,7 +211,7 @@ impl Recorder {
         let buildings = floors.iter_mut().zip(&system.buildings).enumerate();
         let in_plan = buildings.map(|(index, (own, building))| {
             let corners = self.corners.finish(index);
-            PlanPeaks::split_off(own, building.floors.len(), corners)
+            PlanPeaks::split_off(own, building.floors.len(), corners, &self.drifts[index])
         });
         let in_plan = in_plan.collect();
         (floors, in_plan)
@@ -235,6 +241,9 @@ impl Recorder {
             self.before.push((u[track.dof], v[track.dof]));
         }
         self.corners.before_step(system, state);
+        for (drifts, building) in self.drifts.iter_mut().zip(&system.buildings) {
+            drifts.before_step(&u[building.range()], &v[building.range()]);
+        }
         self.mats.before_step(system, state);
         for (index, contact) in system.contacts.iter().enumerate() {
             let ports = &contact.ports;
@@ -290,9 +299,11 @@ impl Recorder {
                 peaks.total_acceleration = peaks.total_acceleration.max(total);
                 self.parts.take(floor_of_all, total);
                 floor_of_all += 1;
-                peaks.storey_drift = peaks
-                    .storey_drift
-                    .max(((now.0 - below) / track.storey_height + turned).abs());
+                if track.is_in_line {
+                    peaks.storey_drift = peaks
+                        .storey_drift
+                        .max(((now.0 - below) / track.storey_height + turned).abs());
+                }
                 below = now.0;
             }
             let floors = &mut self.floors[index];
@@ -305,6 +316,11 @@ impl Recorder {
             self.base_shear[index] = self.base_shear[index].max(shear.abs());
         }
         self.corners.after_step(system, state, start, step);
+        let drifts = self.drifts.iter_mut().zip(&mut self.floors);
+        for ((drifts, floors), building) in drifts.zip(&system.buildings) {
+            drifts.after_step(&u[building.range()], &v[building.range()], step);
+            drifts.give_to(floors);
+        }
         self.mats.after_step(system, state, all, start, step);
         let contacts = system.contacts.iter().zip(&mut self.closing);
         for (index, (contact, closing)) in contacts.enumerate() {
@@ -546,6 +562,9 @@ pub(super) fn take_extremes(
         };
     }
 }
+
+/// The largest excess of a cubic over the range of its ends, in steps times the sum of its end slopes: 4/27.
+pub(crate) const BEYOND: f64 = 0.15;
 
 /// Greatest value in a step between (value, slope) at its ends.
 pub(crate) fn greatest_in_step(

@@ -4,6 +4,7 @@ use std::ops::Deref;
 use std::sync::Arc;
 
 use super::plan_mat::MatInPlan;
+use super::plan_storey::PlanStorey;
 use super::soil::FoundationPlace;
 use super::weakening::Weakening;
 use crate::eigen::{
@@ -37,6 +38,8 @@ pub struct BuildingSystem {
     pub tracks: Vec<Track>,
     /// Corners of the floors in space, whose displacements are reported.
     pub corners: Vec<Corner>,
+    /// Storeys in space, whose drifts are those of vertical lines, from the ground up; displacements count from its first.
+    pub plan_storeys: Vec<PlanStorey>,
     /// Displacements and springs under self weight, from which a run starts; empty where weight is left out.
     pub rest: Settled,
     /// First spring that yields of this building in the list of a [`crate::State`].
@@ -124,6 +127,9 @@ pub struct Track {
     pub storey_height: f64,
     /// Whether it belongs to the lowest floor.
     pub is_lowest: bool,
+    /// Whether its difference from what is below is the drift of one vertical line; otherwise [`BuildingSystem::plan_storeys`] tells
+    /// the drift.
+    pub is_in_line: bool,
 }
 
 /// A corner of a floor in plan.
@@ -182,6 +188,7 @@ impl BuildingSystem {
             floors,
             tracks,
             corners: Vec::new(),
+            plan_storeys: Vec::new(),
             rest: Settled::default(),
             spring_offset: 0,
             support,
@@ -496,6 +503,30 @@ impl BuildingSystem {
                 });
             }
         }
+        self.place_storeys(plans);
+    }
+
+    /// Finds the vertical lines whose drifts are followed.
+    fn place_storeys(&mut self, plans: &[&[PlanPoint]]) {
+        let n = self.floors.len();
+        let mat = self.mat_in_plan.as_ref();
+        let mut below = mat.zip(plans.first()).map(|(mat, plan)| {
+            let plan: &[PlanPoint] = plan;
+            (mat.dofs, mat.centre, plan)
+        });
+        let mut storeys = Vec::with_capacity(n);
+        for (index, (floor, plan)) in self.floors.iter().zip(plans).enumerate() {
+            let dofs = [0, 1, 2].map(|block| self.tracks[block * n + index].dof - self.offset);
+            let own = (dofs, self.discretization.centres[index], *plan);
+            storeys.push(PlanStorey::new(own, below, floor.storey_height));
+            below = Some(own);
+        }
+        for (storey, own) in storeys.iter().enumerate() {
+            for block in [0, 1] {
+                self.tracks[block * n + storey].is_in_line = own.is_in_line();
+            }
+        }
+        self.plan_storeys = storeys;
     }
 
     /// The displacement of a point of a floor in a direction, over the displacements of this building.
@@ -577,6 +608,7 @@ fn tracks(structure: &AssembledBuilding, floors: &[Floor]) -> Vec<Track> {
         direction,
         storey_height: floor.storey_height,
         is_lowest: index == 0,
+        is_in_line: true,
     };
     let along = floors.iter().enumerate();
     let mut tracks: Vec<Track> = along

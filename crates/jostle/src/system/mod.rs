@@ -7,6 +7,7 @@ mod grounds;
 mod half_space;
 mod members;
 mod plan_mat;
+mod plan_storey;
 mod rating;
 mod soil;
 mod weakening;
@@ -19,6 +20,7 @@ use crate::model::{LEVEL_TOLERANCE, WALL};
 pub use building::{BuildingSystem, Corner, Direction, Floor, SpringSupport, Track};
 pub(crate) use grounds::{GroundsAt, OverStep, RunGrounds};
 pub use plan_mat::MatInPlan;
+pub use plan_storey::PlanStorey;
 pub use rating::{MemberRating, RatedPart};
 pub use soil::FoundationPlace;
 

@@ -13,6 +13,8 @@ use crate::history::{Energy, Extreme, FloorPeaks, History};
 use crate::motion::Ground;
 use crate::stepping::events::Cubic;
 use crate::stepping::outcome::PlanPeaks;
+use crate::stepping::plan_drifts::PlanDrifts;
+pub(super) use crate::stepping::recorder::BEYOND;
 use crate::stepping::recorder::{columns, forces_of_faces, greatest_in_step, has_closing};
 use crate::system::{Direction, GroundsAt, RunGrounds, System};
 
@@ -24,6 +26,7 @@ pub(super) struct Peaks {
     /// Of every displacement of the floors, direction by direction.
     pub(super) floors: Vec<Vec<FloorPeaks>>,
     pub(super) corners: Vec<CornerPeaks>,
+    drifts: Vec<PlanDrifts>,
     pub(super) closing: Vec<Extreme>,
     /// Bounds of the closings of buildings in space.
     pub(super) near: Option<PlanNear>,
@@ -115,6 +118,18 @@ impl Peaks {
                 all.map(|(building, own)| CornerPeaks::new(building, own))
                     .collect()
             },
+            drifts: {
+                let all = system.buildings.iter().zip(&reduced.buildings);
+                let drifts = all.map(|(building, own)| {
+                    PlanDrifts::new(building, |dof| {
+                        let mut tracks = building.tracks.iter();
+                        let track = tracks.position(|track| track.dof == building.offset + dof);
+                        // Every floor has its tracks.
+                        own.watched.start + track.unwrap_or(0)
+                    })
+                });
+                drifts.collect()
+            },
             closing: vec![Extreme::default(); system.contacts.len()],
             near: reduced
                 .plan
@@ -159,13 +174,17 @@ impl Peaks {
     ) -> (Vec<Vec<FloorPeaks>>, Vec<PlanPeaks>) {
         let mut floors = std::mem::take(&mut self.floors);
         let corners = std::mem::take(&mut self.corners);
+        let followed = corners.into_iter().zip(&self.drifts);
         let mut in_plan = Vec::with_capacity(floors.len());
-        for ((own, building), corners) in floors.iter_mut().zip(&system.buildings).zip(corners) {
+        for ((own, building), (corners, drifts)) in
+            floors.iter_mut().zip(&system.buildings).zip(followed)
+        {
             let corners = match building.is_in_space() {
                 true => corners.finish(),
                 false => Vec::new(),
             };
-            in_plan.push(PlanPeaks::split_off(own, building.floors.len(), corners));
+            let peaks = PlanPeaks::split_off(own, building.floors.len(), corners, drifts);
+            in_plan.push(peaks);
         }
         (floors, in_plan)
     }
@@ -227,6 +246,11 @@ impl Peaks {
         for corners in &mut self.corners {
             let ends = [taken.then, taken.now];
             corners.follow(reduced.arch(), ends, taken.start, taken.step);
+        }
+        for (drifts, floors) in self.drifts.iter_mut().zip(&mut self.floors) {
+            drifts.before_step(taken.then.u, taken.then.rate);
+            drifts.after_step(taken.now.u, taken.now.rate, taken.step);
+            drifts.give_to(floors);
         }
     }
 
@@ -500,7 +524,9 @@ impl Peaks {
                     then: drift(ends.then, below.then),
                     now: drift(ends.now, below.now),
                 };
-                drifts.widen(&mut peaks.storey_drift, step);
+                if floor.is_in_line {
+                    drifts.widen(&mut peaks.storey_drift, step);
+                }
                 below = ends;
                 let moved = ground.map(|ground| floor.direction.of_ground(ground));
                 let total = Ends {
@@ -529,7 +555,7 @@ impl Peaks {
                     self.limits.low[at] = peaks.displacement_min.value;
                 }
                 self.limits.acceleration[at] = NEAR_GREATEST * peaks.total_acceleration;
-                if !floor.is_lowest {
+                if !floor.is_lowest && floor.is_in_line {
                     // Slightly less, because the product is rounded.
                     let widest = peaks.storey_drift * floor.storey_height;
                     self.limits.drift[at] = (1.0 - 1e-12) * widest;
@@ -646,8 +672,6 @@ impl Peaks {
 /// Fraction of the peak so far below which no storey force can exceed it within a step that resolves the third
 /// mode.
 const NEAR: f64 = 0.8;
-/// Largest excess of a cubic over the range of its ends, in steps times the sum of its end slopes: 4/27.
-pub(super) const BEYOND: f64 = 0.15;
 
 impl Limits {
     /// No peaks so far; other contact points have no peaks, and the drift of the lowest storey is the displacement
@@ -669,7 +693,7 @@ impl Limits {
             // In every direction.
             for (at, _) in (first..)
                 .zip(&own.tracks)
-                .filter(|(_, track)| track.is_lowest)
+                .filter(|(_, track)| track.is_lowest || !track.is_in_line)
             {
                 limits.drift[at] = f64::INFINITY;
             }

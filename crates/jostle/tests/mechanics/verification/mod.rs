@@ -8,6 +8,7 @@ mod corners;
 mod damping_of_yielding;
 mod direct_in_space;
 mod direct_runs_refine_their_steps;
+mod drift_in_plan;
 mod energy_balances;
 mod extremes_are_survived;
 mod face_points;
