@@ -129,7 +129,7 @@ fn energies(text: &str, moved: &Moved) -> [f64; 3] {
     let mut add = |own: &str, strain: f64, damped: &str| {
         let [stiffness, dashpot] = material(text, own);
         sums[0] += stiffness * strain * strain;
-        sums[1] += if damped == "True" {
+        sums[1] += if damped == "\"initial\"" {
             stiffness * strain * strain
         } else {
             0.0
@@ -155,7 +155,7 @@ fn energies(text: &str, moved: &Moved) -> [f64; 3] {
         add(
             &row[3],
             moved.at(&row[2], 1) - moved.at(&row[1], 1),
-            "False",
+            "None",
         );
     }
     let nodes = table(text, "NODES");
