@@ -9,6 +9,7 @@ pub mod chopra;
 pub mod closed_forms;
 pub mod collisions;
 pub mod differing_ground;
+pub mod direct_steps;
 pub mod document;
 pub mod frames;
 pub mod free_bodies;
@@ -62,7 +63,7 @@ pub struct Family {
 type Make = fn(Extent) -> Vec<Row>;
 
 /// Title, explanation and rows of every family.
-const FAMILIES: [(&str, &str, Make); 23] = [
+const FAMILIES: [(&str, &str, Make); 24] = [
     (
         "Closed forms",
         "Statics, frequencies, damping coefficients and single Newmark steps against formulas and an independent \
@@ -201,6 +202,13 @@ const FAMILIES: [(&str, &str, Make); 23] = [
          and of beams, under two sines. From a model file with steps of 1 ms. The reference is OpenSees with the same method and steps, \
          Steel01 between joints and elasticBeamColumn, rigidDiaphragm, by a script of its own.",
         |_| yielding_in_plan::space_frame_rows(),
+    ),
+    (
+        "Isolated buildings stepped directly",
+        "Bearings that yield and slide, a slider and a cable between buildings, moat walls, storeys that yield, from model files at \
+         several tolerances: the error is within the tolerance, and the run says so. The reference is an independent program that finds \
+         every event.",
+        |_| direct_steps::rows(),
     ),
     (
         "Automatic steps",

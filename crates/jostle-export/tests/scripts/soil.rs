@@ -152,11 +152,7 @@ fn energies(text: &str, moved: &Moved) -> [f64; 3] {
         }
     }
     for row in table(text, "LEANING") {
-        add(
-            &row[3],
-            moved.at(&row[2], 1) - moved.at(&row[1], 1),
-            "None",
-        );
+        add(&row[3], moved.at(&row[2], 1) - moved.at(&row[1], 1), "None");
     }
     let nodes = table(text, "NODES");
     let place = |tag: &str| {

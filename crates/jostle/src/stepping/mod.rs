@@ -34,6 +34,7 @@ mod runner;
 mod sensitivity;
 pub mod series;
 mod settle;
+mod sharp_peaks;
 mod simulate;
 mod step_friction;
 mod step_link;

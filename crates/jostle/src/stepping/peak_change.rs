@@ -30,11 +30,16 @@ pub(super) fn change_of_peaks(system: &System, [a, b]: [&Outcome; 2]) -> f64 {
     for (index, (a_floors, b_floors)) in a.floors.iter().zip(&b.floors).enumerate() {
         let shears = [a.base_shear[index], b.base_shear[index]];
         worst = worst.max(relative([shears].into_iter()));
+        let bearings = [a, b].map(|run| run.supports[index]);
+        worst = worst.max(relative([bearings.map(|own| own.force)].into_iter()));
         // Along x and, in space, across.
         let in_plan = [a, b].map(|run| &run.in_plan[index]);
+        let mats = mats(system, [a, b], index);
         let lateral = || {
             let along = a_floors.iter().zip(b_floors);
-            along.chain(in_plan[0].across.iter().zip(&in_plan[1].across))
+            let across = in_plan[0].across.iter().zip(&in_plan[1].across);
+            let mats = mats.iter().map(|[a, b]| (a, b));
+            along.chain(across).chain(mats)
         };
         let turning = || in_plan[0].turning.iter().zip(&in_plan[1].turning);
         let radius = system.buildings[index].radius_of_gyration();
@@ -53,7 +58,7 @@ pub(super) fn change_of_peaks(system: &System, [a, b]: [&Outcome; 2]) -> f64 {
             worst = worst.max(relative(a.zip(b).map(|(a, b)| [*a, *b])));
         }
         let greatest = greatest_of(lateral().map(|(a, b)| [a, b].map(|f| f.total_acceleration)));
-        let count = lateral().count();
+        let count = a_floors.len() + in_plan[0].across.len();
         if greatest > 0.0 {
             let parts = [&a.acceleration_parts, &b.acceleration_parts];
             let change = parts[0].change(parts[1], floors_before, count);
@@ -93,8 +98,34 @@ pub(super) fn change_of_peaks(system: &System, [a, b]: [&Outcome; 2]) -> f64 {
         let both = |of: fn(&Outcome, usize) -> f64| own.iter().map(move |c| [of(a, *c), of(b, *c)]);
         worst = worst.max(relative(both(peak_force)));
         worst = worst.max(relative(both(impulse)));
+        let together = [a, b].map(|run| run.gap_forces.get(gap).map_or(0.0, |own| own.value));
+        worst = worst.max(relative([together].into_iter()));
     }
     worst
+}
+
+/// The mat of an isolated building, or a wall, along x and across, as a floor; none on the ground.
+fn mats(system: &System, runs: [&Outcome; 2], index: usize) -> Vec<[FloorPeaks; 2]> {
+    if system.buildings[index].support.is_none() {
+        return Vec::new();
+    }
+    let supports = runs.map(|run| run.supports[index]);
+    let along = supports.map(|own| FloorPeaks {
+        displacement_max: own.displacement_max,
+        displacement_min: own.displacement_min,
+        total_acceleration: own.total_acceleration,
+        ..FloorPeaks::default()
+    });
+    let across = supports.map(|own| {
+        let own = own.in_plan.unwrap_or_default();
+        FloorPeaks {
+            displacement_max: own.across[0],
+            displacement_min: own.across[1],
+            total_acceleration: own.total_acceleration_across,
+            ..FloorPeaks::default()
+        }
+    });
+    vec![along, across]
 }
 
 /// Greatest difference of the peaks of a link of the model.

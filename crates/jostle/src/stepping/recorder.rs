@@ -8,6 +8,7 @@ use super::mat_peaks::MatRecorder;
 use super::member_peaks::MemberPeaks;
 use super::outcome::PlanPeaks;
 use super::plan_drifts::PlanDrifts;
+use super::sharp_peaks::SharpPeaks;
 use crate::history::{
     Column, Energy, EnergyTerm, Extreme, FloorPeaks, FoundationPeaks, History, SpringHistory,
     SupportPeaks,
@@ -33,6 +34,7 @@ pub(crate) struct Recorder {
     pub(crate) supports: Vec<SupportPeaks>,
     pub(crate) foundations: Vec<FoundationPeaks>,
     pub(crate) parts: AccelerationParts,
+    sharp: SharpPeaks,
     pub(crate) members: MemberPeaks,
     /// Building, floor and degree of freedom of masses whose vertical displacement is followed.
     vertical: Vec<[usize; 3]>,
@@ -173,6 +175,7 @@ impl Recorder {
             supports: vec![SupportPeaks::default(); system.buildings.len()],
             foundations: vec![FoundationPeaks::default(); system.buildings.len()],
             parts: AccelerationParts::new(floors, duration),
+            sharp: SharpPeaks::new(system, floors + system.buildings.len()),
             members: MemberPeaks::new(system, interval.is_some()),
             vertical: Vec::new(),
             before: Vec::with_capacity(tracked),
@@ -275,6 +278,7 @@ impl Recorder {
         let (u, v) = (&state.displacement, &state.velocity);
         let start = state.time - step;
         self.parts.set_time(state.time);
+        self.sharp.begin(state.time);
         let mut floor_of_all = 0;
         let mut before = self.before.iter();
         for (index, building) in system.buildings.iter().enumerate() {
@@ -295,8 +299,10 @@ impl Recorder {
                     );
                 }
                 let ground = track.direction.of_ground(ground);
-                let total = (state.acceleration[track.dof] + ground).abs();
+                let signed = state.acceleration[track.dof] + ground;
+                let total = signed.abs();
                 peaks.total_acceleration = peaks.total_acceleration.max(total);
+                peaks.total_acceleration = self.sharp.take(signed, peaks.total_acceleration);
                 self.parts.take(floor_of_all, total);
                 floor_of_all += 1;
                 if track.is_in_line {
@@ -353,8 +359,9 @@ impl Recorder {
                     step,
                 );
             }
-            let total = (state.acceleration[support.dof] + ground).abs();
-            peaks.total_acceleration = peaks.total_acceleration.max(total);
+            let total = state.acceleration[support.dof] + ground;
+            peaks.total_acceleration = peaks.total_acceleration.max(total.abs());
+            peaks.total_acceleration = self.sharp.take(total, peaks.total_acceleration);
             let force = building.support_force(state);
             peaks.force = peaks.force.max(force.abs());
         }
@@ -392,6 +399,7 @@ impl Recorder {
 
     /// Updates peaks with accelerations that have jumped.
     pub(crate) fn after_jump(&mut self, system: &System, state: &State, grounds: GroundsAt<'_>) {
+        self.sharp.forget();
         let mut floor_of_all = 0;
         let buildings = system.buildings.iter().zip(&mut self.floors);
         for (index, (building, floors)) in buildings.enumerate() {

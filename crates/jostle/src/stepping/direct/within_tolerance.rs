@@ -1,13 +1,14 @@
 //! Direct runs at two step sizes, whose difference measures the error of every reported peak.
 
 use super::run_directly;
+use crate::interface::LinkElement;
 use crate::motion::GroundMotion;
 use crate::state::State;
 use crate::stepping::outcome::{Accuracy, Observer, Outcome, RunEnd, Settings};
 use crate::stepping::peak_change::change_of_peaks;
 use crate::stepping::plan::Plan;
 use crate::stepping::sensitivity::first_parted;
-use crate::system::System;
+use crate::system::{BuildingSystem, System};
 
 /// Largest number of refinements.
 const MOST_REFINEMENTS: u64 = 4;
@@ -21,6 +22,15 @@ const REFINEMENT: [f64; 2] = [2.0, 3.0];
 const LEFT_OVER: f64 = 0.8;
 /// Least and greatest order of convergence; average acceleration is of second order.
 const ORDERS: [f64; 2] = [0.75, 2.0];
+
+/// Factor by which steps are coarsened for comparison. Where forces have corners, accelerations are greatest there; steps twice as long
+/// would miss a corner by the same instants.
+fn coarsened(system: &System) -> f64 {
+    let yields = |building: &BuildingSystem| !building.equations.springs.is_empty();
+    let corners =
+        system.buildings.iter().any(yields) || !system.links.iter().all(LinkElement::is_linear);
+    if corners { 0.62 } else { 0.5 }
+}
 
 /// Weight of the energy imbalance in the error of a peak.
 const LOST: f64 = 0.1;
@@ -82,8 +92,9 @@ impl Change {
     }
 }
 
-/// Runs an elastic system with automatic steps twice, the second time with steps half as long, and refines them
-/// further while the error of the finer run exceeds the tolerance. Other systems run once.
+/// Runs a system with automatic steps twice, the second time with steps half as long, and refines them further while the error of
+/// the finer run exceeds the tolerance. With given steps it runs as asked, and once more with others to tell the error, unless the
+/// elongation of periods tells it.
 ///
 /// Average acceleration is of second order: where steps shrink by the factor r, the error of the finer run is the difference
 /// of both over r² − 1 (L. F. Richardson, 1911, Phil. Trans. R. Soc. A 210, 307–357). Accelerations of modes that a step does
@@ -99,11 +110,18 @@ pub(in crate::stepping) fn within_tolerance(
 ) -> Outcome {
     let mut run =
         |plan: &Plan| run_directly(system, motion, plan, settings, state.clone(), observer);
-    if !plan.is_automatic(system, motion) || plan.frequency_error(system, motion).is_none() {
-        return run(plan);
+    if !plan.is_automatic(system, motion) {
+        let outcome = run(plan);
+        let known = outcome.accuracy.is_some() || outcome.end != RunEnd::Completed;
+        return if known {
+            outcome
+        } else {
+            with_error(system, motion, plan, outcome, &mut run)
+        };
     }
     let mut fine = *plan;
-    let coarser = plan.refined(0.5, motion);
+    let coarsened = coarsened(system);
+    let coarser = plan.refined(coarsened, motion);
     let mut coarse = if coarser.step > plan.step * (1.0 + 1e-9) {
         coarser
     } else {
@@ -129,7 +147,7 @@ pub(in crate::stepping) fn within_tolerance(
         let first = MARGIN * change.error(ORDERS[1]) + rounding;
         let in_doubt = first <= tolerance && change.error(1.0) + rounding > tolerance;
         if known.is_none() && in_doubt {
-            let coarser = coarse.refined(0.5, motion);
+            let coarser = coarse.refined(coarsened, motion);
             let coarsest = run(&coarser);
             further_runs += 1;
             outcome.work.repeated_runs = further_runs;
@@ -169,6 +187,47 @@ pub(in crate::stepping) fn within_tolerance(
         known = Some(change);
         (before, coarse, fine) = (outcome, fine, finer);
     }
+}
+
+/// The outcome of given steps with its error, from a run with steps twice as long, or half as long where those of a record leave no
+/// longer ones.
+fn with_error(
+    system: &System,
+    motion: &GroundMotion,
+    plan: &Plan,
+    mut outcome: Outcome,
+    run: &mut dyn FnMut(&Plan) -> Outcome,
+) -> Outcome {
+    let coarser = plan.refined(coarsened(system), motion);
+    let is_longer = coarser.step > plan.step * (1.0 + 1e-9);
+    let other_plan = if is_longer {
+        coarser
+    } else {
+        plan.refined(2.0, motion)
+    };
+    let other = run(&other_plan);
+    if other.end == RunEnd::Stopped {
+        return other;
+    }
+    outcome.work.repeated_runs = 1;
+    let order = ORDERS[1];
+    let residual = if is_longer {
+        let change = Change::between(system, [&other, &outcome], [&other_plan, plan]);
+        change.error(order)
+    } else {
+        let change = Change::between(system, [&outcome, &other], [plan, &other_plan]);
+        change.error(order) * change.ratio.powf(order)
+    };
+    let (tolerance, residual) = (plan.tolerance(), MARGIN * residual);
+    outcome.accuracy = Some(Accuracy {
+        tolerance,
+        residual,
+        doubtful_from: (residual > tolerance)
+            .then(|| first_parted(system, [&outcome, &other], tolerance))
+            .flatten(),
+        sensitive_from: None,
+    });
+    outcome
 }
 
 #[cfg(test)]
