@@ -98,6 +98,7 @@ fn run(system: &System, frequency: f64, cycles: [usize; 2]) -> (jostle::Outcome,
         integrator: jostle::Integrator::default(),
         solver: Solver::Riccati,
         vertical: false,
+        is_given: true,
     };
     let settings = Settings {
         record_interval: Some(0.0),

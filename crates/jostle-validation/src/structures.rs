@@ -160,6 +160,7 @@ pub(crate) fn uniform(step: f64) -> Plan {
         integrator: jostle::Integrator::default(),
         solver: Solver::Riccati,
         vertical: false,
+        is_given: true,
     }
 }
 

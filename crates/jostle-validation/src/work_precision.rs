@@ -55,6 +55,7 @@ fn fixed(step: f64, division: u32) -> Plan {
         integrator: jostle::Integrator::default(),
         solver: Solver::Riccati,
         vertical: false,
+        is_given: true,
     }
 }
 

@@ -37,6 +37,8 @@ pub struct Plan {
     pub solver: Solver,
     /// Whether the ground shakes vertically as well.
     pub vertical: bool,
+    /// Whether steps were given: then they are those of the run, and the tolerance does not refine them.
+    pub is_given: bool,
 }
 
 /// Number of parts of a free-vibration step while a contact is closed.
@@ -181,6 +183,7 @@ impl Plan {
             integrator: analysis.integrator,
             solver,
             vertical: motion.is_vertical(),
+            is_given: analysis.step.is_some() || analysis.contact_step.is_some(),
         };
         if faults.is_empty() {
             faults.extend(too_long(&plan, system, motion, analysis));
@@ -204,10 +207,10 @@ impl Plan {
         }
     }
 
-    /// Whether the free-vibration step follows from the tolerance and was not given.
+    /// Whether the free-vibration step follows from the tolerance.
     pub(super) fn is_automatic(&self, system: &System, motion: &GroundMotion) -> bool {
         let refinement = (self.tolerance() / 1e-3).sqrt();
-        self.chooses_contact_steps() && {
+        !self.is_given && self.chooses_contact_steps() && {
             let automatic = automatic_step(system, motion, refinement);
             (self.step - automatic).abs() <= 1e-9 * automatic
         }

@@ -62,6 +62,7 @@ fn a_building_with_cracked_hinges_stays_at_rest() {
         solver: Solver::Riccati,
         integrator: Default::default(),
         vertical: false,
+        is_given: true,
     };
     let outcome = simulate(&system, &motion, &plan, Settings::default(), |_| {
         std::ops::ControlFlow::Continue(())

@@ -268,6 +268,7 @@ fn a_run_by_products_repeats_a_run_by_riccati_where_it_may() {
             integrator: jostle::Integrator::default(),
             solver,
             vertical: false,
+            is_given: true,
         };
         let outcome = simulate(&system, &motion, &plan, Settings::default(), |_| {
             ControlFlow::Continue(())

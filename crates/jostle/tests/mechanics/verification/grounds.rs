@@ -60,8 +60,17 @@ fn run(system: &System, motion: &GroundMotion, solver: Solver) -> Outcome {
 }
 
 /// Where balances are looked at: rounding of direct steps grows as they get shorter, with grounds that differ as without.
+/// With the steps of the plan: finer ones see the balance at smaller energies of the first instants, and more of its rounding.
 fn run_for_balance(system: &System, motion: &GroundMotion, solver: Solver) -> Outcome {
-    run_within(1e-3, system, motion, solver)
+    let analysis = Analysis {
+        solver: Some(solver),
+        ..Analysis::default()
+    };
+    let plan = Plan {
+        is_given: true,
+        ..planned(system, motion, &analysis)
+    };
+    completed(system, motion, &plan, Settings::default().record_interval)
 }
 
 fn run_within(tolerance: f64, system: &System, motion: &GroundMotion, solver: Solver) -> Outcome {

@@ -200,6 +200,7 @@ pub(crate) fn steps(step: f64, division: u32) -> Plan {
         integrator: jostle::Integrator::default(),
         solver: Solver::Riccati,
         vertical: false,
+        is_given: true,
     }
 }
 
