@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use jostle::Solver;
+use jostle::system::BuildingSystem;
 use jostle_io::Input;
 use jostle_run::{Opened, Prepared};
 use serde_json::{Value, json};
@@ -50,7 +51,10 @@ fn prepare(input: &Input, solver: Solver, members: bool) -> Option<Prepared> {
         model.check().ok()?;
         Arc::make_mut(&mut opened.system).follow_members(&model.analysis.members);
     }
-    let prepared = opened.prepare().ok()?;
+    let mut prepared = opened.prepare().ok()?;
     prepared.check_digits(None).ok()?;
+    // One run each, and one for its error: refining steps would take most of the time and pin the same steps again.
+    let yields = |own: &BuildingSystem| !own.equations.springs.is_empty();
+    prepared.plan.is_given |= prepared.system.buildings.iter().any(yields);
     Some(prepared)
 }

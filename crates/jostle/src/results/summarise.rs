@@ -530,11 +530,14 @@ fn energy_summary(run: &Run) -> EnergySummary {
 
 fn promise_summary(run: &Run) -> PromiseSummary {
     let accuracy = run.outcome.accuracy;
+    let met = accuracy.map(|accuracy| accuracy.residual <= accuracy.tolerance);
+    let sensitive_from = accuracy.and_then(|accuracy| accuracy.sensitive_from);
     PromiseSummary {
         tolerance: run.plan.tolerance(),
-        met: accuracy.map(|accuracy| accuracy.residual <= accuracy.tolerance),
+        met,
+        met_until_s: sensitive_from.filter(|_| met == Some(true)),
         residual: accuracy.map(|accuracy| accuracy.residual),
-        sensitive_from_s: accuracy.and_then(|accuracy| accuracy.sensitive_from),
+        sensitive_from_s: sensitive_from,
     }
 }
 
@@ -637,9 +640,14 @@ fn accuracy_warnings(accuracy: &Accuracy, remedy: &str) -> impl Iterator<Item = 
             "the tolerance of {tolerance:e} is not met: the estimated error of the peaks is {residual:.1e}, and they are sensitive to the time step; {remedy}"
         )
     });
+    let until = if residual > tolerance {
+        "sensitive from"
+    } else {
+        "the tolerance is met until"
+    };
     let sensitive = sensitive_from.map(|from| {
         format!(
-            "sensitive from t = {from:.3} s: contacts are made or missed there within the tolerance of {tolerance:e}, and later impacts and peaks depend on them; what comes before holds"
+            "{until} t = {from:.3} s: contacts are made or missed there by less than the run may be off, and later impacts and peaks depend on them; what comes before holds"
         )
     });
     missed.into_iter().chain(sensitive)

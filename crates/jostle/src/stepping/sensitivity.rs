@@ -13,11 +13,12 @@ use crate::model::Solver;
 use crate::motion::GroundMotion;
 use crate::system::{BuildingSystem, System};
 
-/// Change of gaps, in tolerances of their greatest closing.
+/// Greatest change of gaps, in tolerances of their greatest closing. The estimated error of a run is usually that of accelerations,
+/// closings being known better.
 const CHANGE: f64 = 0.1;
 
-/// Reduction of the gap of a contact just missed, in tolerances of its greatest closing.
-const NARROWER: f64 = 1.0;
+/// Reduction of the gap of a contact just missed, in estimated errors of its greatest closing, but at most a tolerance.
+const NARROWER: f64 = 2.0;
 
 /// Fraction of the displacements of contact floors that counts as closing, since the closing of a gap of zero width
 /// stays small.
@@ -29,11 +30,11 @@ const FEW_IMPACTS: usize = 12;
 /// Finds the instant from which results of a run depend on contacts made or missed within the tolerance, and stores
 /// it in the outcome.
 ///
-/// Each gap is made wider by a tenth of the tolerance of its greatest closing, or of a tenth of the displacement of
-/// the contact floors if that is more, and the run is repeated. If reported peaks change by more than the
-/// tolerance, relative to the greatest of their kind in the building or gap, the first impact that differs by as
-/// much gives the instant. If a contact stays open and its closing is within the tolerance of the gap, the gap is
-/// made narrower instead, so that the contact is made. Where the tolerance is not met and impacts differ between two step
+/// Each gap is made wider by as much as the run may be off by its own estimate, relative to its greatest closing, or to a tenth of the
+/// displacement of the contact floors if that is more, but by a tenth of the tolerance at most; and the run is repeated with the same
+/// steps. If reported peaks change by more than the tolerance, relative to the greatest of their kind in the building or gap, the first
+/// impact that differs by as much gives the instant. How results hang on the gap itself is another question. If a contact stays open and
+/// its closing is within twice the estimated error of the gap, the gap is made narrower instead, so that the contact is made. Where the tolerance is not met and impacts differ between two step
 /// sizes, the instant is not later than the first of these. Other runs with at most twelve impacts, none of them
 /// doubtful, are not repeated; nor are those of buildings that yield, unless they are stepped by power series.
 ///
@@ -69,8 +70,13 @@ fn sensitive_from(
     let yields = |building: &BuildingSystem| {
         !building.equations.springs.is_empty() && plan.solver != Solver::Series
     };
+    let error = outcome.accuracy.map_or(tolerance, |own| own.residual);
+    let (wider, narrower) = (
+        error.min(CHANGE * tolerance),
+        (NARROWER * error).min(tolerance),
+    );
     let near_misses: Vec<bool> = (0..system.contacts.len())
-        .map(|contact| nearly_touches(system, outcome, contact, tolerance))
+        .map(|contact| nearly_touches(system, outcome, contact, narrower))
         .collect();
     let few = doubtful.is_none() && outcome.impacts.len() <= FEW_IMPACTS;
     if outcome.end != RunEnd::Completed
@@ -82,9 +88,9 @@ fn sensitive_from(
     let mut changed = system.clone();
     let contacts = changed.contacts.iter_mut().zip(&outcome.closing);
     for ((contact, closing), near_miss) in contacts.zip(&near_misses) {
-        let change = if *near_miss { -NARROWER } else { CHANGE };
+        let change = if *near_miss { -narrower } else { wider };
         let sway = SWAY * greatest_displacement(contact, outcome);
-        contact.width += change * tolerance * contact.width.max(closing.value).max(sway);
+        contact.width += change * contact.width.max(closing.value).max(sway);
     }
     let other = simulate_like(outcome, &changed, motion, plan, shapes, observer);
     if other.end != RunEnd::Completed {

@@ -112,8 +112,10 @@ pub(super) fn simulate_like(
     observer: &mut Observer<'_>,
 ) -> Outcome {
     let plan = &plan.with_step(outcome.free_step);
+    // Power series take shorter steps where a history wants its rows.
+    let shorter = outcome.free_step.filter(|step| *step < plan.step);
     let settings = Settings {
-        record_interval: None,
+        record_interval: shorter.filter(|_| plan.solver == Solver::Series),
         ..Settings::default()
     };
     let rest = || State::at_rest_on(system, motion);

@@ -10,8 +10,11 @@ use crate::quantity::{Quantity, Unit};
 pub struct PromiseSummary {
     /// Estimated error of peaks \[–\].
     pub tolerance: f64,
-    /// Whether the estimate stays within the tolerance; `null` where there is none, as for buildings that yield.
+    /// Whether the estimate stays within the tolerance; `null` for a run that did not begin or end.
     pub met: Option<bool>,
+    /// Where it does, but not for all of the run: the instant until which it holds, that of `sensitive_from_s`; otherwise `null`
+    /// \[s\].
+    pub met_until_s: Option<f64>,
     /// Estimated error of the least accurate peak of a building, contact forces and impulses not included: from
     /// omitted shapes and values between steps in modal stepping, of from frequency errors of the steps otherwise;
     /// `null` where it is not estimated \[–\].
@@ -26,6 +29,7 @@ impl PromiseSummary {
     pub const QUANTITIES: &[Quantity<Self>] = &[
         Quantity::<Self>::real("tolerance", Unit::NONE, "tolerance of peaks", |p| p.tolerance),
         Quantity::<Self>::optional("met", Unit::NONE, "whether the estimate stays within the tolerance", |p| p.met.map(|met| f64::from(u8::from(met)))),
+        Quantity::<Self>::optional("met_until_s", Unit::S, "instant until which that holds, if not to the end", |p| p.met_until_s),
         Quantity::<Self>::optional("residual", Unit::NONE, "estimated error of the least accurate peak of a building", |p| p.residual),
         Quantity::<Self>::optional("sensitive_from_s", Unit::S, "instant from which results depend on contacts made or missed within the tolerance", |p| p.sensitive_from_s),
     ];
@@ -43,16 +47,16 @@ impl PromiseSummary {
             (Some(residual), _) => format!(
                 "estimated error of floor peaks and shears {residual:.1e} of the greatest of their kind, beyond the tolerance {tolerance:e}"
             ),
-            (None, _) => {
-                "not estimated: direct steps of buildings that yield, or another integrator"
-                    .to_owned()
-            }
+            (None, _) => "not estimated: the run did not end".to_owned(),
         };
-        match self.sensitive_from_s {
-            Some(from) => format!(
+        match (self.met_until_s, self.sensitive_from_s) {
+            (Some(until), _) => format!(
+                "accuracy: {estimate} until t = {until:.3} s, from which contacts are made or missed by less than the error"
+            ),
+            (None, Some(from)) => format!(
                 "accuracy: {estimate}; sensitive from t = {from:.3} s, holds for peaks before it"
             ),
-            None => format!("accuracy: {estimate}"),
+            (None, None) => format!("accuracy: {estimate}"),
         }
     }
 }

@@ -56,8 +56,8 @@ pub(super) struct SeriesStepper {
     line_ended: Vec<f64>,
     events: Vec<SpringEvent>,
     near: NearContacts,
-    /// Greatest estimated error of a contact force, relative to the greatest of its gap \[–\].
-    force_error: f64,
+    /// Greatest estimated error of a contact force of every gap \[N\].
+    force_error: Vec<f64>,
     /// Estimated error of the greatest closing of every contact \[m\].
     closing_error: Vec<f64>,
 }
@@ -130,18 +130,20 @@ impl SeriesStepper {
             line_ended: vec![0.0; springs().count()],
             events: Vec::with_capacity(2 * springs().count()),
             near: NearContacts::new(system.contacts.len()),
-            force_error: 0.0,
+            force_error: vec![0.0; run.strongest.len()],
             closing_error: vec![0.0; system.contacts.len()],
             state,
         }
     }
 
-    /// Estimated error of peaks: by parabolas of contact forces and by cubics of closings.
-    fn residual(&self) -> f64 {
+    /// Estimated error of peaks: by parabolas of contact forces, relative to the greatest of their gap, and by cubics of closings.
+    fn residual(&self, run: &RunState<'_>) -> f64 {
         let closings = self.closing_error.iter().zip(&self.peaks.closing);
         let relative =
             closings.map(|(error, closing)| error / closing.value.max(f64::MIN_POSITIVE));
-        relative.fold(self.force_error, f64::max)
+        let forces = self.force_error.iter().zip(&run.strongest);
+        let forces = forces.map(|(error, strongest)| error / strongest.max(f64::MIN_POSITIVE));
+        relative.chain(forces).fold(0.0, f64::max)
     }
 
     fn into_outcome(mut self, mut run: RunState<'_>, end: RunEnd) -> Outcome {
@@ -151,7 +153,7 @@ impl SeriesStepper {
             self.note_stage(system, spring, None);
         }
         let energy = self.audit.balance(system, &self.state, &run.grounds);
-        let residual = self.residual();
+        let residual = self.residual(&run);
         let step_of = |division: u32| run.plan.step / f64::from(division);
         let contact_step = Some(run.finest_in_contact)
             .filter(|d| *d > 0)
@@ -447,9 +449,8 @@ impl Stepper for SeriesStepper {
         let bend = self.predicted[index].bend(start, end);
         if episode.since < run.time {
             let missed = (end - self.predicted[index].end).abs();
-            let strongest = run.strongest[run.system.contacts[index].gap];
-            let error = contact_parabola::FORCE_ERROR * missed / strongest.max(episode.peak_force);
-            self.force_error = self.force_error.max(error);
+            let error = &mut self.force_error[run.system.contacts[index].gap];
+            *error = error.max(contact_parabola::FORCE_ERROR * missed);
         }
         episode.impulse += step * (0.5 * (start + end) - bend / 6.0);
         for (share, weight) in GAUSS {
