@@ -126,7 +126,15 @@ fn sensitive_answers_say_from_when() {
             .expect("an instant");
         assert!(from > 0.0 && from < 5.2, "{from}");
         let warnings = summary["warnings"].as_array().expect("a list");
-        let warned = |text: &Value| text.as_str().is_some_and(|text| text.contains("sensitive"));
+        let met = summary["promise"]["met"] == true;
+        let until = &summary["promise"]["met_until_s"];
+        assert_eq!(until.as_f64(), met.then_some(from));
+        let said = if met {
+            "the tolerance is met until t ="
+        } else {
+            "sensitive from t ="
+        };
+        let warned = |text: &Value| text.as_str().is_some_and(|text| text.contains(said));
         assert!(warnings.iter().any(warned), "{warnings:?}");
     }
     assert!(run("eleven_storeys.json", "modal")["promise"]["sensitive_from_s"].is_null());
@@ -150,15 +158,21 @@ fn pair(folder: &std::path::Path, solver: &str, gap: f64) -> Value {
     serde_json::from_str(&printed(&output)).expect("a summary")
 }
 
-/// A contact that is missed by less than the tolerance is reported, one that is missed clearly is not.
+/// A contact that is missed by no more than the run may be off is reported, one that is missed clearly is not: by a hundredth of the
+/// gap, or by less than the tolerance where the run is known much better.
 #[test]
 fn contacts_just_missed_are_sensitive() {
     let folder = common::folder();
     for solver in ["modal", "riccati"] {
         let run = |gap: f64| pair(folder.path(), solver, gap);
-        let needed = &run(0.5)["gaps"][0]["contacts"][0]["closing_peak_m"];
+        let apart = run(0.5);
+        let needed = &apart["gaps"][0]["contacts"][0]["closing_peak_m"];
         let needed = needed.as_f64().expect("a closing");
-        let (just, clearly) = (run(1.0002 * needed), run(1.01 * needed));
+        let error = apart["promise"]["residual"].as_f64().expect("an error");
+        let (just, clearly) = (run((1.0 + error) * needed), run(1.01 * needed));
+        if error < 1e-6 {
+            assert!(run(1.0002 * needed)["promise"]["sensitive_from_s"].is_null());
+        }
         for summary in [&just, &clearly] {
             assert_eq!(summary["gaps"][0]["impact_count"], 0);
         }
