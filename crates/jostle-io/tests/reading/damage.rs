@@ -389,7 +389,7 @@ fn mutated_files_never_panic() {
     let iterations = std::env::var("JOSTLE_MUTATIONS")
         .ok()
         .and_then(|n| n.parse().ok())
-        .unwrap_or(500);
+        .unwrap_or(150);
     let seed = std::env::var("JOSTLE_SEED")
         .ok()
         .and_then(|n| n.parse().ok())
@@ -412,7 +412,7 @@ fn mutated_files_never_panic() {
             }
         }
     }
-    if iterations > 500 {
+    if iterations > 150 {
         let count = iterations * all.len();
         eprintln_done(count);
     }

@@ -3,8 +3,8 @@
 use jostle::Solver;
 use jostle_validation::certify;
 
-/// Models drawn; the whole proof takes a thousand, and `./check-all` draws others every time.
-const MODELS: u64 = 30;
+/// Models drawn; the whole proof takes a thousand, and `./check-all` draws thirty others every time.
+const MODELS: u64 = 15;
 
 #[test]
 fn random_models_hold_the_tolerance() {
@@ -24,7 +24,7 @@ fn random_models_hold_the_tolerance() {
         });
         let errors: Vec<f64> = errors.collect();
         assert!(
-            errors.len() > 2_500,
+            errors.len() > 1_250,
             "{solver}: only {} numbers",
             errors.len()
         );

@@ -196,9 +196,25 @@ fn compare(what: &str, model: &Model, duration: f64) -> bool {
     expected > 0.0
 }
 
+/// Laws of each kind: with and without a dashpot, with and without a corner, and sudden.
 #[test]
+fn frames_agree_with_riccati() {
+    frames_agree(&[
+        LawKind::Linear,
+        LawKind::Kelvin,
+        LawKind::HertzDamp,
+        LawKind::Restitution,
+    ]);
+}
+
+#[test]
+#[ignore = "takes a minute; part of check-all"]
 fn frames_agree_with_riccati_under_every_law() {
-    for kind in LAWS {
+    frames_agree(&LAWS);
+}
+
+fn frames_agree(laws: &[LawKind]) {
+    for &kind in laws {
         let model = two_frames(0.03, law(kind, 0.65));
         assert!(
             compare(&format!("{kind:?}"), &model, 2.5),
@@ -209,9 +225,19 @@ fn frames_agree_with_riccati_under_every_law() {
 
 #[test]
 fn random_frames_agree_with_riccati() {
+    random_frames_agree(4);
+}
+
+#[test]
+#[ignore = "takes a minute; part of check-all"]
+fn more_random_frames_agree_with_riccati() {
+    random_frames_agree(12);
+}
+
+fn random_frames_agree(pairs: usize) {
     let mut random = Random(77);
     let mut hits = 0;
-    for case in 0..12 {
+    for case in 0..pairs {
         let mut frames: Vec<_> = (0..2).map(|_| random_frame(&mut random)).collect();
         for frame in &mut frames {
             // Floors that face each other.
@@ -229,7 +255,7 @@ fn random_frames_agree_with_riccati() {
         let model = row(buildings.collect(), 0.02, law(LawKind::HertzDamp, 0.65));
         hits += usize::from(compare(&format!("pair {case}"), &model, 1.5));
     }
-    assert!(hits > 5, "{hits} pairs meet");
+    assert!(2 * hits >= pairs, "{hits} of {pairs} pairs meet");
 }
 
 /// A row of three, the one in the middle hit from both sides.
