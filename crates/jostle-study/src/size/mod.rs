@@ -1,11 +1,12 @@
 //! The least of something, such as a damper force, that keeps conditions, such as no impact: a seeded search over varied keys.
 //!
-//! [`SizeProblem::new`] checks keys, bounds and expressions; [`SizeProblem::run`] searches on all cores by differential
-//! evolution (R. Storn and K. Price, 1997, J. Global Optimization 11, 341–359) with the ranking of K. Deb (2000, Comput.
+//! [`SizeProblem::new`] checks keys, bounds and expressions; [`SizeProblem::run`] searches on all cores: one key between the
+//! neighbours of the best of its points, again and again, several by differential evolution (R. Storn and K. Price, 1997, J. Global Optimization 11, 341–359) with the ranking of K. Deb (2000, Comput.
 //! Methods Appl. Mech. Engrg. 186, 311–338): a trial that keeps all conditions is better than one that does not, of two that
 //! do not the one that misses them by less, of two that do the one with the lesser objective. Every number depends on the
 //! problem and the seed alone: not on threads, order or interruptions.
 
+mod bracket;
 mod evaluate;
 mod expression;
 mod page;

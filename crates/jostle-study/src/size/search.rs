@@ -1,4 +1,5 @@
-//! The search: generations of differential evolution, every trial looked up among those that are finished first.
+//! The search: one key by brackets, several by generations of differential evolution; every trial is looked up among those that are
+//! finished first.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -10,6 +11,7 @@ use jostle_run::CaseCache;
 use metaheuristics_nature::methods::de::{De, Strategy};
 use metaheuristics_nature::{Bounded, ObjFunc, Solver};
 
+use super::bracket;
 use super::evaluate::{Evaluated, Merit, WORST};
 use super::results::{SizeResults, Trial};
 use super::trials::Store;
@@ -198,7 +200,20 @@ pub(super) fn search(
         problem,
     });
     let mut converged = false;
+    let go_on = || {
+        shared.generation.fetch_add(1, Ordering::SeqCst);
+        !shared.stop.load(Ordering::Relaxed) && lock(&shared.failure).is_none()
+    };
+    let single = count == 1;
+    if single {
+        let (trials, tolerance) = (shared.problem.trials, shared.problem.tolerance);
+        let trial = |point: f64| shared.trial(&[point]);
+        converged = pool.install(|| bracket::search(trials, tolerance, trial, go_on));
+    }
     pool.install(|| {
+        if single {
+            return;
+        }
         let watched = Arc::clone(&shared);
         let converged = &mut converged;
         let method = De::new().strategy(Strategy::C2F3).f(WEIGHT).cross(CROSSED);

@@ -77,8 +77,14 @@ impl SizeResults {
                 let inputs: Vec<String> = inputs
                     .map(|((name, _), (_, text))| format!("{name} = {}", rounded(text)))
                     .collect();
+                // A search that did not end by itself has a best trial, not a least value.
+                let least = if self.converged {
+                    "Least"
+                } else {
+                    "Not converged; best so far of"
+                };
                 sentences.push(format!(
-                    "Least {}{keeping}: {}, at {}.",
+                    "{least} {}{keeping}: {}, at {}.",
                     self.objective.text,
                     number(objective, &self.objective.suffix),
                     inputs.join(", ")
@@ -96,7 +102,7 @@ impl SizeResults {
             format!("The search was stopped after {} trials.", self.trials.len())
         } else {
             format!(
-                "The search used {} trials, and another generation is more than allowed; it may not be at its end, and --trials allows more.",
+                "The search used {} trials, and another round is more than allowed: the least may lie lower. --trials allows more.",
                 self.trials.len()
             )
         });
