@@ -568,7 +568,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Given, "mass", PerStorey(D::Mass), "Floor masses from the ground up, with periods and shapes. A weight is converted."),
     optional(S::Given, "periods", Quantities(D::Time), "Periods of the modes."),
     optional(S::Given, "shapes", Kind::NumberLists, "One list for each period: displacements of the floors from the ground up, of any scale."),
-    default(S::Given, "remainder_period", Quantity(D::Time), "a third of the last period", "Period of all that the modes leave out."),
+    default(S::Given, "remainder_period", Quantity(D::Time), "from the modes that a uniform building has left: less than the last period, the nearer the more modes are given", "Period of all that the modes leave out."),
 
     optional(S::Matrices, "stiffness", Kind::TextOrNumbers, "Stiffness matrix K: symmetric, positive definite."),
     optional(S::Matrices, "mass", Kind::TextOrNumbers, "Mass matrix M: diagonal, as a matrix or as a list."),

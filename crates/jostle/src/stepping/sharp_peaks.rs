@@ -95,6 +95,13 @@ mod tests {
         let down = of(|t: f64| (t - 2.6).abs() - 5.0).expect("a tip below");
         assert!((down + 5.0).abs() < 1e-12);
         assert!(of(|t| (0.1 * (t - 2.4)).cos()).is_none());
-        assert!(of(|t| if t as usize % 2 == 0 { 1.0 } else { -1.0 }).is_none());
+        assert!(
+            of(|t| if (t as usize).is_multiple_of(2) {
+                1.0
+            } else {
+                -1.0
+            })
+            .is_none()
+        );
     }
 }
