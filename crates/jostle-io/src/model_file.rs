@@ -48,7 +48,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use jostle::separation::CodeInputs;
-use jostle::{GroundMotion, Model, ModelFault};
+use jostle::{GroundMotion, LinkLaw, Model, ModelFault};
 use jostle_motion::{GoverningRule, TargetSpectrum};
 use jostle_section::capacity::ShearRule;
 
@@ -659,7 +659,15 @@ fn warnings(model: &Model, root: &Node) -> Vec<String> {
         let has_gap = |left| model.gaps.iter().any(|gap| gap.between[0] == Some(left));
         row.filter(|[left, _]| !has_gap(*left)).collect()
     };
-    for [a, b] in apart {
+    // A spring between them keeps them apart.
+    let is_kept = |pair: &[usize; 2]| {
+        model.links.iter().any(|link| {
+            let between = link.between.map(|side| side.unwrap_or(usize::MAX));
+            let joins = between == *pair || between == [pair[1], pair[0]];
+            joins && link.stiffness > 0.0 && matches!(link.law, LinkLaw::Linear)
+        })
+    };
+    for [a, b] in apart.into_iter().filter(|pair| !is_kept(pair)) {
         warnings.push(format!(
             "there is no gap between \"{}\" and \"{}\": they pass through each other; add a [[gap]]",
             model.buildings[a].name, model.buildings[b].name

@@ -39,8 +39,17 @@ fn remedy(buildings: [&Building; 2], found: &UnmatchedFloors) -> String {
         [true, true] => {
             format!("Write floors = \"all\" to include them, or {listed} to say that they cannot")
         }
+        [false, false]
+            if buildings
+                .iter()
+                .any(|own| matches!(own.structure, Structure::Tiers(_))) =>
+        {
+            format!(
+                "Columns of buildings with a plan cannot be hit between floors yet: raise level_tolerance if slabs overlap, or {listed} to say that no others can"
+            )
+        }
         [false, false] => format!(
-            "Shear buildings have no columns to hit: describe them as frames, raise level_tolerance if slabs overlap, or {listed} to say that no others can"
+            "Shear buildings and given ones have no columns to hit: describe them as frames, raise level_tolerance if slabs overlap, or {listed} to say that no others can"
         ),
         [left_has, _] => {
             // Floors of the shear building against columns of the frame.

@@ -330,7 +330,7 @@ fn remedies_for_unequal_floors_work() {
         &shears,
         names,
         "",
-        "shear buildings have no columns to hit: raise level_tolerance",
+        "shear buildings and given ones have no columns to hit: raise level_tolerance",
     );
     refused(
         &shears,

@@ -68,6 +68,10 @@ impl Side<'_> {
         matches!(self.building.structure, Structure::Frame(_))
     }
 
+    fn is_in_space(&self) -> bool {
+        matches!(self.building.structure, Structure::Tiers(_))
+    }
+
     /// The contact point at a height: a floor within the tolerance, or the column.
     fn point(&self, height: f64, tolerance: f64) -> Result<f64, String> {
         if let Some(floor) = self.floor_near(height, tolerance) {
@@ -197,8 +201,11 @@ fn remedy(left: &Side<'_>, right: &Side<'_>) -> String {
                 listed.unwrap_or_default()
             )
         }
+        [false, false] if [left, right].iter().any(|side| side.is_in_space()) => format!(
+            "columns of buildings with a plan cannot be hit between floors yet: {slabs}, or leave the gap out"
+        ),
         [false, false] => format!(
-            "shear buildings have no columns to hit: {slabs}, or describe {} and {} as frames",
+            "shear buildings and given ones have no columns to hit: {slabs}, or describe {} and {} as frames",
             name(left),
             name(right)
         ),
@@ -324,14 +331,14 @@ fn listed(
             let [one, other] = [left.describe(levels[0], a), right.describe(levels[1], b)];
             let both_floors = levels.iter().all(|level| matches!(level, Level::Floor(_)));
             let remedy = if both_floors {
-                ", or give the height at which the column is hit"
+                ", or give a height at the column of one of them"
             } else {
                 ""
             };
             misfits.push(Misfit::at(
                 entry,
                 format!(
-                    "{one} and {other}; only floors at equal height can touch; raise level_tolerance{remedy}"
+                    "{one} and {other}; both must be at equal height: raise level_tolerance{remedy}"
                 ),
             ));
         }

@@ -522,7 +522,7 @@ const CASES: &[Case] = &[
     (
         |m| m.gaps[0].floors = FloorPairs::listed(&[(1, 2)]),
         "gap[0].floors[0]",
-        "floor 1 of \"frame\" is at 3.200 m and floor 2 of \"tower\" is at 6.400 m; only floors at equal height can touch",
+        "floor 1 of \"frame\" is at 3.200 m and floor 2 of \"tower\" is at 6.400 m; both must be at equal height",
     ),
     (
         |m| m.gaps[0].floors = FloorPairs::listed(&[(1, 1), (1, 1)]),
