@@ -23,11 +23,17 @@ pub enum CapacityRequest {
 }
 
 impl CapacityRequest {
-    fn rules(&self) -> &[ShearRule] {
+    /// The rules, that of the country of the steel first where all are asked for.
+    fn rules(&self, members: &[ReinforcedMember]) -> Vec<ShearRule> {
         match self {
-            Self::WhereKnown => &ShearRule::ALL,
-            Self::Off => &[],
-            Self::Rules(rules) => rules,
+            Self::Off => Vec::new(),
+            Self::Rules(rules) if rules[..] != ShearRule::ALL => rules.clone(),
+            Self::WhereKnown | Self::Rules(_) => {
+                let home = members.iter().find_map(|member| member.home_rule);
+                let others = ShearRule::ALL.into_iter();
+                let others = others.filter(|rule| Some(*rule) != home);
+                home.into_iter().chain(others).collect()
+            }
         }
     }
 }
@@ -106,7 +112,7 @@ pub(crate) fn fill(model: &mut Model, request: &CapacityRequest, members: &[Rein
     let joints = if capacities.is_empty() {
         Vec::new()
     } else {
-        super::joint_capacity::joints(model, request.rules(), members)
+        super::joint_capacity::joints(model, &request.rules(members), members)
     };
     let asked: &mut MemberRequest = &mut model.analysis.members;
     asked.joints = joints;
@@ -122,7 +128,7 @@ fn capacities(
     request: &CapacityRequest,
     members: &[ReinforcedMember],
 ) -> Vec<MemberCapacity> {
-    let rules = request.rules();
+    let rules = &request.rules(members)[..];
     let known = members.iter().any(|member| member.section.ties.is_some());
     if rules.is_empty() || !known || !model.analysis.members.envelopes {
         return Vec::new();

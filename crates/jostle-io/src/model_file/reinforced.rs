@@ -5,6 +5,7 @@ use jostle::Structure;
 use jostle::statics::{STANDARD_GRAVITY, compressions};
 use jostle::structure::Discretization;
 use jostle::system::BuildingSystem;
+use jostle_section::capacity::ShearRule;
 use jostle_section::formula::Member;
 use jostle_section::{BarsError, Reinforcement, Section, Steel, StrengthLevel, Ties};
 
@@ -40,6 +41,8 @@ pub struct ReinforcedMember {
     pub clear_length: f64,
     /// Level of the strengths of the section.
     pub level: StrengthLevel,
+    /// Rule for capacities of the country of its steel, if that has a grade.
+    pub home_rule: Option<ShearRule>,
 }
 
 /// Sections of the storeys of a building, where they are reinforced.
@@ -56,6 +59,7 @@ pub(super) struct Laid {
     section: Section,
     axial: Axial,
     level: StrengthLevel,
+    home_rule: Option<ShearRule>,
 }
 
 /// Axial compression of a member.
@@ -114,10 +118,14 @@ fn read_one(
         let grade = reader.concrete(&field, SECTION_CONCRETES)?;
         grade.at(level)
     });
+    let mut home_rule = None;
     let steel = reader.get(&view, "steel").map(|field| {
         let grade = reader.grade(&field, STEELS, "\"400 MPa\"")?;
         match grade {
-            Grade::Named(name) => Steel::grade(name, level),
+            Grade::Named(name) => {
+                home_rule = ShearRule::of_steel(name);
+                Steel::grade(name, level)
+            }
             Grade::Strength(strength) => Some(Steel::of_strength(strength)),
         }
     });
@@ -179,6 +187,7 @@ fn read_one(
             section,
             axial,
             level,
+            home_rule,
         }),
         Err(faults) => {
             for fault in faults {
@@ -256,6 +265,7 @@ pub(super) fn members(
             section,
             axial,
             level,
+            home_rule,
         }) = entry
         else {
             continue;
@@ -277,11 +287,18 @@ pub(super) fn members(
                 rigidity: frame.columns[storey].flexural_rigidity,
                 clear_length: clear(frame.storey_heights[storey], 0.5 * (foot + head)),
                 level: *level,
+                home_rule: *home_rule,
             });
         }
     }
     for (floor, entry) in reinforced.beams.iter().enumerate() {
-        let Some(Laid { section, level, .. }) = entry else {
+        let Some(Laid {
+            section,
+            level,
+            home_rule,
+            ..
+        }) = entry
+        else {
             continue;
         };
         let column = depth(&reinforced.columns, Some(floor));
@@ -297,6 +314,7 @@ pub(super) fn members(
                 rigidity: frame.beams[floor].flexural_rigidity,
                 clear_length: clear(*span, column),
                 level: *level,
+                home_rule: *home_rule,
             });
         }
     }

@@ -41,6 +41,29 @@ fn rules(input: &Input) -> Vec<&'static str> {
     })
 }
 
+/// Of all rules, that of the country of the steel governs; named rules keep their order.
+#[test]
+fn the_rule_of_the_steel_governs() {
+    for (steel, first) in [
+        ("HRB400", "gb50010"),
+        ("B500C", "en1998-3"),
+        ("Grade 60", "asce41"),
+        ("400 MPa", "gb50010"),
+    ] {
+        let text = FRAME.replace("TIES", ", ties = \"d10 @ 150 mm\"");
+        let text = text.replace("GRAVITY", "").replace("HRB400", steel);
+        for (asked, governing) in [
+            ("members = true", first),
+            ("capacity = true", first),
+            ("capacity = [\"aci318\", \"en1998-3\"]", "aci318"),
+        ] {
+            let input = files::read(&format!("{text}[output]\n{asked}\n"));
+            let input = input.unwrap_or_else(|error| panic!("{error}"));
+            assert_eq!(rules(&input)[0], governing, "{steel}, {asked}");
+        }
+    }
+}
+
 #[test]
 fn all_rules_where_members_are_asked_for() {
     let input = read(true, "", "members = true").expect("sound");

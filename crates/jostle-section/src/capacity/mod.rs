@@ -22,6 +22,7 @@ pub use shear_failure::{NoShearLoss, ShearLoss};
 use crate::concrete::StrengthLevel;
 use crate::formula::{self, Member};
 use crate::section::Section;
+use crate::steel::{ASTM_STEEL_GRADES, EN_STEEL_GRADES, STEEL_GRADES};
 
 /// A member whose capacity is asked for.
 #[derive(Clone, Debug, PartialEq)]
@@ -82,6 +83,20 @@ impl ShearRule {
         Self::Aci318,
         Self::SezenMoehle,
     ];
+
+    /// The rule for existing members of the country of a grade of reinforcing steel; `None` for a grade that is not known.
+    #[must_use]
+    pub fn of_steel(grade: &str) -> Option<Self> {
+        let lists: [(&[&str], Self); 3] = [
+            (&STEEL_GRADES, Self::Gb50010),
+            (&EN_STEEL_GRADES, Self::En1998),
+            (&ASTM_STEEL_GRADES, Self::Asce41),
+        ];
+        let own = lists
+            .into_iter()
+            .find(|(grades, _)| grades.contains(&grade));
+        own.map(|(_, rule)| rule)
+    }
 
     /// The rule of a name.
     #[must_use]

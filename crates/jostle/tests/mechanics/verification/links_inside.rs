@@ -68,6 +68,79 @@ fn summary(model: &Model, solver: Solver, tolerance: f64) -> Summary {
     })
 }
 
+/// Every number of a tree, with its path; a list counts its entries.
+fn numbers(path: &str, value: &serde_json::Value, all: &mut Vec<(String, f64)>) {
+    use serde_json::Value;
+    match value {
+        Value::Number(number) => all.push((path.to_owned(), number.as_f64().unwrap_or(f64::NAN))),
+        Value::Array(list) => {
+            for (index, entry) in list.iter().enumerate() {
+                numbers(&format!("{path}[{index}]"), entry, all);
+            }
+        }
+        Value::Object(table) => {
+            for (key, entry) in table {
+                numbers(&format!("{path}.{key}"), entry, all);
+            }
+        }
+        Value::Null | Value::Bool(_) | Value::String(_) => {}
+    }
+}
+
+/// What a summary says of buildings and gaps must not depend on whether a storey is a spring of the building or a link inside it: one
+/// pair that pounds, described in two ways, and every number that is named the same.
+#[test]
+fn every_number_is_that_of_the_whole_building() {
+    let pair = |braced: bool| {
+        let damping = Damping::Rayleigh {
+            alpha: 0.4,
+            beta: 0.0,
+        };
+        let mut model = alone(damping.clone(), Vec::new());
+        model.buildings.push(model.buildings[0].clone());
+        model.buildings[1].name = "b".to_owned();
+        for (index, building) in model.buildings.iter_mut().enumerate() {
+            let Structure::Shear(shear) = &mut building.structure else {
+                panic!("a tower is a shear building")
+            };
+            shear.stiffness = vec![if braced { 4e7 } else { 12e7 }; 4];
+            shear.mass = vec![[1e5, 2.2e5][index]; 4];
+        }
+        if braced {
+            for building in 0..2 {
+                model.links.push(Link {
+                    between: [Some(building); 2],
+                    ..braces(&STOREYS, 8e7, 0.0)
+                });
+            }
+        }
+        model.gaps = row(model.buildings.clone(), 0.02, law(LawKind::HertzDamp, 0.65)).gaps;
+        model
+    };
+    for solver in [Solver::Modal, Solver::Riccati] {
+        let [braced, plain] = [true, false].map(|braced| {
+            let summary = serde_json::to_value(summary(&pair(braced), solver, 1e-6));
+            let tree = summary.expect("it is serialised");
+            let mut all = Vec::new();
+            for key in ["buildings", "gaps"] {
+                numbers(key, &tree[key], &mut all);
+            }
+            all
+        });
+        assert_eq!(braced.len(), plain.len());
+        assert!(plain.len() > 200, "{} numbers", plain.len());
+        for ((path, a), (other, b)) in braced.iter().zip(&plain) {
+            assert_eq!(path, other);
+            // Instants of residual motions have no scale of their own.
+            let scale = b.abs().max(1e-6);
+            assert!(
+                (a - b).abs() < 3e-3 * scale,
+                "{solver:?}: {path}: {a} and {b}"
+            );
+        }
+    }
+}
+
 /// Storeys of 40 MN/m with braces of 80 MN/m are storeys of 120 MN/m: with the same damping, every number of building and floors
 /// is the same, by both ways of stepping.
 #[test]
