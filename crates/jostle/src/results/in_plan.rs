@@ -56,7 +56,7 @@ impl FloorInPlan {
         Quantity::<Self>::real("rotation_min_at_s", Unit::S, "its instant", |f| f.rotation_min_at_s),
         Quantity::<Self>::real("corner_displacement_peak_m", Unit::M, "greatest horizontal displacement of a corner", |f| f.corner_displacement_peak_m).in_study(),
         Quantity::<Self>::real("total_acceleration_across_peak_m_s2", Unit::M_S2, "greatest total acceleration across", |f| f.total_acceleration_across_peak_m_s2).in_study(),
-        Quantity::<Self>::real("storey_drift_across_peak", Unit::NONE, "greatest drift ratio across of the storey, of the vertical line through the centre of mass of its upper floor", |f| f.storey_drift_across_peak).in_study(),
+        Quantity::<Self>::real("storey_drift_across_peak", Unit::NONE, "greatest drift ratio across of the storey, at the centre of mass of its upper floor", |f| f.storey_drift_across_peak).in_study(),
         Quantity::<Self>::real("storey_drift_corner_peak", Unit::NONE, "greatest drift ratio of the storey at a corner of the smaller plan, along x and across together", |f| f.storey_drift_corner_peak).in_study(),
         Quantity::<Self>::real("storey_shear_across_peak_n", Unit::N, "greatest shear across of the storey", |f| f.storey_shear_across_peak_n).in_study(),
         Quantity::<Self>::real("storey_torque_peak_n_m", Unit::NM, "greatest torque of the storey about the centre of mass of the lowest floor", |f| f.storey_torque_peak_n_m).in_study(),

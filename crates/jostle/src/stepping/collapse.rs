@@ -8,8 +8,8 @@ use crate::system::System;
 /// Storey drift from which a building that yields or leans has collapsed \[–\].
 const COLLAPSE_DRIFT: f64 = 0.25;
 
-/// Looks at the drifts so far, building by building, in space at the corners as well. Elastic buildings may lean as far as they like: their numbers are those of
-/// their model.
+/// Looks at the drifts so far, building by building, in space at the corners as well. Elastic buildings may lean as far as they like:
+/// their numbers are those of their model.
 ///
 /// # Errors
 /// [`StepError::Collapse`] with the first building that has collapsed at `time` \[s\].

@@ -30,9 +30,8 @@ const FEW_IMPACTS: usize = 12;
 /// Finds the instant from which results of a run depend on contacts made or missed within the tolerance, and stores
 /// it in the outcome.
 ///
-/// Each gap is made wider by as much as the run may be off by its own estimate, relative to its greatest closing, or to a tenth of the
-/// displacement of the contact floors if that is more, but by a tenth of the tolerance at most; and the run is repeated with the same
-/// steps. If reported peaks change by more than the tolerance, relative to the greatest of their kind in the building or gap, the first
+/// Each gap is made wider by the estimated error of the run, or by a tenth of the tolerance if that is less. Both count relative to its
+/// greatest closing, or to a tenth of the displacement of the contact floors if that is more. The run is repeated with the same steps. If reported peaks change by more than the tolerance, relative to the greatest of their kind in the building or gap, the first
 /// impact that differs by as much gives the instant. How results hang on the gap itself is another question. If a contact stays open and
 /// its closing is within twice the estimated error of the gap, the gap is made narrower instead, so that the contact is made. Where the tolerance is not met and impacts differ between two step
 /// sizes, the instant is not later than the first of these. Other runs with at most twelve impacts, none of them

@@ -1,6 +1,6 @@
 //! Mass and stiffness of one building in the order of its transfer path.
 
-use crate::hysteresis::Hysteresis;
+use crate::hysteresis::{Hysteresis, HysteresisMemory};
 use crate::linear::SparseSymmetric;
 use crate::model::ProportionalDamping;
 use crate::structure::element::{self, Part, X, Y};
@@ -273,6 +273,17 @@ impl Equations {
         } else {
             0.0
         }
+    }
+
+    /// Force of that dashpot at velocities of the building, while the spring goes on as its memory says \[N, N·m\].
+    pub(crate) fn tangent_damping(
+        &self,
+        spring: &YieldingSpring,
+        memory: &HysteresisMemory,
+        velocity: &[f64],
+    ) -> f64 {
+        let tangent = spring.hysteresis.unloading_stiffness(memory);
+        self.tangent_dashpot(spring, tangent) * spring.deformation(velocity)
     }
 
     /// xᵀ (K + K′) x: twice the strain energy, P-Delta included \[J\].

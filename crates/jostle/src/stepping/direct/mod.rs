@@ -638,8 +638,7 @@ fn unbalanced_load(
         equations.dashpots.multiply_add(v, &mut resisted);
         let springs = equations.springs.iter();
         for (spring, memory) in springs.zip(&state.springs[building.spring_range()]) {
-            let tangent = spring.hysteresis.unloading_stiffness(memory);
-            let damped = equations.tangent_dashpot(spring, tangent) * spring.deformation(v);
+            let damped = equations.tangent_damping(spring, memory, v);
             spring.push(memory.force() + damped, &mut resisted);
         }
         for (k, dof) in range.enumerate() {

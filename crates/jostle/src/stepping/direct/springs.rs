@@ -108,14 +108,8 @@ impl YieldingSprings {
             let v = &state.velocity[building.range()];
             let equations = &building.equations;
             let memories = &state.springs[building.spring_range()];
-            equations
-                .springs
-                .iter()
-                .zip(memories)
-                .map(|(spring, memory)| {
-                    let tangent = spring.hysteresis.unloading_stiffness(memory);
-                    equations.tangent_dashpot(spring, tangent) * spring.deformation(v)
-                })
+            let known = equations.springs.iter().zip(memories);
+            known.map(|(spring, memory)| equations.tangent_damping(spring, memory, v))
         });
         Self {
             trials: vec![SpringTrial::default(); count],

@@ -92,9 +92,9 @@ impl Change {
     }
 }
 
-/// Runs a system with automatic steps twice, the second time with steps half as long, and refines them further while the error of
-/// the finer run exceeds the tolerance. With given steps it runs as asked, and once more with others to tell the error, unless the
-/// elongation of periods tells it.
+/// Runs a system with automatic steps twice, the second time with shorter ones, and refines them further while the error of the finer
+/// run exceeds the tolerance. With given steps it runs as asked. Where the elongation of periods does not tell the error, it runs once
+/// more with other steps.
 ///
 /// Average acceleration is of second order: where steps shrink by the factor r, the error of the finer run is the difference
 /// of both over r² − 1 (L. F. Richardson, 1911, Phil. Trans. R. Soc. A 210, 307–357). Accelerations of modes that a step does
@@ -189,8 +189,8 @@ pub(in crate::stepping) fn within_tolerance(
     }
 }
 
-/// The outcome of given steps with its error, from a run with steps twice as long, or half as long where those of a record leave no
-/// longer ones.
+/// The outcome of given steps with its error, from a run with longer steps, or with steps half as long where those of a record leave
+/// no longer ones.
 fn with_error(
     system: &System,
     motion: &GroundMotion,
@@ -207,7 +207,8 @@ fn with_error(
     };
     let other = run(&other_plan);
     if other.end == RunEnd::Stopped {
-        return other;
+        // The run that was asked for is complete; only its error is not known.
+        return outcome;
     }
     outcome.work.repeated_runs = 1;
     let order = ORDERS[1];

@@ -131,7 +131,7 @@ fn every_number_is_that_of_the_whole_building() {
         assert!(plain.len() > 200, "{} numbers", plain.len());
         for ((path, a), (other, b)) in braced.iter().zip(&plain) {
             assert_eq!(path, other);
-            // Instants of residual motions have no scale of their own.
+            // What is nearly zero has no scale of its own.
             let scale = b.abs().max(1e-6);
             assert!(
                 (a - b).abs() < 3e-3 * scale,
