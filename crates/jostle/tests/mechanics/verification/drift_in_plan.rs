@@ -22,8 +22,8 @@ fn stepped(stiffness: [f64; 3]) -> jostle::Model {
     };
     let plans = [
         rectangle(0.0, 0.0, 18.0, 12.0),
-        rectangle(0.0, 0.0, 9.0, 12.0),
-        rectangle(0.0, 4.0, 5.0, 5.0),
+        rectangle(0.0, 0.0, 9.0, 8.0),
+        rectangle(0.0, 2.0, 5.0, 5.0),
     ];
     for ((floor, plan), mass) in tiers.floors.iter_mut().zip(plans).zip([200e3, 100e3, 30e3]) {
         *floor = jostle::Tier::uniform(mass, plan.to_vec()).expect("an area");
