@@ -106,8 +106,8 @@ def test_the_smallest_gap(tmp_path: Path) -> None:
     (gap,) = jostle.critical_gap(towers())
     assert gap.pounding_at is not None and gap.gap - gap.pounding_at <= 1.001e-4
     assert gap.between == ("soft", "stiff")
-    with pytest.warns(jostle.JostleWarning, match="sensitive"):
-        assert jostle.run(towers(), gap=gap.gap).summary["gaps"][0]["impact_count"] == 0
+    assert jostle.run(towers(), gap=gap.gap).summary["gaps"][0]["impact_count"] == 0
+    # The force of a touch that is hardly one hangs on the last digits of the gap.
     with pytest.warns(jostle.JostleWarning, match="sensitive"):
         assert jostle.run(towers(), gap=gap.pounding_at).summary["gaps"][0]["impact_count"] > 0
     widths = {rule.rule: rule.gap for rule in gap.rules}

@@ -641,13 +641,13 @@ fn accuracy_warnings(accuracy: &Accuracy, remedy: &str) -> impl Iterator<Item = 
         )
     });
     let until = if residual > tolerance {
-        "sensitive from"
+        ""
     } else {
-        "the tolerance is met until"
+        "the tolerance is met until then; "
     };
     let sensitive = sensitive_from.map(|from| {
         format!(
-            "{until} t = {from:.3} s: contacts are made or missed there by less than the run may be off, and later impacts and peaks depend on them; what comes before holds"
+            "sensitive from t = {from:.3} s: {until}contacts are made or missed there by less than the run may be off, and later impacts and peaks depend on them; what comes before holds"
         )
     });
     missed.into_iter().chain(sensitive)

@@ -20,6 +20,9 @@ const CHANGE: f64 = 0.1;
 /// Reduction of the gap of a contact just missed, in estimated errors of its greatest closing, but at most a tolerance.
 const NARROWER: f64 = 2.0;
 
+/// Its least value, in tolerances: touches are found by curves through both ends of a step, closings more accurately.
+const LEAST_NARROWER: f64 = 0.02;
+
 /// Fraction of the displacements of contact floors that counts as closing, since the closing of a gap of zero width
 /// stays small.
 const SWAY: f64 = 0.1;
@@ -30,12 +33,15 @@ const FEW_IMPACTS: usize = 12;
 /// Finds the instant from which results of a run depend on contacts made or missed within the tolerance, and stores
 /// it in the outcome.
 ///
-/// Each gap is made wider by the estimated error of the run, or by a tenth of the tolerance if that is less. Both count relative to its
-/// greatest closing, or to a tenth of the displacement of the contact floors if that is more. The run is repeated with the same steps. If reported peaks change by more than the tolerance, relative to the greatest of their kind in the building or gap, the first
-/// impact that differs by as much gives the instant. How results hang on the gap itself is another question. If a contact stays open and
-/// its closing is within twice the estimated error of the gap, the gap is made narrower instead, so that the contact is made. Where the tolerance is not met and impacts differ between two step
-/// sizes, the instant is not later than the first of these. Other runs with at most twelve impacts, none of them
-/// doubtful, are not repeated; nor are those of buildings that yield, unless they are stepped by power series.
+/// Each gap is made wider by the estimated error of the run, or by a tenth of the tolerance if that is less. Both count
+/// relative to its greatest closing, or to a tenth of the displacement of the contact floors if that is more. The run
+/// is repeated with the same steps. If reported peaks change by more than the tolerance, relative to the greatest of
+/// their kind in the building or gap, the first impact that differs by as much gives the instant. How results hang on
+/// the gap itself is another question. If a contact stays open and its closing is within twice the estimated error of
+/// the gap, the gap is made narrower instead, so that the contact is made. Where the tolerance is not met and impacts
+/// differ between two step sizes, the instant is not later than the first of these. Other runs with at most twelve
+/// impacts, none of them doubtful, are not repeated; nor are those of buildings that yield, unless they are stepped by
+/// power series.
 ///
 /// `shapes`: those that the run by modes began with, if they are at hand; they are found again without.
 pub fn find_sensitivity(
@@ -72,7 +78,7 @@ fn sensitive_from(
     let error = outcome.accuracy.map_or(tolerance, |own| own.residual);
     let (wider, narrower) = (
         error.min(CHANGE * tolerance),
-        (NARROWER * error).min(tolerance),
+        (NARROWER * error).clamp(LEAST_NARROWER * tolerance, tolerance),
     );
     let near_misses: Vec<bool> = (0..system.contacts.len())
         .map(|contact| nearly_touches(system, outcome, contact, narrower))

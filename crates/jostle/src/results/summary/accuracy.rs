@@ -51,7 +51,7 @@ impl PromiseSummary {
         };
         match (self.met_until_s, self.sensitive_from_s) {
             (Some(until), _) => format!(
-                "accuracy: {estimate} until t = {until:.3} s, from which contacts are made or missed by less than the error"
+                "accuracy: {estimate} until t = {until:.3} s; sensitive from there: contacts are made or missed by less than the error"
             ),
             (None, Some(from)) => format!(
                 "accuracy: {estimate}; sensitive from t = {from:.3} s, holds for peaks before it"
