@@ -5,7 +5,7 @@ use super::in_plan::{
     impacts_of, place_of_face, points_of,
 };
 use crate::contact::{LawKind, RestitutionIs};
-use crate::history::Impact;
+use crate::history::{Extreme, Impact};
 use crate::hysteresis::{Side, Stage};
 use crate::interface::LinkElement;
 use crate::linear::sort_by;
@@ -437,7 +437,16 @@ fn contact_summary(index: usize, impacts: &[CountedImpact], run: &Run) -> Contac
     let first = points.first().copied().unwrap_or(index);
     let contact = &system.contacts[first];
     let widths = points.iter().map(|&point| system.contacts[point].width);
-    let closing = points.iter().map(|&point| outcome.closing[point]);
+    let width = widths.fold(f64::INFINITY, f64::min);
+    // Faces that are not parallel close from their nearest points on: those further apart close by more and do not touch.
+    let closing = points.iter().map(|&point| {
+        let further = system.contacts[point].width - width;
+        let own = outcome.closing[point];
+        Extreme {
+            value: own.value - further,
+            ..own
+        }
+    });
     let closing = closing.max_by(|a, b| a.value.total_cmp(&b.value));
     let closing = closing.unwrap_or_default();
     ContactSummary {
@@ -450,7 +459,7 @@ fn contact_summary(index: usize, impacts: &[CountedImpact], run: &Run) -> Contac
                 sliding: contact.friction.map(|_| SlidingSummary::new(all())),
                 ..place
             }),
-        width_m: widths.fold(f64::INFINITY, f64::min),
+        width_m: width,
         closing_peak_m: closing.value,
         closing_peak_at_s: closing.at,
         closing_peak_ground_m: closing_of_grounds(first, closing.at, run),

@@ -100,7 +100,8 @@ pub struct ContactSummary {
     pub in_plan: Option<PlanContactSummary>,
     /// Width at rest, the least of its points \[m\].
     pub width_m: f64,
-    /// Greatest closing u_left − u_right, that of grounds that differ included \[m\].
+    /// Greatest closing u_left − u_right, that of grounds that differ included; of faces that are not parallel by how much less than
+    /// `width_m` their nearest points are apart \[m\].
     pub closing_peak_m: f64,
     /// Its instant \[s\].
     pub closing_peak_at_s: f64,
@@ -129,7 +130,7 @@ impl ContactSummary {
         Quantity::<Self>::real("peak_force_n", Unit::N, "greatest force", |c| c.peak_force_n).in_study(),
         Quantity::<Self>::optional("peak_force_at_s", Unit::S, "its instant; absent without an impact", |c| c.peak_force_at_s),
         Quantity::<Self>::real("impulse_n_s", Unit::NS, "time integral of the force", |c| c.impulse_n_s).in_study(),
-        Quantity::<Self>::real("closing_peak_m", Unit::M, "greatest closing", |c| c.closing_peak_m).in_study(),
+        Quantity::<Self>::real("closing_peak_m", Unit::M, "greatest closing; beyond width_m it is indentation", |c| c.closing_peak_m).in_study(),
         Quantity::<Self>::real("closing_peak_at_s", Unit::S, "its instant", |c| c.closing_peak_at_s),
         Quantity::<Self>::optional("closing_peak_ground_m", Unit::M, "the part of it that the grounds contribute; only with ground that differs", |c| c.closing_peak_ground_m).not_in_summary(),
     ];
