@@ -65,13 +65,13 @@ fn write_curve(text: &mut String, one: &PushedBuilding, curve: &Pushover) -> std
         None => writeln!(text, "  {name:<12}{:>12}", "none"),
     };
     let springs = one.building.equations.springs.len();
-    if springs > 0 {
+    if !one.is_elastic() {
         row("first crack", curve.first(Stage::Cracked))?;
         row("first yield", curve.first(Stage::Yielded))?;
         row("greatest", Some(curve.peak()))?;
     }
     row("at the end", curve.points.last())?;
-    if springs == 0 {
+    if one.is_elastic() {
         return writeln!(
             text,
             "  The building has no hinges: it stays elastic, and the curve is a straight line."
@@ -102,9 +102,17 @@ fn write_curve(text: &mut String, one: &PushedBuilding, curve: &Pushover) -> std
             counted(shear, "column end")
         ),
     };
+    let links = match one.links() {
+        0 => String::new(),
+        links => format!(
+            " {} of {} yield.",
+            curve.links_yielded(springs),
+            counted(links, "link")
+        ),
+    };
     writeln!(
         text,
-        "  {cracked} of {} crack, {yielded} yield.{failures}{ended}",
+        "  {cracked} of {} crack, {yielded} yield.{failures}{links}{ended}",
         counted(springs - shear, "hinge")
     )?;
     write_events(text, one, curve)

@@ -571,6 +571,7 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Parts>
     }
     grounds::read_own(reader, &view, &mut motion, &model, base);
     shear_failure::add_heads(&mut model, reader, &view);
+    given::soften_contacts(&mut model, reader, &view);
     capacity::fill(&mut model, &capacity, &reinforced);
     Some(Parts {
         model,

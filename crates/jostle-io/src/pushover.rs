@@ -104,6 +104,8 @@ fn curve_json(one: &PushedBuilding, curve: &Pushover) -> Value {
         "hinges_cracked": cracked,
         "hinges_yielded": yielded,
         "shear_failures": curve.failures(),
+        "links": one.links(),
+        "links_yielded": curve.links_yielded(springs),
         "end": { "target_reached": curve.end == PushEnd::Target, "reason": curve.end.to_string() },
         "first_crack": curve.first(Stage::Cracked).map(place),
         "first_yield": curve.first(Stage::Yielded).map(place),

@@ -23,6 +23,8 @@ pub enum Dimension {
     Force,
     /// Linear stiffness \[N/m\].
     Stiffness,
+    /// Displacement per force \[m/N\].
+    Flexibility,
     /// Stiffness of a Hertz contact \[N/m^1.5\].
     HertzStiffness,
     /// Modulus of elasticity \[Pa\].
@@ -57,7 +59,7 @@ pub enum Dimension {
 
 impl Dimension {
     /// Every dimension.
-    pub const ALL: [Self; 22] = [
+    pub const ALL: [Self; 23] = [
         Self::Length,
         Self::Mass,
         Self::Time,
@@ -65,6 +67,7 @@ impl Dimension {
         Self::Speed,
         Self::Force,
         Self::Stiffness,
+        Self::Flexibility,
         Self::HertzStiffness,
         Self::Modulus,
         Self::LineMass,
@@ -93,6 +96,7 @@ impl Dimension {
             Self::Speed => ("a speed", "0.5 m/s", "m/s", [1.0, 0.0, -1.0]),
             Self::Force => ("a force", "100 kN", "N", [1.0, 1.0, -2.0]),
             Self::Stiffness => ("a stiffness", "60 MN/m", "N/m", [0.0, 1.0, -2.0]),
+            Self::Flexibility => ("a flexibility", "2.1e-8 m/N", "m/N", [0.0, -1.0, 2.0]),
             Self::HertzStiffness => ("a Hertz contact stiffness", "2e9 N/m^1.5", "N/m^1.5", [-0.5, 1.0, -2.0]),
             Self::Modulus => ("a modulus of elasticity", "30 GPa", "Pa", [-1.0, 1.0, -2.0]),
             Self::LineMass => ("a mass per length", "3600 kg/m", "kg/m", [-1.0, 1.0, 0.0]),

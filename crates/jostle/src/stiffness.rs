@@ -12,7 +12,8 @@ use crate::structure::element::{self, Part};
 pub struct DirectStiffness {
     stiffness: Vec<(Part, f64)>,
     mass: Vec<f64>,
-    springs: Vec<SpringPlace>,
+    /// Rows, columns and factors of the entries of every spring, one triangle.
+    springs: Vec<Vec<(usize, usize, f64)>>,
     /// Of the stiffnesses, the masses and the springs, in this order.
     pattern: Pattern,
 }
@@ -21,11 +22,10 @@ pub struct DirectStiffness {
 #[derive(Clone, Debug, Default)]
 pub struct DirectFactor(SparseFactor);
 
-impl StepEquations for DirectStiffness {
-    type Factor = DirectFactor;
-    type Scratch = ();
-
-    fn new(building: &AssembledBuilding) -> Self {
+impl DirectStiffness {
+    /// With springs between more than two floors apart; a row is how displacements deform one: degree of freedom and share.
+    /// Their tangents follow those of the springs of the building.
+    pub(crate) fn with_rows(building: &AssembledBuilding, rows: &[Vec<(usize, f64)>]) -> Self {
         let equations = &building.equations;
         let entries = element::stiffnesses(&building.discretization.stick_model)
             .flat_map(|element| element.entries);
@@ -40,15 +40,31 @@ impl StepEquations for DirectStiffness {
         }
         places.extend((0..equations.len()).map(|dof| (dof, dof)));
         let springs = equations.springs.iter();
-        let springs: Vec<_> = springs.map(|spring| (spring.dofs, spring.levers)).collect();
-        let of_springs = springs.iter().flat_map(|spring| spring_entries(*spring));
-        places.extend(of_springs.map(|(row, column, _)| (row, column)));
+        let springs = springs.map(|spring| entries_of(&spring.row().collect::<Vec<_>>()));
+        let springs: Vec<_> = springs
+            .chain(rows.iter().map(|row| entries_of(row)))
+            .collect();
+        places.extend(
+            springs
+                .iter()
+                .flatten()
+                .map(|(row, column, _)| (*row, *column)),
+        );
         Self {
             pattern: Pattern::new(equations.len(), &places),
             stiffness,
             mass: equations.mass.clone(),
             springs,
         }
+    }
+}
+
+impl StepEquations for DirectStiffness {
+    type Factor = DirectFactor;
+    type Scratch = ();
+
+    fn new(building: &AssembledBuilding) -> Self {
+        Self::with_rows(building, &[])
     }
 
     fn factorize(
@@ -61,8 +77,8 @@ impl StepEquations for DirectStiffness {
         let members = members.map(|(part, value)| part.weight(matrix) * value);
         let inertia = self.mass.iter().map(|mass| matrix.mass * mass);
         let springs = self.springs.iter().zip(tangents);
-        let springs = springs.flat_map(|(spring, tangent)| {
-            spring_entries(*spring).map(move |(_, _, sign)| sign * tangent)
+        let springs = springs.flat_map(|(entries, tangent)| {
+            entries.iter().map(move |(_, _, factor)| factor * tangent)
         });
         self.pattern
             .factorize(members.chain(inertia).chain(springs), &mut factor.0)
@@ -74,27 +90,21 @@ impl StepEquations for DirectStiffness {
     }
 }
 
-/// A spring between two degrees of freedom, and the rotations that add to its deformation, with their arms.
-type SpringPlace = ([Option<usize>; 2], [Option<(usize, f64)>; 2]);
-
-/// Rows, columns and factors of the entries of a spring, one triangle.
-fn spring_entries((dofs, levers): SpringPlace) -> impl Iterator<Item = (usize, usize, f64)> {
-    let own = |dof: Option<usize>| dof.map(|dof| (dof, dof, 1.0));
-    let between = dofs[0].zip(dofs[1]).map(|(a, b)| (a, b, -1.0));
-    let of_lever = move |lever: Option<(usize, f64)>| {
-        let turning = lever.map(|(turning, arm)| (turning, turning, arm * arm));
-        let beside = |dof: Option<usize>, sign: f64| {
-            let (turning, arm) = lever?;
-            Some((dof?, turning, sign * arm))
-        };
-        [turning, beside(dofs[0], 1.0), beside(dofs[1], -1.0)]
-    };
-    let both = levers[0].zip(levers[1]);
-    let both = both.map(|((a, arm), (b, other))| (a, b, arm * other));
-    [own(dofs[0]), own(dofs[1]), between]
-        .into_iter()
-        .chain(of_lever(levers[0]))
-        .chain(of_lever(levers[1]))
-        .chain([both])
-        .flatten()
+/// Entries of a spring of stiffness one, one triangle.
+fn entries_of(row: &[(usize, f64)]) -> Vec<(usize, usize, f64)> {
+    let pairs = row.iter().enumerate();
+    pairs
+        .flat_map(|(index, (dof, share))| {
+            let others = row[..=index].iter();
+            others.enumerate().map(move |(before, (other, factor))| {
+                // Both triangles fall together on the diagonal.
+                let times = if dof == other && before != index {
+                    2.0
+                } else {
+                    1.0
+                };
+                (*dof, *other, times * share * factor)
+            })
+        })
+        .collect()
 }

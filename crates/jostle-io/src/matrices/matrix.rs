@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use jostle::Given;
+
 /// A matrix by its entries that are not zero.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Matrix {
@@ -9,6 +11,10 @@ pub(crate) struct Matrix {
     pub(crate) columns: usize,
     entries: BTreeMap<(usize, usize), f64>,
 }
+
+/// Greatest difference of two flexibilities that should be equal, in parts of the root of both on the diagonal: programs print few
+/// digits.
+const ROUNDED: f64 = 0.02;
 
 /// Greatest difference of two entries that should be equal, in parts of the greatest of their row and column.
 const SYMMETRY: f64 = 1e-9;
@@ -31,6 +37,40 @@ impl Matrix {
 
     pub(crate) fn at(&self, row: usize, column: usize) -> f64 {
         self.entries.get(&(row, column)).copied().unwrap_or(0.0)
+    }
+
+    /// The inverse of a matrix of flexibilities, which rounding may have left a little unsymmetric.
+    ///
+    /// # Errors
+    /// The problem in words.
+    pub(crate) fn inverse(&self) -> Result<Self, String> {
+        let n = self.rows;
+        self.is_square(n)?;
+        let mut rows = Vec::with_capacity(n);
+        for i in 0..n {
+            for j in 0..i {
+                let (one, other) = (self.at(i, j), self.at(j, i));
+                let size = (self.at(i, i) * self.at(j, j)).sqrt();
+                if (one - other).abs() > ROUNDED * size || !size.is_finite() {
+                    let (i, j) = (i + 1, j + 1);
+                    return Err(format!(
+                        "must be symmetric, since floor {i} moves under a force at floor {j} as {j} under one at {i}; found {one:e} in row {i}, column {j} and {other:e} in row {j}, column {i}"
+                    ));
+                }
+            }
+            let row = (0..=i).map(|j| 0.5 * (self.at(i, j) + self.at(j, i)));
+            rows.push(row.collect());
+        }
+        let inverse = Given::stiffness_of(rows).ok_or(
+            "is not positive definite: a force would move the building against its direction; give more digits (smaller units of length, or a greater force), or give the stiffness matrix",
+        )?;
+        let mut found = Self::new(n, n);
+        for (i, row) in inverse.into_iter().enumerate() {
+            for (j, value) in row.into_iter().enumerate() {
+                found.add(i, j, value);
+            }
+        }
+        Ok(found)
     }
 
     /// A row or a column of `count` values, or the diagonal of a square matrix that has no other entries.

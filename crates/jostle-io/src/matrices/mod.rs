@@ -21,26 +21,29 @@ pub(crate) struct Matrices {
     pub(crate) damping: Option<Matrix>,
     pub(crate) influence: Option<Matrix>,
     pub(crate) heights: Option<Matrix>,
+    pub(crate) flexibility: Option<Matrix>,
 }
 
 /// Names of the matrices in a NumPy archive.
-pub(crate) const ARRAYS: [[&str; 2]; 5] = [
+pub(crate) const ARRAYS: [[&str; 2]; 6] = [
     ["M", "mass"],
     ["K", "stiffness"],
     ["C", "damping"],
     ["r", "influence"],
     ["h", "heights"],
+    ["F", "flexibility"],
 ];
 
 impl Matrices {
     /// The place of a matrix, in the order of [`ARRAYS`].
-    pub(crate) fn places(&mut self) -> [&mut Option<Matrix>; 5] {
+    pub(crate) fn places(&mut self) -> [&mut Option<Matrix>; 6] {
         [
             &mut self.mass,
             &mut self.stiffness,
             &mut self.damping,
             &mut self.influence,
             &mut self.heights,
+            &mut self.flexibility,
         ]
     }
 }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use jostle::linear::sort_by;
-use jostle::{Damping, Given};
+use jostle::{Damping, Given, Model, Structure};
 
 use super::building::{per_storey, storeys};
 use super::shear::DEFAULT_STOREY_HEIGHT;
@@ -47,7 +47,12 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, base: &Path) -> Rea
 }
 
 fn from_matrices(reader: &mut Reader<'_>, view: &View<'_>, base: &Path) -> Option<Read> {
-    for key in ["mass", "remainder_period"] {
+    for key in [
+        "mass",
+        "remainder_period",
+        "contact_flexibility",
+        "contact_floor",
+    ] {
         if let Some(field) = reader.get(view, key) {
             *reader.bad(&field, "belongs to a building given by its modes") =
                 Some("keep either matrices and ports, or mass, periods and shapes".into());
@@ -254,10 +259,16 @@ fn assemble(
 ) -> Result<Read, String> {
     let named = |name: &str, problem: String| format!("{name} {problem}");
     let missing = |name: &str| format!("have no {name}");
-    let stiffness = matrices
-        .stiffness
-        .as_ref()
-        .ok_or_else(|| missing("stiffness matrix K"))?;
+    let of_flexibility = match &matrices.flexibility {
+        Some(_) if matrices.stiffness.is_some() => {
+            return Err("have both K and F, its inverse; keep one of them".into());
+        }
+        // In units of the file: one over those of K.
+        Some(flexibility) => Some(flexibility.inverse().map_err(|p| named("F", p))?),
+        None => None,
+    };
+    let stiffness = of_flexibility.as_ref().or(matrices.stiffness.as_ref());
+    let stiffness = stiffness.ok_or_else(|| missing("stiffness matrix K, nor its inverse F"))?;
     let mass = matrices
         .mass
         .as_ref()
@@ -404,9 +415,161 @@ const ORTHOGONAL: f64 = 0.05;
 /// What the nearest of the modes left out count more than the others \[–\].
 const NEAREST_COUNT: f64 = 0.85;
 
-/// Floor masses, periods and shapes: K = M (Σ ω² φφᵀ + ω_r² (M⁻¹ − Σ φφᵀ)) M, with one frequency ω_r for all that the modes
-/// leave out.
+/// A building by its modes.
+struct Modes {
+    /// Floor masses \[kg\].
+    mass: Vec<f64>,
+    /// \[m\]
+    storey_heights: Vec<f64>,
+    /// \[s\]
+    periods: Vec<f64>,
+    /// Shapes of unit mass, one per period \[1/√kg\].
+    shapes: Vec<Vec<f64>>,
+}
+
+impl Modes {
+    /// K = M (Σ ω² φφᵀ + ω_r² (M⁻¹ − Σ φφᵀ)) M, with one ω_r² for all that the modes leave out \[1/s²\].
+    fn building(self, rest: f64) -> Given {
+        let mass = &self.mass;
+        let entry = |i: usize, j: usize| {
+            let own = if i == j { rest * mass[i] } else { 0.0 };
+            let modes = self.shapes.iter().zip(&self.periods);
+            let of_modes =
+                modes.map(|(shape, period)| (square(*period) - rest) * shape[i] * shape[j]);
+            own + mass[i] * mass[j] * of_modes.sum::<f64>()
+        };
+        let floors = 0..mass.len();
+        let row = |i: usize| floors.clone().map(|j| entry(i, j)).collect();
+        let rows: Vec<Vec<f64>> = floors.clone().map(row).collect();
+        Given::condensed(self.mass, &rows, self.storey_heights)
+    }
+
+    /// ω_r² with which a floor, from 0, has this flexibility \[m/N\]: (1/m − Σφ²)/(f − Σφ²/ω²).
+    ///
+    /// # Errors
+    /// What is wrong with the flexibility, and what may be done about it.
+    fn rest_of(&self, floor: usize, flexibility: f64) -> Result<f64, (String, &'static str)> {
+        let own = self.shapes.iter().map(|shape| shape[floor].powi(2));
+        let inertia = 1.0 / self.mass[floor] - own.clone().sum::<f64>();
+        if inertia * self.mass[floor] < LEAST_LEFT {
+            let problem =
+                "the modes leave out nothing of this floor, so that it gives way by them alone";
+            return Err((problem.into(), "leave it out"));
+        }
+        let by_modes: f64 = own
+            .zip(&self.periods)
+            .map(|(own, period)| own / square(*period))
+            .sum();
+        if flexibility <= by_modes {
+            return Err((
+                format!(
+                    "floor {} moves {by_modes:.4e} m per newton by the given modes alone, more than {flexibility:.4e} m/N",
+                    floor + 1
+                ),
+                "check units, and that contact_floor is the floor with the unit force, whose displacement counts",
+            ));
+        }
+        Ok(inertia / (flexibility - by_modes))
+    }
+}
+
+/// Least part of the mass of a floor that modes leave out, for its flexibility to say anything about them.
+const LEAST_LEFT: f64 = 1e-6;
+
+/// Sets what modes leave out by the flexibility of the floors that are hit, where files state it.
+pub(super) fn soften_contacts(model: &mut Model, reader: &mut Reader<'_>, view: &View<'_>) {
+    let buildings = reader
+        .get(view, "building")
+        .and_then(|field| field.entries());
+    for (index, field) in buildings.unwrap_or_default().iter().enumerate() {
+        let Some(own) = reader.reopen(field, &[Section::Building, Section::Given]) else {
+            continue;
+        };
+        let Some(stated) = reader.get(&own, "contact_flexibility") else {
+            continue;
+        };
+        let (Some(Structure::Given(_)), Some(flexibility)) = (
+            model.buildings.get(index).map(|own| &own.structure),
+            reader.positive(&stated, Dimension::Flexibility),
+        ) else {
+            continue;
+        };
+        let floor = match reader.get(&own, "contact_floor") {
+            Some(field) => match reader.count(&field) {
+                Some(floor) if (1..=model.buildings[index].floors()).contains(&floor) => floor - 1,
+                Some(_) => {
+                    let floors = model.buildings[index].floors();
+                    reader.bad(&field, format!("must be a floor from 1 to {floors}"));
+                    continue;
+                }
+                None => continue,
+            },
+            None => highest_struck(model, index),
+        };
+        // What was sound when the building was read is read again.
+        let Some(modes) = read_modes(reader, &own) else {
+            continue;
+        };
+        match modes.rest_of(floor, flexibility) {
+            Ok(rest) => model.buildings[index].structure = Structure::Given(modes.building(rest)),
+            Err((problem, remedy)) => *reader.bad(&stated, problem) = Some(remedy.into()),
+        }
+    }
+}
+
+/// The highest floor of a building that a neighbour reaches, from 0; the roof if it has none.
+fn highest_struck(model: &Model, index: usize) -> usize {
+    let heights = model.buildings[index].floor_heights();
+    let roof = heights.last().copied().unwrap_or(0.0);
+    let gaps = model.gaps.iter().map(|gap| gap.between);
+    let beside = gaps
+        .filter(|between| between.contains(&Some(index)))
+        .map(|between| {
+            let others = between
+                .into_iter()
+                .flatten()
+                .filter(|other| *other != index);
+            let roofs =
+                others.filter_map(|other| model.buildings.get(other)?.floor_heights().pop());
+            // A wall reaches every floor.
+            roofs.fold(roof, f64::min)
+        });
+    let reached = beside.reduce(f64::max).unwrap_or(roof);
+    let away = |height: &f64| (height - reached).abs();
+    let nearest = heights.iter().enumerate();
+    let nearest = nearest.min_by(|a, b| away(a.1).total_cmp(&away(b.1)));
+    nearest.map_or(0, |(floor, _)| floor)
+}
+
+/// Floor masses, periods and shapes.
 fn from_modes(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Given> {
+    let modes = read_modes(reader, view)?;
+    let remainder = reader
+        .get(view, "remainder_period")
+        .and_then(|field| reader.positive(&field, Dimension::Time));
+    if let Some(field) = reader.get(view, "contact_flexibility") {
+        reader.positive(&field, Dimension::Flexibility);
+        if remainder.is_some() {
+            *reader.bad(&field, "cannot be combined with remainder_period") = Some(
+                "keep the one that you know; the flexibility decides the force of an impact".into(),
+            );
+        }
+    } else if let Some(field) = reader.get(view, "contact_floor") {
+        *reader.bad(&field, "needs contact_flexibility") =
+            Some("add contact_flexibility = \"2.1e-8 m/N\", its displacement per unit force, or leave it out".into());
+    }
+    let last = modes.periods.iter().copied().fold(f64::INFINITY, f64::min);
+    let usual = || last * usual_remainder(modes.periods.len(), modes.mass.len());
+    let rest = square(remainder.unwrap_or_else(usual));
+    Some(modes.building(rest))
+}
+
+/// Square of the circular frequency of a period.
+fn square(period: f64) -> f64 {
+    (std::f64::consts::TAU / period).powi(2)
+}
+
+fn read_modes(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Modes> {
     for key in ["matrices", "ports", "units"] {
         if let Some(field) = reader.get(view, key) {
             *reader.bad(&field, "belongs to a building given by matrices") =
@@ -447,9 +610,6 @@ fn from_modes(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Given> {
             None
         }
     };
-    let remainder = reader
-        .get(view, "remainder_period")
-        .and_then(|field| reader.positive(&field, Dimension::Time));
     let (mass, storey_heights, periods) = (mass?, storey_heights?, periods?);
     let (shapes, field) = shapes?;
     let shapes = shapes?;
@@ -476,26 +636,12 @@ fn from_modes(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Given> {
             return None;
         }
     };
-    let square = |period: f64| (std::f64::consts::TAU / period).powi(2);
-    let last = periods
-        .iter()
-        .fold(f64::INFINITY, |least, period| least.min(*period));
-    let usual = || last * usual_remainder(periods.len(), mass.len());
-    let rest = square(remainder.unwrap_or_else(usual));
-    let rows: Vec<Vec<f64>> = (0..mass.len())
-        .map(|i| {
-            (0..mass.len())
-                .map(|j| {
-                    let own = if i == j { rest * mass[i] } else { 0.0 };
-                    let modes = shapes.iter().zip(&periods);
-                    let of_modes =
-                        modes.map(|(shape, period)| (square(*period) - rest) * shape[i] * shape[j]);
-                    own + mass[i] * mass[j] * of_modes.sum::<f64>()
-                })
-                .collect()
-        })
-        .collect();
-    Some(Given::condensed(mass, &rows, storey_heights))
+    Some(Modes {
+        mass,
+        storey_heights,
+        periods,
+        shapes,
+    })
 }
 
 /// Period of what so many modes of a building of so many floors leave out, over the last of their periods: from the modes that a

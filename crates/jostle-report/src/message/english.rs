@@ -554,6 +554,8 @@ messages! {
     hinges_title = "Hinges";
     yielded_yielded(yielded) = "{yielded} yielded";
     of_cracked(cracked, springs) = "{cracked} of {springs} cracked";
+    links_title = "Links";
+    of_links_between_floors(links) = "of {links} between floors";
     mass_times_the_first_lateral = "mass times the first lateral mode shape, uncracked";
     mass = "mass";
     mass_times_height = "mass times height";

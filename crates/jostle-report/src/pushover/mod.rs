@@ -88,7 +88,7 @@ fn direction(one: &PushedBuilding, curve: &Pushover) -> String {
 /// Key figures.
 fn verdict(one: &PushedBuilding) -> String {
     let name = &one.building.name;
-    if one.building.equations.springs.is_empty() {
+    if one.is_elastic() {
         return message::has_no_hinges_it(name);
     }
     let weakest = one
@@ -223,6 +223,13 @@ fn tiles(one: &PushedBuilding, curve: &Pushover) -> Markup {
         message::yielded_yielded(yielded),
         message::of_cracked(cracked, springs),
     ));
+    if one.links() > 0 {
+        tiles.push((
+            message::links_title(),
+            message::yielded_yielded(curve.links_yielded(springs)),
+            message::of_links_between_floors(one.links()),
+        ));
+    }
     html! {
         div.tiles {
             @for (name, value, note) in &tiles {

@@ -126,11 +126,13 @@ fn curve(one: &PushedBuilding, curve: &Pushover) -> Value {
     let mut stages = vec![[None::<f64>; 2]; system.equations.springs.len()];
     for point in &curve.points {
         for event in &point.events {
+            // Links between floors are not drawn.
+            let Some(stage) = stages.get_mut(event.spring) else {
+                continue;
+            };
             match event.kind {
-                PushEventKind::Cracks => stages[event.spring][0] = Some(point.roof),
-                PushEventKind::Yields | PushEventKind::Fails => {
-                    stages[event.spring][1] = Some(point.roof);
-                }
+                PushEventKind::Cracks => stage[0] = Some(point.roof),
+                PushEventKind::Yields | PushEventKind::Fails => stage[1] = Some(point.roof),
                 PushEventKind::Turns => {}
             }
         }

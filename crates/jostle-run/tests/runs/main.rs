@@ -1,6 +1,8 @@
 //! Runs from model files, and what they report.
 
 mod comparison;
+mod given;
+mod indentation;
 mod member_capacity;
 mod registry;
 mod shear_failure;

@@ -239,6 +239,16 @@ impl Hysteresis {
         }
     }
 
+    /// A spring of this stiffness \[N/m or N·m/rad\] that never yields.
+    ///
+    /// # Errors
+    /// A stiffness that is not positive.
+    pub fn elastic(stiffness: f64) -> Result<Self, Vec<SpringFault>> {
+        let corners = Corners::bilinear(1.0, 1.0);
+        let backbone = Backbone::from_deformations(stiffness, corners, corners)?;
+        Self::new(HysteresisRule::Elastic, backbone)
+    }
+
     /// An elastic stop of this stiffness \[N/m\] behind a clearance \[m\] on a side.
     ///
     /// # Errors

@@ -1,5 +1,7 @@
 //! A building described by its matrices.
 
+use crate::linear::cholesky::Cholesky;
+
 /// Row and column of the lower triangle of a symmetric matrix, counted from 0, row ≥ column, and the value; values given
 /// several times are summed.
 pub type MatrixEntry = (usize, usize, f64);
@@ -61,6 +63,29 @@ impl Given {
             mass,
             storey_heights,
         }
+    }
+
+    /// The stiffness matrix of floors whose displacements under a unit force at each are known, by the rows of its lower triangle
+    /// \[m/N\]: the inverse, all of its rows \[N/m\]. `None` if that matrix is not positive definite.
+    ///
+    /// ```
+    /// // Two storeys of 60 MN/m.
+    /// let rows = jostle::Given::stiffness_of(vec![vec![1.0 / 60e6], vec![1.0 / 60e6, 2.0 / 60e6]]);
+    /// assert!((rows.expect("definite")[1][0] + 60e6).abs() < 1.0);
+    /// ```
+    #[must_use]
+    pub fn stiffness_of(flexibility: Vec<Vec<f64>>) -> Option<Vec<Vec<f64>>> {
+        let n = flexibility.len();
+        let factor = Cholesky::new(flexibility)?;
+        let unit = |row: usize| (0..n).map(|k| if k == row { 1.0 } else { 0.0 }).collect();
+        let mut columns: Vec<Vec<f64>> = (0..n).map(unit).collect();
+        factor.solve(&mut columns);
+        let mean = |i: usize, j: usize| 0.5 * (columns[i][j] + columns[j][i]);
+        Some(
+            (0..n)
+                .map(|i| (0..n).map(|j| mean(i, j)).collect())
+                .collect(),
+        )
     }
 
     /// Number of displacements.

@@ -1,6 +1,6 @@
 //! How the force of a link follows from its change of length.
 
-use crate::hysteresis::Hysteresis;
+use crate::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule, Side};
 
 /// Law of a link; Δ is its shortening since rest, a force in compression is positive.
 ///
@@ -40,6 +40,9 @@ pub enum LinkLaw {
     },
 }
 
+/// Least clearance of a cable or a stopper in a static analysis \[m\].
+const LEAST_CLEARANCE: f64 = 1e-15;
+
 impl LinkLaw {
     /// Names of all laws in model files, in the order of the documentation.
     pub const NAMES: [&str; 7] = [
@@ -57,6 +60,31 @@ impl LinkLaw {
             Self::Yielding(_) => "yielding",
             Self::Cable { .. } => "cable",
             Self::Stopper { .. } => "stopper",
+        }
+    }
+
+    /// What resists a slow change of length beside a spring of this stiffness \[N/m\], compression being positive; `None` of
+    /// dashpots, and of springs without stiffness.
+    #[must_use]
+    pub fn slow_spring(&self, stiffness: f64) -> Option<Hysteresis> {
+        // A clearance far below the size of an atom stands for none.
+        let stop = |clearance: f64, side| {
+            Hysteresis::stop(stiffness, clearance.max(LEAST_CLEARANCE), side).ok()
+        };
+        match *self {
+            Self::Linear => Hysteresis::elastic(stiffness).ok(),
+            Self::Friction {
+                slip_force,
+                stick_stiffness,
+            } => {
+                let corners = Corners::bilinear(slip_force, 0.0);
+                let backbone = Backbone::from_forces(stick_stiffness, corners, corners).ok()?;
+                Hysteresis::new(HysteresisRule::Bilinear, backbone).ok()
+            }
+            Self::Yielding(hysteresis) => Some(hysteresis),
+            Self::Cable { slack } => stop(slack, Side::Negative),
+            Self::Stopper { gap } => stop(gap, Side::Positive),
+            Self::Viscous { .. } | Self::Maxwell => None,
         }
     }
 

@@ -8,8 +8,11 @@ pub use bilinear::Bilinear;
 pub use equivalent::EquivalentOscillator;
 pub use pattern::LoadPattern;
 
-use crate::hysteresis::{HysteresisMemory, Side, Stage};
+use std::collections::BTreeSet;
+
+use crate::hysteresis::{Hysteresis, HysteresisMemory, Side, Stage};
 use crate::statics::{EquilibriumPath, PathError, STANDARD_GRAVITY};
+use crate::structure::{InnerLink, StepEquations};
 use crate::system::BuildingSystem;
 
 /// Direction of the load.
@@ -66,7 +69,7 @@ impl Default for PushSettings {
 /// Event of a spring at a point of the curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PushEvent {
-    /// Index in [`crate::structure::Equations::springs`].
+    /// Index in [`crate::structure::Equations::springs`]; beyond these, links between floors that have a spring.
     pub spring: usize,
     /// What.
     pub kind: PushEventKind,
@@ -204,6 +207,16 @@ impl Pushover {
             .map(|least| stages.iter().filter(|stage| **stage >= least).count())
     }
 
+    /// Number of links between floors that have yielded, or whose gap or slack has closed, at the end; `springs` of the building
+    /// stand before them.
+    #[must_use]
+    pub fn links_yielded(&self, springs: usize) -> usize {
+        let events = self.points.iter().flat_map(|point| &point.events);
+        let yielded = events.filter(|event| event.kind == PushEventKind::Yields);
+        let links = yielded.filter_map(|event| event.spring.checked_sub(springs));
+        links.collect::<BTreeSet<usize>>().len()
+    }
+
     /// Number of shear springs of columns that fail, up to the end.
     #[must_use]
     pub fn failures(&self) -> usize {
@@ -240,7 +253,10 @@ impl Pushover {
                 PushEventKind::Yields => Stage::Yielded,
                 PushEventKind::Turns | PushEventKind::Fails => continue,
             };
-            stages[event.spring] = stages[event.spring].max(stage);
+            // Links beyond the springs of the building.
+            if let Some(own) = stages.get_mut(event.spring) {
+                *own = stage.max(*own);
+            }
         }
         stages
     }
@@ -256,11 +272,33 @@ pub struct PushedBuilding<'a> {
 }
 
 impl PushedBuilding<'_> {
+    /// Number of links between floors that resist.
+    #[must_use]
+    pub fn links(&self) -> usize {
+        links(self.building).count()
+    }
+
+    /// Whether nothing in it has a corner, so that its curve is a straight line.
+    #[must_use]
+    pub fn is_elastic(&self) -> bool {
+        let bends = |spring: Hysteresis| {
+            let reach = |side| spring.next_corner(&HysteresisMemory::default(), side);
+            Side::BOTH.into_iter().any(|side| reach(side).is_finite())
+        };
+        let links = links(self.building).any(|(_, spring)| bends(spring));
+        self.building.equations.springs.is_empty() && !links
+    }
+
     /// Position of a spring as text.
     #[must_use]
     pub fn place(&self, spring: usize) -> String {
         let places = &self.building.discretization.spring_places;
         let named = places.get(spring).map(ToString::to_string);
+        let link = || {
+            let link = spring - self.building.equations.springs.len();
+            links(self.building).nth(link).map(|(link, _)| link.place())
+        };
+        let named = named.or_else(link);
         named.unwrap_or_else(|| format!("spring {}", spring + 1))
     }
 }
@@ -276,11 +314,6 @@ pub enum CannotPush {
         "bearings under a building with a plan that yield or slide in every direction, and their ring stop, have no pushover; remove isolation to push the building fixed on its mat, or take kind = \"linear\" without stop"
     )]
     BearingsInPlan,
-    /// Braces and infills that are links between floors are no part of the path of equilibrium.
-    #[error(
-        "springs of links between its floors take part of the load, and a pushover does not follow them; add their stiffness to the storeys or members, or remove the links to push the building without them"
-    )]
-    LinksBetweenFloors,
 }
 
 /// Runs a pushover of a building from rest, under self weight if included, with prescribed roof displacement
@@ -293,9 +326,6 @@ pub fn pushover(building: &BuildingSystem, settings: PushSettings) -> Result<Pus
     if equations.single_springs < equations.springs.len() {
         return Err(CannotPush::BearingsInPlan);
     }
-    if building.inner_links.iter().any(|link| link.resists) {
-        return Err(CannotPush::LinksBetweenFloors);
-    }
     if let Some(alone) = building.without_neighbours() {
         return pushover(&alone, settings);
     }
@@ -307,45 +337,71 @@ pub fn pushover(building: &BuildingSystem, settings: PushSettings) -> Result<Pus
     let roof = building.floors.last().ok_or(CannotPush::Nothing)?;
     let driven = roof.dof - building.offset;
     let pattern: Vec<f64> = forces.iter().map(|force| sign * force).collect();
-    let mut push = Push {
-        building,
-        sign,
-        walk: EquilibriumPath::driven(building, &building.rest, pattern, driven),
-        stages: Vec::new(),
-        points: Vec::new(),
-    };
     let target = settings.drift * roof.height;
-    push.start();
-    let end = push.go(target);
+    let rest = &building.rest;
+    let (points, end) = if links(building).next().is_some() {
+        let path = EquilibriumPath::driven_with_links(building, rest, pattern, driven);
+        Push::along(building, sign, path, target)
+    } else {
+        let path = EquilibriumPath::driven(building, rest, pattern, driven);
+        Push::along(building, sign, path, target)
+    };
     Ok(Pushover {
         settings,
         height: roof.height,
         weight: STANDARD_GRAVITY * mass_above_base(building),
         floor_loads: floor_loads(building, &forces),
-        points: push.points,
+        points,
         end,
     })
+}
+
+/// Links between floors that resist a pushover, with their springs.
+fn links(building: &BuildingSystem) -> impl Iterator<Item = (&InnerLink, Hysteresis)> {
+    let links = building.inner_links.iter();
+    links.filter_map(|link| Some((link, link.spring?)))
 }
 
 /// Part of the target in which strengths that fall with ductility follow it \[–\].
 const WEAKENING_PART: f64 = 1.0 / 400.0;
 
 /// State of a pushover.
-struct Push<'a> {
+struct Push<'a, E: StepEquations> {
     building: &'a BuildingSystem,
     sign: f64,
-    walk: EquilibriumPath,
+    walk: EquilibriumPath<E>,
+    /// Of the springs of the building, then of links.
+    springs: Vec<Hysteresis>,
     stages: Vec<Stage>,
     points: Vec<PushPoint>,
 }
 
-impl Push<'_> {
-    fn start(&mut self) {
-        let springs = self.building.equations.springs.len();
-        self.stages = vec![Stage::Uncracked; springs];
-        let all: Vec<usize> = (0..springs).collect();
-        let events = self.events_of(&all, false);
-        self.note(0.0, events);
+impl<'a, E: StepEquations> Push<'a, E> {
+    /// The points of the curve up to a target of the roof \[m\], and why it ended.
+    fn along(
+        building: &'a BuildingSystem,
+        sign: f64,
+        walk: EquilibriumPath<E>,
+        target: f64,
+    ) -> (Vec<PushPoint>, PushEnd) {
+        let own = building.equations.springs.iter();
+        let own = own.map(|spring| spring.hysteresis);
+        let springs: Vec<Hysteresis> = own
+            .chain(links(building).map(|(_, spring)| spring))
+            .collect();
+        let all: Vec<usize> = (0..springs.len()).collect();
+        let mut push = Self {
+            building,
+            sign,
+            walk,
+            stages: vec![Stage::Uncracked; springs.len()],
+            springs,
+            points: Vec::new(),
+        };
+        let events = push.events_of(&all, false);
+        push.note(0.0, events);
+        let end = push.go(target);
+        (push.points, end)
     }
 
     fn go(&mut self, target: f64) -> PushEnd {
@@ -424,8 +480,7 @@ impl Push<'_> {
 
     /// Whether a spring loses its strength.
     fn falls(&self, spring: usize) -> bool {
-        let spring = &self.building.equations.springs[spring];
-        spring.hysteresis.falling_branch().is_some()
+        self.springs[spring].falling_branch().is_some()
     }
 
     /// Springs whose strength has fallen to the force that they bear.
@@ -433,10 +488,9 @@ impl Push<'_> {
         if self.building.weakening.is_empty() {
             return Vec::new();
         }
-        let springs = self.building.equations.springs.iter();
-        let known = springs.zip(self.walk.memories()).enumerate();
+        let known = self.springs.iter().zip(self.walk.memories()).enumerate();
         let weaker = known.filter_map(|(index, (spring, memory))| {
-            let [failure, _] = spring.hysteresis.failure_corners(memory)?;
+            let [failure, _] = spring.failure_corners(memory)?;
             let bears = memory.force().abs() * (1.0 + 1e-12) >= failure.force;
             (bears && self.stages[index] < Stage::Yielded).then_some(index)
         });
@@ -453,7 +507,7 @@ impl Push<'_> {
 
     /// A spring on its corner counts as beyond it.
     fn stage_reached(&self, spring: usize, memory: &HysteresisMemory) -> Stage {
-        let hysteresis = &self.building.equations.springs[spring].hysteresis;
+        let hysteresis = &self.springs[spring];
         if self.falls(spring) {
             return hysteresis.stage(memory);
         }

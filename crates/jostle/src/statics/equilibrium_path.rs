@@ -1,10 +1,11 @@
 //! Equilibrium path of a building from corner to corner, under a growing load or a prescribed displacement.
 
 use super::Settled;
-use crate::hysteresis::{Backbone, Corners, Hysteresis, HysteresisMemory, HysteresisRule, Side};
+use crate::hysteresis::{Hysteresis, HysteresisMemory, Side};
 use crate::linear::{NotPositive, StepMatrix};
-use crate::structure::{AssembledBuilding, Equations, StepEquations, YieldingSpring};
-use crate::transfer::riccati::{RiccatiFactor, RiccatiScratch, RiccatiSweep};
+use crate::stiffness::DirectStiffness;
+use crate::structure::{AssembledBuilding, StepEquations, YieldingSpring};
+use crate::transfer::riccati::RiccatiSweep;
 
 /// Why a path ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -33,12 +34,15 @@ pub struct Reached {
 ///
 /// Either λ grows at rate one, or the displacement of one degree of freedom does, with any λ. So the path continues
 /// beyond its peak, as long as the building is stable with that displacement restrained.
-#[derive(Clone, Debug)]
-pub struct EquilibriumPath {
-    equations: Equations,
-    sweep: RiccatiSweep,
-    factor: RiccatiFactor,
-    scratch: RiccatiScratch,
+///
+/// `E` solves the equations: the Riccati recursion, or direct stiffness where links join floors that are not neighbours.
+#[derive(Debug)]
+pub struct EquilibriumPath<E: StepEquations = RiccatiSweep> {
+    /// Those of the building, then those of links between its floors.
+    springs: Vec<PathSpring>,
+    equations: E,
+    factor: E::Factor,
+    scratch: E::Scratch,
     /// Slopes in `factor`; empty before the first factorisation.
     tangents: Vec<f64>,
     /// Prescribed displacement, with the spring that restrains it while the equations are solved.
@@ -56,6 +60,30 @@ pub struct EquilibriumPath {
     corners: usize,
 }
 
+/// A spring that yields.
+#[derive(Clone, Debug)]
+struct PathSpring {
+    /// How displacements deform it: degree of freedom and share.
+    row: Vec<(usize, f64)>,
+    hysteresis: Hysteresis,
+}
+
+impl PathSpring {
+    fn deformation(&self, displacement: &[f64]) -> f64 {
+        let row = self.row.iter();
+        row.map(|(dof, share)| share * displacement[*dof]).sum()
+    }
+}
+
+impl From<&YieldingSpring> for PathSpring {
+    fn from(spring: &YieldingSpring) -> Self {
+        Self {
+            row: spring.row().collect(),
+            hysteresis: spring.hysteresis,
+        }
+    }
+}
+
 /// Rates below this fraction of the greatest one count as zero.
 const STILL: f64 = 1e-11;
 /// Corners closer than this fraction of the yield deformation are reached together.
@@ -67,9 +95,14 @@ impl EquilibriumPath {
     /// From rest, λ growing from zero; `pattern` is p₁ \[N, N·m\].
     #[must_use]
     pub fn loaded(building: &AssembledBuilding, pattern: Vec<f64>) -> Self {
+        let springs: Vec<PathSpring> = own_springs(building);
         let n = building.equations.len();
-        let memories = vec![HysteresisMemory::default(); building.equations.springs.len()];
-        Self::new(building, pattern, vec![0.0; n], memories, None)
+        let memories = vec![HysteresisMemory::default(); springs.len()];
+        let rest = Settled {
+            displacement: vec![0.0; n],
+            springs: memories,
+        };
+        Self::new(RiccatiSweep::new(building), springs, pattern, rest, None)
     }
 
     /// From the building at rest, with one prescribed displacement; `pattern` is p₁ \[N, N·m\]. The prescribed
@@ -81,48 +114,58 @@ impl EquilibriumPath {
         pattern: Vec<f64>,
         dof: usize,
     ) -> Self {
-        let equations = &building.equations;
-        let mut displacement = rest.displacement.clone();
-        displacement.resize(equations.len(), 0.0);
-        let mut memories = rest.springs.clone();
-        memories.resize(equations.springs.len(), HysteresisMemory::default());
-        let hold = equations.stiffness.diagonal[dof] + equations.undamped.diagonal[dof].abs();
-        let springs = equations.springs.iter();
-        let yielding: f64 = springs
-            .filter(|spring| spring.dofs.contains(&Some(dof)))
-            .map(|spring| spring.hysteresis.initial_tangent())
-            .sum();
-        Self::new(
-            building,
-            pattern,
-            displacement,
-            memories,
-            Some((dof, hold + yielding)),
-        )
+        let hold = holding(building, dof);
+        // The restraining spring is the last of the list.
+        let mut held = building.clone();
+        held.equations.springs.extend(holding_spring(dof, hold));
+        let sweep = RiccatiSweep::new(&held);
+        let springs = own_springs(building);
+        Self::new(sweep, springs, pattern, rest.clone(), Some((dof, hold)))
     }
+}
 
-    fn new(
+impl EquilibriumPath<DirectStiffness> {
+    /// The same for a building with links between its floors, which are free of force at rest.
+    #[must_use]
+    pub fn driven_with_links(
         building: &AssembledBuilding,
+        rest: &Settled,
         pattern: Vec<f64>,
-        displacement: Vec<f64>,
-        memories: Vec<HysteresisMemory>,
+        dof: usize,
+    ) -> Self {
+        let hold = holding(building, dof);
+        let links = building.inner_links.iter().filter_map(|link| {
+            Some(PathSpring {
+                row: link.shortening.clone(),
+                hysteresis: link.spring?,
+            })
+        });
+        let links: Vec<PathSpring> = links.collect();
+        let rows = links.iter().map(|link| link.row.clone());
+        let rows: Vec<_> = rows.chain([vec![(dof, 1.0)]]).collect();
+        let equations = DirectStiffness::with_rows(building, &rows);
+        let springs = own_springs(building).into_iter().chain(links).collect();
+        Self::new(equations, springs, pattern, rest.clone(), Some((dof, hold)))
+    }
+}
+
+impl<E: StepEquations> EquilibriumPath<E> {
+    fn new(
+        equations: E,
+        springs: Vec<PathSpring>,
+        pattern: Vec<f64>,
+        rest: Settled,
         driven: Option<(usize, f64)>,
     ) -> Self {
-        let count = memories.len();
-        let sweep = match driven.and_then(|(dof, hold)| holding_spring(dof, hold)) {
-            Some(spring) => {
-                // The restraining spring is the last of the list.
-                let mut held = building.clone();
-                held.equations.springs.push(spring);
-                RiccatiSweep::new(&held)
-            }
-            None => RiccatiSweep::new(building),
-        };
+        let (mut displacement, mut memories) = (rest.displacement, rest.springs);
+        displacement.resize(pattern.len(), 0.0);
+        memories.resize(springs.len(), HysteresisMemory::default());
+        let count = springs.len();
         Self {
-            equations: building.equations.clone(),
-            sweep,
-            factor: RiccatiFactor::default(),
-            scratch: RiccatiScratch::default(),
+            springs,
+            equations,
+            factor: E::Factor::default(),
+            scratch: E::Scratch::default(),
             tangents: Vec::new(),
             driven,
             rates: vec![0.0; displacement.len()],
@@ -172,7 +215,7 @@ impl EquilibriumPath {
     /// # Errors
     /// [`PathError::GivesWay`] or [`PathError::Undecided`].
     pub fn find_rates(&mut self) -> Result<(), PathError> {
-        let springs = self.equations.springs.iter().zip(&self.memories);
+        let springs = self.springs.iter().zip(&self.memories);
         for ((spring, memory), ahead) in springs.zip(&mut self.ahead) {
             *ahead = Side::BOTH.map(|side| slope_ahead(&spring.hysteresis, memory, side));
         }
@@ -251,7 +294,6 @@ impl EquilibriumPath {
     pub fn advance(&mut self, most: f64) -> Result<Reached, PathError> {
         let mut length = most;
         for ((spring, memory), rate) in self
-            .equations
             .springs
             .iter()
             .zip(&self.memories)
@@ -265,7 +307,7 @@ impl EquilibriumPath {
             }
         }
         let mut corners = Vec::new();
-        let springs = self.equations.springs.iter().zip(&mut self.memories);
+        let springs = self.springs.iter().zip(&mut self.memories);
         for (index, ((spring, memory), rate)) in springs.zip(&self.spring_rates).enumerate() {
             if *rate == 0.0 {
                 continue;
@@ -304,12 +346,12 @@ impl EquilibriumPath {
             .filter(|&spring| self.tangents.get(spring) != Some(&wanted[spring]))
             .collect();
         let done = if self.tangents.is_empty() {
-            self.sweep
+            self.equations
                 .factorize(&StepMatrix::STATIC, &wanted, &mut self.factor)
         } else if changed.is_empty() {
             Ok(())
         } else {
-            self.sweep
+            self.equations
                 .update(&StepMatrix::STATIC, &wanted, &changed, &mut self.factor)
         };
         self.tangents = if done.is_ok() { wanted } else { Vec::new() };
@@ -319,7 +361,7 @@ impl EquilibriumPath {
     /// Rates for the factorised slopes.
     fn solve(&mut self) {
         self.rates.copy_from_slice(&self.pattern);
-        self.sweep
+        self.equations
             .solve(&self.factor, &mut self.rates, &mut self.scratch);
         self.load_rate = 1.0;
         if let Some((dof, hold)) = self.driven {
@@ -327,13 +369,14 @@ impl EquilibriumPath {
             let sign = self.pattern_sign();
             let mut held = vec![0.0; self.rates.len()];
             held[dof] = sign * hold;
-            self.sweep.solve(&self.factor, &mut held, &mut self.scratch);
+            self.equations
+                .solve(&self.factor, &mut held, &mut self.scratch);
             self.load_rate = (sign - held[dof]) / self.rates[dof];
             for (rate, held) in self.rates.iter_mut().zip(&held) {
                 *rate = self.load_rate * *rate + held;
             }
         }
-        let springs = self.equations.springs.iter();
+        let springs = self.springs.iter();
         for (rate, spring) in self.spring_rates.iter_mut().zip(springs) {
             *rate = spring.deformation(&self.rates);
         }
@@ -346,14 +389,33 @@ impl EquilibriumPath {
     }
 }
 
+fn own_springs(building: &AssembledBuilding) -> Vec<PathSpring> {
+    building
+        .equations
+        .springs
+        .iter()
+        .map(PathSpring::from)
+        .collect()
+}
+
+/// Stiffness of a spring that restrains a displacement while the equations are solved: that of what is joined there.
+fn holding(building: &AssembledBuilding, dof: usize) -> f64 {
+    let equations = &building.equations;
+    let hold = equations.stiffness.diagonal[dof] + equations.undamped.diagonal[dof].abs();
+    let springs = equations.springs.iter();
+    let yielding: f64 = springs
+        .filter(|spring| spring.dofs.contains(&Some(dof)))
+        .map(|spring| spring.hysteresis.initial_tangent())
+        .sum();
+    hold + yielding
+}
+
 /// An elastic spring to the ground.
 fn holding_spring(dof: usize, stiffness: f64) -> Option<YieldingSpring> {
-    let corners = Corners::bilinear(1.0, 1.0);
-    let backbone = Backbone::from_deformations(stiffness, corners, corners).ok()?;
     Some(YieldingSpring {
         dofs: [Some(dof), None],
         levers: [None; 2],
-        hysteresis: Hysteresis::new(HysteresisRule::Elastic, backbone).ok()?,
+        hysteresis: Hysteresis::elastic(stiffness).ok()?,
         damped_by_tangent: false,
         carries_base_shear: false,
     })

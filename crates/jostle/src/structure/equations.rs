@@ -67,6 +67,13 @@ pub struct YieldingSpring {
 }
 
 impl YieldingSpring {
+    /// How displacements deform it: degree of freedom and share.
+    pub(crate) fn row(&self) -> impl Iterator<Item = (usize, f64)> {
+        let ends = self.dofs.into_iter().zip([1.0, -1.0]);
+        let ends = ends.filter_map(|(dof, sign)| Some((dof?, sign)));
+        ends.chain(self.levers.into_iter().flatten())
+    }
+
     /// Deformation under displacements of the building \[rad or m\].
     #[must_use]
     #[inline]

@@ -1,4 +1,6 @@
-//! Links between floors of one building, as far as its storey forces and modes follow from them.
+//! Links between floors of one building, as far as its storey forces, modes and capacity curve follow from them.
+
+use crate::hysteresis::Hysteresis;
 
 /// A link between two floors of a building, or a floor and its base: a brace, an infill, a device.
 #[derive(Clone, Debug, PartialEq)]
@@ -9,8 +11,10 @@ pub struct InnerLink {
     pub shortening: Vec<(usize, f64)>,
     /// Initial stiffness, ≥ 0; zero of one that takes no static load \[N/m\].
     pub stiffness: f64,
-    /// Whether it resists a slow change of length.
-    pub resists: bool,
+    /// What resists a slow change of length, compression being positive.
+    pub spring: Option<Hysteresis>,
+    /// Floors that it joins, from 1; 0 is the base.
+    pub floors: [usize; 2],
     /// Force per rate of shortening of one with a linear dashpot beside its spring, otherwise 0 \[N·s/m\].
     pub damping: f64,
     /// Heights of its ends above the base \[m\], and how its compression counts among the restoring forces there, 1 or −1; an end
@@ -23,6 +27,15 @@ impl InnerLink {
     #[must_use]
     pub fn of_base(&self) -> f64 {
         self.ends.iter().map(|(_, sign)| sign).sum()
+    }
+
+    /// In words, for the corners of its spring.
+    #[must_use]
+    pub fn place(&self) -> String {
+        match self.floors {
+            [0, floor] | [floor, 0] => format!("link between the base and floor {floor}"),
+            [one, other] => format!("link between floors {one} and {other}"),
+        }
     }
 
     /// How much shorter displacements make it, or its rate for velocities \[m, m/s\].

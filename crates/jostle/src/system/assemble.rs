@@ -597,13 +597,8 @@ fn inner_links(
                     })
                     .collect(),
                 stiffness: link.initial_stiffness(),
-                resists: match link.law {
-                    LinkLaw::Linear | LinkLaw::Cable { .. } | LinkLaw::Stopper { .. } => {
-                        link.stiffness > 0.0
-                    }
-                    LinkLaw::Friction { .. } | LinkLaw::Yielding(_) => true,
-                    LinkLaw::Viscous { .. } | LinkLaw::Maxwell => false,
-                },
+                spring: link.law.slow_spring(link.stiffness),
+                floors: ports.floors().map(|floor| floor.unwrap_or(0)),
                 damping: if link.law == LinkLaw::Linear {
                     link.damping
                 } else {

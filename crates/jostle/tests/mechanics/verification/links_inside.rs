@@ -1,9 +1,10 @@
 //! Braces and dampers between floors of one building count in everything that is named for the whole building.
 
-use jostle::pushover::{CannotPush, PushSettings, pushover};
+use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
+use jostle::pushover::{PushDirection, PushEnd, PushSettings, PushedBuilding, pushover};
 use jostle::{
-    Axial, Column, Damping, FloorPairs, LawKind, Link, LinkLaw, Model, Outcome, Plan, Solver,
-    Structure, Summary, System, eigen,
+    Axial, Column, Damping, FloorPairs, Hinges, LawKind, Link, LinkLaw, Model, Outcome, Plan,
+    Solver, Structure, Summary, System, eigen,
 };
 use jostle_testkit::models::UNDAMPED;
 
@@ -292,23 +293,167 @@ fn modes_of_braced_frames_have_the_energy_of_braces() {
     }
 }
 
-/// A pushover of a building whose braces it cannot follow is refused; dashpots do not resist it.
-#[test]
-fn a_pushover_does_not_leave_braces_out() {
-    let five = Damping::Ratio {
+fn five() -> Damping {
+    Damping::Ratio {
         ratio: 0.05,
         modes: Vec::new(),
+    }
+}
+
+/// A pushover of storeys of 40 MN/m with braces of 80 MN/m is that of storeys of 120 MN/m; dashpots do not resist it.
+#[test]
+fn a_pushover_counts_braces() {
+    let push = |storeys: f64, links: Vec<Link>| {
+        let mut model = alone(five(), links);
+        let Structure::Shear(shear) = &mut model.buildings[0].structure else {
+            panic!("a tower is a shear building")
+        };
+        shear.stiffness = vec![storeys; 4];
+        let system = assembled(&model);
+        pushover(&system.buildings[0], PushSettings::default()).expect("a curve")
     };
-    let push = |link: Link| {
-        let system = assembled(&alone(five.clone(), vec![link]));
-        pushover(&system.buildings[0], PushSettings::default())
+    let plain = push(12e7, Vec::new());
+    for braced in [
+        push(4e7, vec![braces(&STOREYS, 8e7, 0.0)]),
+        push(12e7, vec![braces(&STOREYS, 0.0, 1e6)]),
+    ] {
+        assert_eq!(braced.points.len(), plain.points.len());
+        for (one, other) in braced.points.iter().zip(&plain.points) {
+            assert!((one.base_shear - other.base_shear).abs() <= 1e-9 * other.base_shear);
+            for (a, b) in one.floors.iter().zip(&other.floors) {
+                assert!((a - b).abs() <= 1e-9 * b.abs());
+            }
+        }
+    }
+}
+
+/// At every corner of the curve the forces of storeys and links, each from its own law and its change of length, bear the load; links
+/// over several storeys, of every law that resists, pushed either way.
+#[test]
+fn a_pushover_with_links_is_in_equilibrium() {
+    let yielding = {
+        let corners = Corners::bilinear(2e5, 0.05);
+        let backbone = Backbone::from_forces(5e7, corners, corners).expect("sound");
+        Hysteresis::new(HysteresisRule::Bilinear, backbone).expect("it fits")
     };
-    let braced = push(braces(&STOREYS, 8e7, 0.0));
-    assert_eq!(braced.err(), Some(CannotPush::LinksBetweenFloors));
-    let stopper = Link {
-        law: LinkLaw::Stopper { gap: 0.01 },
-        ..braces(&STOREYS, 8e7, 0.0)
+    let with = |law: LinkLaw, floors: &[(usize, usize)]| {
+        let own = matches!(law, LinkLaw::Friction { .. } | LinkLaw::Yielding(_));
+        Link {
+            law,
+            ..braces(floors, if own { 0.0 } else { 6e7 }, 0.0)
+        }
     };
-    assert_eq!(push(stopper).err(), Some(CannotPush::LinksBetweenFloors));
-    assert!(push(braces(&STOREYS, 0.0, 1e6)).is_ok());
+    let friction = LinkLaw::Friction {
+        slip_force: 3e5,
+        stick_stiffness: 7e7,
+    };
+    let mut model = alone(
+        five(),
+        vec![
+            with(friction, &[(0, 1)]),
+            with(LinkLaw::Yielding(yielding), &[(1, 2), (1, 3)]),
+            with(LinkLaw::Stopper { gap: 0.01 }, &[(4, 2)]),
+            with(LinkLaw::Cable { slack: 0.0 }, &[(0, 2)]),
+            with(LinkLaw::Cable { slack: 0.008 }, &[(2, 0)]),
+            with(LinkLaw::Linear, &[(0, 4)]),
+        ],
+    );
+    let hinged = Backbone::from_deformations(
+        4e7,
+        Corners::bilinear(0.02, 0.1),
+        Corners::bilinear(0.02, 0.1),
+    );
+    let hinged =
+        Hysteresis::new(HysteresisRule::Bilinear, hinged.expect("sound")).expect("it fits");
+    model.buildings[0].hinges = Some(Hinges::Storeys(vec![hinged; 4]));
+    let system = assembled(&model);
+    let building = &system.buildings[0];
+    let clamped = |stiffness: f64, limit: f64, after: f64, by: f64| {
+        let corner = limit / stiffness;
+        let inside = by.clamp(-corner, corner);
+        stiffness * (inside + after * (by - inside))
+    };
+    for direction in [PushDirection::Right, PushDirection::Left] {
+        let settings = PushSettings {
+            direction,
+            drift: 0.006,
+            ..PushSettings::default()
+        };
+        let curve = pushover(building, settings).expect("a curve");
+        assert_eq!(curve.end, PushEnd::Target);
+        let corners: usize = curve.points.iter().map(|point| point.events.len()).sum();
+        assert!(corners >= 6, "{corners} corners");
+        for point in &curve.points {
+            let at = |floor: usize| match floor {
+                0 => 0.0,
+                floor => point.displacement[building.floors[floor - 1].dof],
+            };
+            let mut force = [0.0; 5];
+            let mut add = |from: usize, to: usize, value: f64| {
+                force[from] -= value;
+                force[to] += value;
+            };
+            for storey in 1..=4 {
+                let drift = at(storey) - at(storey - 1);
+                add(storey - 1, storey, clamped(4e7, 8e5, 0.1, drift));
+            }
+            for link in &building.inner_links {
+                let [from, to] = link.floors;
+                // The first end moves to the right against the second: the link is shorter.
+                let shorter = at(from) - at(to);
+                assert!((link.shortened_by(&point.displacement) - shorter).abs() < 1e-15);
+                let value = match (from, to) {
+                    (0, 1) => clamped(7e7, 3e5, 0.0, shorter),
+                    (1, _) => clamped(5e7, 2e5, 0.05, shorter),
+                    (4, 2) => 6e7 * (shorter - 0.01).max(0.0),
+                    (0, 2) => -6e7 * (-shorter).max(0.0),
+                    (2, 0) => -6e7 * (-shorter - 0.008).max(0.0),
+                    _ => 6e7 * shorter,
+                };
+                add(to, from, value);
+            }
+            for (floor, share) in curve.floor_loads.iter().enumerate() {
+                let load = direction.sign() * share * point.base_shear;
+                assert!(
+                    (load - force[floor + 1]).abs() < 1e-9 * (1e5 + point.base_shear),
+                    "{direction:?}: {load} and {} at {:?}",
+                    force[floor + 1],
+                    point.floors
+                );
+            }
+        }
+    }
+}
+
+/// Corners of links are named.
+#[test]
+fn a_link_that_yields_is_named() {
+    let friction = LinkLaw::Friction {
+        slip_force: 3e5,
+        stick_stiffness: 7e7,
+    };
+    let slider = Link {
+        law: friction,
+        ..braces(&[(0, 1), (1, 3)], 0.0, 0.0)
+    };
+    let system = assembled(&alone(five(), vec![slider]));
+    let building = &system.buildings[0];
+    let curve = pushover(building, PushSettings::default()).expect("a curve");
+    let pushed = PushedBuilding {
+        building,
+        curves: Vec::new(),
+    };
+    let events = curve.points.iter().flat_map(|point| &point.events);
+    let events =
+        events.map(|event| format!("{} {}", pushed.place(event.spring), event.kind.name()));
+    let mut events: Vec<String> = events.collect();
+    events.sort();
+    assert_eq!(
+        events,
+        [
+            "link between floors 1 and 3 yields",
+            "link between the base and floor 1 yields",
+        ]
+    );
+    assert_eq!(curve.counts(0), [0, 0]);
 }
