@@ -633,7 +633,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Isolation, "post_yield", Quantity(D::Dimensionless), "lead-rubber: ratio of post-yield to initial stiffness, at least 0 and below 1."),
     optional(S::Isolation, "radius", Quantity(D::Length), "friction-pendulum: radius of the sliding surface."),
     optional(S::Isolation, "friction", NumberOrTable(S::IsolationFriction), "friction-pendulum: coefficient of friction, or its change with speed."),
-    default(S::Isolation, "slip_displacement", Quantity(D::Length), "\"1 mm\"", "friction-pendulum: displacement at which friction is fully mobilised."),
+    default(S::Isolation, "slip_displacement", Quantity(D::Length), "\"1 mm\"", "friction-pendulum: displacement at which friction is fully mobilised; where it rises with speed, that of fast friction, so that the stiffness before slip is fast × weight / slip_displacement at any speed."),
     default(S::Isolation, "damping", Quantity(D::Damping), "0", "Dashpot beside the bearings."),
     optional(S::Isolation, "damping_ratio", Quantity(D::Dimensionless), "linear: ratio of critical damping of the whole mass on the bearings, instead of damping."),
     optional(S::Isolation, "stop", Kind::Table(S::IsolationStop), "Elastic stops of the mat, or hardening of the bearings; with a plan a ring, the same all round."),

@@ -133,7 +133,7 @@ fn curve(one: &PushedBuilding, curve: &Pushover) -> Value {
             match event.kind {
                 PushEventKind::Cracks => stage[0] = Some(point.roof),
                 PushEventKind::Yields | PushEventKind::Fails => stage[1] = Some(point.roof),
-                PushEventKind::Turns => {}
+                PushEventKind::Closes | PushEventKind::Turns => {}
             }
         }
     }

@@ -10,7 +10,7 @@ pub use pattern::LoadPattern;
 
 use std::collections::BTreeSet;
 
-use crate::hysteresis::{Hysteresis, HysteresisMemory, Side, Stage};
+use crate::hysteresis::{Hysteresis, HysteresisMemory, HysteresisRule, Side, Stage};
 use crate::statics::{EquilibriumPath, PathError, STANDARD_GRAVITY};
 use crate::structure::{InnerLink, StepEquations};
 use crate::system::BuildingSystem;
@@ -84,6 +84,8 @@ pub enum PushEventKind {
     Yields,
     /// A column fails in shear.
     Fails,
+    /// The clearance of a stop, a stopper or a cable is used up.
+    Closes,
     /// Another corner, passed when reloading.
     Turns,
 }
@@ -96,6 +98,7 @@ impl PushEventKind {
             Self::Cracks => "cracks",
             Self::Yields => "yields",
             Self::Fails => "fails",
+            Self::Closes => "closes",
             Self::Turns => "corner",
         }
     }
@@ -207,7 +210,7 @@ impl Pushover {
             .map(|least| stages.iter().filter(|stage| **stage >= least).count())
     }
 
-    /// Number of links between floors that have yielded, or whose gap or slack has closed, at the end; `springs` of the building
+    /// Number of links between floors that have yielded at the end; `springs` of the building
     /// stand before them.
     #[must_use]
     pub fn links_yielded(&self, springs: usize) -> usize {
@@ -251,7 +254,7 @@ impl Pushover {
             let stage = match event.kind {
                 PushEventKind::Cracks => Stage::Cracked,
                 PushEventKind::Yields => Stage::Yielded,
-                PushEventKind::Turns | PushEventKind::Fails => continue,
+                PushEventKind::Turns | PushEventKind::Fails | PushEventKind::Closes => continue,
             };
             // Links beyond the springs of the building.
             if let Some(own) = stages.get_mut(event.spring) {
@@ -466,6 +469,7 @@ impl<'a, E: StepEquations> Push<'a, E> {
             let kind = match stage {
                 Stage::Yielded if self.stages[spring] < stage => match self.falls(spring) {
                     true => PushEventKind::Fails,
+                    false if self.stops(spring) => PushEventKind::Closes,
                     false => PushEventKind::Yields,
                 },
                 Stage::Cracked if self.stages[spring] < stage => PushEventKind::Cracks,
@@ -481,6 +485,11 @@ impl<'a, E: StepEquations> Push<'a, E> {
     /// Whether a spring loses its strength.
     fn falls(&self, spring: usize) -> bool {
         self.springs[spring].falling_branch().is_some()
+    }
+
+    /// Whether a spring is elastic behind a clearance.
+    fn stops(&self, spring: usize) -> bool {
+        matches!(self.springs[spring].rule(), HysteresisRule::Stop { .. })
     }
 
     /// Springs whose strength has fallen to the force that they bear.
@@ -510,6 +519,15 @@ impl<'a, E: StepEquations> Push<'a, E> {
         let hysteresis = &self.springs[spring];
         if self.falls(spring) {
             return hysteresis.stage(memory);
+        }
+        if let HysteresisRule::Stop { side } = hysteresis.rule() {
+            let clearance = hysteresis.backbone().side(side).yielding.deformation;
+            let is_closed = side.sign() * memory.deformation() >= clearance;
+            return if is_closed {
+                Stage::Yielded
+            } else {
+                Stage::Uncracked
+            };
         }
         let stages = Side::BOTH.map(|side| {
             let (curve, greatest) = (hysteresis.backbone().side(side), memory.greatest(side));
