@@ -493,6 +493,9 @@ fn suggest(key: &str, sections: &'static [Section]) -> String {
     if sections == [Section::Beam] && key == "mass" {
         return "the mass on the beams is beam_mass of the building".into();
     }
+    if sections.contains(&Section::Building) && NOT_MEMBERS.contains(&key) {
+        return "what stands between two floors beside columns is a [[building.damper]], without dashpot too: floors = [1, 2] with the horizontal stiffness, and law = \"yielding\" with its strength".into();
+    }
     match nearest(key, keys_of(sections).map(|key| key.name)) {
         Some(name) => format!("did you mean \"{name}\"?"),
         None => {
@@ -501,6 +504,9 @@ fn suggest(key: &str, sections: &'static [Section]) -> String {
         }
     }
 }
+
+/// Words for what other programs join floors with.
+const NOT_MEMBERS: [&str; 6] = ["brace", "braces", "infill", "infills", "wall", "strut"];
 
 /// An example in the syntax of the file.
 fn example(dimension: Dimension) -> String {

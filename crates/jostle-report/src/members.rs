@@ -194,6 +194,12 @@ fn table(building: &BuildingSummary) -> Markup {
                 table {
                     thead { tr {
                         th scope="col" { (message::member()) }
+                        // What is judged stands where narrow screens and paper show it.
+                        @if is_rated {
+                            th.number scope="col" { (message::shear()) br; (message::over_capacity()) }
+                            th.number scope="col" { (message::moment()) br; (message::over_capacity()) }
+                        }
+                        @if turns { th scope="col" { (message::rotation_within()) } }
                         th.number scope="col" { (message::impacts()) }
                         th.number scope="col" { (message::contact_force()) br; span.unit { "[kN]" } }
                         @for (name, unit) in columns {
@@ -203,17 +209,18 @@ fn table(building: &BuildingSummary) -> Markup {
                             th.number scope="col" { (message::shear()) br; (message::over_without_contact()) }
                             th.number scope="col" { (message::moment()) br; (message::over_without_contact()) }
                         }
-                        @if is_rated {
-                            th.number scope="col" { (message::shear()) br; (message::over_capacity()) }
-                            th.number scope="col" { (message::moment()) br; (message::over_capacity()) }
-                        }
-                        @if turns { th scope="col" { (message::rotation_within()) } }
                     } }
                     tbody {
                         @for member in &members {
                             @let impacts: usize = member.struck.iter().map(|s| s.impact_count).sum();
                             tr {
                                 th scope="row" { (member.name) }
+                                @if is_rated {
+                                    @let own = member.ratio.as_ref();
+                                    (ratio(own.and_then(|r| r.shear), own.and_then(|r| r.shear_at.as_ref())))
+                                    (ratio(own.map(|r| r.bending), own.map(|r| &r.bending_at)))
+                                }
+                                @if turns { (levels(member)) }
                                 @if impacts > 0 {
                                     td.number { (impacts) }
                                     td.number { (kilo(hit(member))) }
@@ -230,12 +237,6 @@ fn table(building: &BuildingSummary) -> Markup {
                                     (amplification(own.and_then(|m| m.shear_amplification)))
                                     (amplification(own.and_then(|m| m.moment_amplification)))
                                 }
-                                @if is_rated {
-                                    @let own = member.ratio.as_ref();
-                                    (ratio(own.and_then(|r| r.shear), own.and_then(|r| r.shear_at.as_ref())))
-                                    (ratio(own.map(|r| r.bending), own.map(|r| &r.bending_at)))
-                                }
-                                @if turns { (levels(member)) }
                             }
                         }
                     }

@@ -1099,7 +1099,7 @@ messages! {
     design_word = "design";
     needed_gap = "needed";
     required_gap = "Required gap";
-    smallest_gap_and_rules = "Smallest gap without pounding, and rules";
+    smallest_gap_and_rules = "Smallest gap of this study without impact, and rules";
     needed_gap_and_rules = "Needed: the smallest gap of this study without an impact and without one at any wider gap. ABS, SRSS and DDC come from the peak displacements of cases without contact, at the highest floors that face each other; where even the widest gap is closed there is nothing to show.";
     gb50011_of_intensity(intensity) = "GB 50011, intensity {intensity}";
     gb50011_of_intensities(least, most) = "GB 50011, intensities 7 to 9: {least} to {most} mm";
