@@ -412,6 +412,7 @@ class CriticalGap:
         rules: gaps required by rules and codes.
         left_out: rules that cannot be applied, and the keys of ``[codes]`` that they need.
         curve: force and impacts over the gap, from zero to ``gap``; empty unless asked for.
+        reversed_gap: smallest gap without an impact under the motion with the other sign [m].
     """
 
     between: tuple[str, str]
@@ -423,6 +424,7 @@ class CriticalGap:
     rules: tuple[RuleGap, ...]
     left_out: tuple[tuple[str, str], ...] = ()
     curve: tuple[GapPoint, ...] = ()
+    reversed_gap: float | None = None
 
 
 def critical_gap(
@@ -501,6 +503,7 @@ def critical_gap(
                         )
                         for point in gap.get("curve", ())
                     ),
+                    gap["reversed_gap_m"],
                 )
             )
     return found

@@ -106,6 +106,11 @@ def test_the_smallest_gap(tmp_path: Path) -> None:
     (gap,) = jostle.critical_gap(towers())
     assert gap.pounding_at is not None and gap.gap - gap.pounding_at <= 1.001e-4
     assert gap.between == ("soft", "stiff")
+    # Elastic towers under the other sign close as those under this one open.
+    turned = jostle.Model.loads(TOWERS.replace('pga = "0.3 g"', 'pga = "0.3 g"\nreverse = true'))
+    (other,) = jostle.critical_gap(turned, outcomes=False)
+    assert gap.reversed_gap == pytest.approx(other.closing_without_contact, rel=1e-9)
+    assert other.reversed_gap == pytest.approx(gap.closing_without_contact, rel=1e-9)
     assert jostle.run(towers(), gap=gap.gap).summary["gaps"][0]["impact_count"] == 0
     # The force of a touch that is hardly one hangs on the last digits of the gap.
     with pytest.warns(jostle.JostleWarning, match="sensitive"):

@@ -88,6 +88,7 @@ pub(crate) fn gap(args: &GapArgs) -> Result<(), Failure> {
             tolerance,
             codes: args.codes(&opened.input.codes),
             outcomes: !args.no_outcomes,
+            reversed: true,
             curve: args.curve.map_or(0, |points| points as usize),
         };
         if out.is_none() {
@@ -210,7 +211,7 @@ impl Shown {
     }
 }
 
-/// Greatest, mean and standard deviation of the gaps between the same neighbours.
+/// Greatest, mean and standard deviation of the gaps between the same neighbours, of both signs of a record the greater.
 fn sets(found: &[CriticalGap]) -> Vec<([String; 2], [f64; 3], usize)> {
     let mut pairs: Vec<[String; 2]> = found.iter().map(|gap| gap.between.clone()).collect();
     pairs.dedup();
@@ -218,7 +219,8 @@ fn sets(found: &[CriticalGap]) -> Vec<([String; 2], [f64; 3], usize)> {
     pairs.dedup();
     let of = |pair: [String; 2]| {
         let gaps = found.iter().filter(|gap| gap.between == pair);
-        let widths: Vec<f64> = gaps.map(|gap| gap.gap_m).collect();
+        let both = gaps.map(|gap| gap.gap_m.max(gap.reversed_gap_m.unwrap_or(0.0)));
+        let widths: Vec<f64> = both.collect();
         let n = widths.len() as f64;
         let mean = widths.iter().sum::<f64>() / n;
         let square: f64 = widths.iter().map(|w| (w - mean).powi(2)).sum();
@@ -265,9 +267,12 @@ fn describe(title: &str, found: &[CriticalGap]) -> String {
             Some(hit) => format!("at {} there is an impact", millimetres(hit)),
             None => "no impact even if they touch at rest".to_owned(),
         };
+        let reversed = gap.reversed_gap_m.map_or_else(String::new, |reversed| {
+            format!(", {} with the motion reversed", whole_millimetres(reversed))
+        });
         text += &format!(
-            "  smallest gap without pounding {}  ({bracket}; {}, closest at {:.2} m)\n",
-            jostle_run::styled(jostle_run::BOLD, &millimetres(gap.gap_m)),
+            "  smallest gap without pounding {}{reversed}  ({bracket}; {}, closest at {:.2} m)\n",
+            jostle_run::styled(jostle_run::BOLD, &whole_millimetres(gap.gap_m)),
             counted(gap.runs, "run"),
             gap.height_m
         );
@@ -297,24 +302,45 @@ fn describe(title: &str, found: &[CriticalGap]) -> String {
             text += &format!(
                 "  {:<14} {:>9}   {ratio:>7}   {led}\n",
                 rule.rule,
-                format!("{} mm", mm(rule.gap_m))
+                whole_millimetres(rule.gap_m)
             );
         }
         text += &inputs(gap);
     }
+    let mut fewest = usize::MAX;
     for (pair, [most, mean, deviation], records) in sets(found) {
+        fewest = fewest.min(records);
         if records > 1 {
             text += &format!(
-                "\n{} over {}: greatest {}, mean {}, standard deviation {}\n",
+                "\n{} over {}, the greater of both signs: greatest {}, mean {}, standard deviation {}\n",
                 pair.join(" – "),
                 counted(records, "record"),
-                millimetres(most),
-                millimetres(mean),
+                whole_millimetres(most),
+                whole_millimetres(mean),
                 millimetres(deviation)
             );
         }
     }
-    text
+    if fewest < FEW_RECORDS {
+        text += &format!(
+            "\n{} is no design value: codes want 3, 7 or 11 records.",
+            match fewest {
+                1 => "One record".to_owned(),
+                several => counted(several, "record"),
+            }
+        );
+    } else {
+        text += "\nThe choice of records stays yours.";
+    }
+    text + " Widths of codes are minima. Add construction tolerance, temperature and tilt.\n"
+}
+
+/// Records below which no code takes a result \[–\].
+const FEW_RECORDS: usize = 3;
+
+/// A width to build: whole millimetres, rounded up.
+fn whole_millimetres(metres: f64) -> String {
+    format!("{:.0} mm", (1e3 * metres - 1e-6).ceil())
 }
 
 /// Inputs of codes, distances from property lines, and rules without a value.

@@ -917,8 +917,8 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Fragility, "threshold", Kind::Any, "0", "The event is a demand above this."),
     optional(S::Fragility, "by", Kind::Any, "Factors; one curve is fitted for each of their values."),
     default(S::Fragility, "method", Choice(FRAGILITY_METHODS), "\"stripes\"", "Maximum likelihood of outcomes; regression of logarithms; the same with logistic regressions for demands of zero and for collapse."),
-    default(S::Fragility, "bootstrap", Count, "500", "Resampled fits for the confidence band."),
-    default(S::Fragility, "confidence", Quantity(D::Dimensionless), "0.9", "Confidence of the band."),
+    default(S::Fragility, "bootstrap", Count, "500", "Resampled fits for the band."),
+    default(S::Fragility, "confidence", Quantity(D::Dimensionless), "0.9", "Share of the resampled fits that the band holds. With fewer than seven records it says nothing of other records."),
 
     required(S::Ida, "intensity", Text, "Column with the intensity."),
     required(S::Ida, "demand", Text, "Column with the demand."),

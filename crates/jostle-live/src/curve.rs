@@ -233,6 +233,7 @@ pub(crate) fn marks(
     let settings = GapSettings {
         tolerance: 1e-5,
         outcomes: false,
+        reversed: false,
         curve: 0,
         codes: prepared.input.codes.clone(),
     };

@@ -307,6 +307,7 @@ pub(crate) fn critical_gaps(
         tolerance,
         codes: inputs,
         outcomes,
+        reversed: true,
         curve,
     };
     let halt = AtomicBool::new(false);

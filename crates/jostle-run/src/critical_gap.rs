@@ -16,6 +16,8 @@ pub struct GapSettings {
     pub codes: CodeInputs,
     /// Whether every rule's gap is run too, to see what it would have led to.
     pub outcomes: bool,
+    /// Whether the motion is taken with its other sign too.
+    pub reversed: bool,
     /// Points of the curve of force over gap, from zero to the smallest gap without pounding; 0 for none, else at least 2.
     pub curve: usize,
 }
@@ -26,6 +28,7 @@ impl Default for GapSettings {
             tolerance: 1e-4,
             codes: CodeInputs::default(),
             outcomes: true,
+            reversed: true,
             curve: 0,
         }
     }
@@ -42,6 +45,8 @@ pub struct CriticalGap {
     pub pga_m_s2: f64,
     /// Smallest gap found without an impact \[m\].
     pub gap_m: f64,
+    /// Smallest gap without an impact under the motion with the other sign; `null` if not asked for \[m\].
+    pub reversed_gap_m: Option<f64>,
     /// Widest gap tried with an impact; `null` when not even a gap of zero is hit \[m\].
     pub pounding_at_m: Option<f64>,
     /// Greatest closing of the buildings passing through each other \[m\].
@@ -158,10 +163,42 @@ pub fn critical_gaps(
         time: 0.0,
         duration: 0.0,
     };
-    let apart = search.run(&widths, Pounding::Excluded, first)?;
+    let apart = search.run(&widths, Pounding::Excluded, first.clone())?;
+    let other = motion.reversed();
+    let reversed = match settings.reversed {
+        true => {
+            let search = Search {
+                motion: &other,
+                runs: GapRuns::new(model, &other, stop)?,
+                ..search
+            };
+            Some(search.run(&widths, Pounding::Excluded, first)?)
+        }
+        false => None,
+    };
     (0..model.gaps.len())
-        .map(|gap| search.gap(gap, &apart, settings))
+        .map(|gap| search.gap(gap, &apart, reversed.as_ref(), settings))
         .collect()
+}
+
+/// Closing of a contact of a gap that the nearest of its contacts would have, as far as it is set back from that by some part of the
+/// gap: it needs that much less \[m\].
+fn needed(tried: &Tried, contact: usize) -> f64 {
+    let contacts = &tried.system.contacts;
+    let own = contacts
+        .iter()
+        .filter(|own| own.gap == contacts[contact].gap);
+    let least = own.map(|own| own.width).fold(f64::INFINITY, f64::min);
+    tried.outcome.closing[contact].value - (contacts[contact].width - least)
+}
+
+/// The contact of a gap that comes nearest, and its closing, at least zero \[m\].
+fn nearest_of(tried: &Tried, gap: usize) -> Option<(usize, f64)> {
+    let contacts = 0..tried.system.contacts.len();
+    let own = contacts.filter(|contact| tried.system.contacts[*contact].gap == gap);
+    let closings = own.map(|contact| (contact, needed(tried, contact)));
+    let nearest = closings.max_by(|a, b| a.1.total_cmp(&b.1));
+    nearest.map(|(contact, closing)| (contact, closing.max(0.0)))
 }
 
 struct Search<'a> {
@@ -330,29 +367,13 @@ impl Search<'_> {
         &self,
         gap: usize,
         apart: &Tried,
+        reversed: Option<&Tried>,
         settings: &GapSettings,
     ) -> Result<CriticalGap, GapError> {
         let between = apart.summary.gaps[gap].between.clone();
-        let own: Vec<usize> = (0..apart.system.contacts.len())
-            .filter(|&contact| apart.system.contacts[contact].gap == gap)
-            .collect();
-        // Contacts set back from the nearest by some part of the gap need that much less.
-        let contacts = &apart.system.contacts;
-        let least = own
-            .iter()
-            .map(|&contact| contacts[contact].width)
-            .fold(f64::INFINITY, f64::min);
-        let needed = |contact: usize| {
-            apart.outcome.closing[contact].value - (contacts[contact].width - least)
-        };
-        let nearest = own
-            .iter()
-            .copied()
-            .max_by(|&a, &b| needed(a).total_cmp(&needed(b)));
-        let Some(nearest) = nearest else {
+        let Some((nearest, closing)) = nearest_of(apart, gap) else {
             return Err(GapError::NoContact(between.join(" and ")));
         };
-        let closing = needed(nearest).max(0.0);
         let mut one = OneGap {
             search: self,
             gap,
@@ -385,6 +406,7 @@ impl Search<'_> {
             motion: self.motion.name.clone(),
             pga_m_s2: self.motion.peak(),
             gap_m: bracket.free,
+            reversed_gap_m: reversed.and_then(|tried| Some(nearest_of(tried, gap)?.1)),
             pounding_at_m: bracket.pounding,
             closing_without_contact_m: closing,
             height_m: apart.system.contacts[nearest].height,

@@ -566,7 +566,8 @@ fn write_gap(
     let floors = summary.buildings.iter().flat_map(|own| own.floors.iter());
     let mut floors = floors.map(|floor| floor.without_contact.is_some());
     let has_impacts = gap.impact_count > 0 && !floors.all(|is_known| is_known);
-    write_codes(text, required, [has_impacts, are_named])
+    let computed = gap.closing_without_contact_m;
+    write_codes(text, required, computed, [has_impacts, are_named])
 }
 
 fn write_spread(text: &mut String, spread: &ContactSensitivity) -> std::fmt::Result {
@@ -630,40 +631,46 @@ fn write_link(text: &mut String, link: &LinkSummary) -> std::fmt::Result {
     )
 }
 
-/// The gaps that codes require, by the same rules as `jostle gap` and the report: of codes that the model names all, with those
-/// left out and why; otherwise from the narrowest to the widest.
+/// The least gaps of the codes that the model names, by the same rules as `jostle gap` and the report, with those left out and why;
+/// whether they are less than what the run computed comes first.
 fn write_codes(
     text: &mut String,
     required: &Requirements,
+    computed: Option<f64>,
     [has_impacts, are_named]: [bool; 2],
 ) -> std::fmt::Result {
+    let rules = required.rules.iter().filter(|rule| rule.code.is_some());
+    let rules: Vec<&Requirement> = rules.collect();
+    if !are_named {
+        return match rules.is_empty() {
+            true => Ok(()),
+            false => writeln!(
+                text,
+                "  No code is chosen: name yours with show under [codes], or see jostle gap."
+            ),
+        };
+    }
     let from = if has_impacts {
         ", from displacements with impacts"
     } else {
         ""
     };
-    let rules = required.rules.iter().filter(|rule| rule.code.is_some());
-    let mut rules: Vec<&Requirement> = rules.collect();
-    if !are_named && rules.len() > 1 {
-        rules.sort_by(|a, b| a.width.total_cmp(&b.width));
-        let [first, .., last] = rules[..] else {
-            return Ok(());
-        };
-        return writeln!(
+    let short = |rule: &&&Requirement| computed.is_some_and(|computed| rule.width < computed);
+    let short: Vec<&str> = rules.iter().filter(short).map(|rule| &*rule.name).collect();
+    if let (Some(computed), false) = (computed, short.is_empty()) {
+        let codes = short.join(", ");
+        let computed = mm(computed);
+        writeln!(
             text,
-            "  Codes require {:.0} mm ({}) to {:.0} mm ({}){from}; jostle gap lists {}.",
-            first.width * 1e3,
-            first.name,
-            last.width * 1e3,
-            last.name,
-            rules.len()
-        );
+            "  The minimum by {codes} is less than the {computed} mm computed."
+        )?;
     }
     let widths = rules.iter();
-    let widths = widths.map(|rule| format!("{} {:.0}", rule.name, rule.width * 1e3));
+    let widths =
+        widths.map(|rule| format!("{} {:.0}", rule.name, (rule.width * 1e3 - 1e-6).ceil()));
     let widths: Vec<String> = widths.collect();
     if !widths.is_empty() {
-        write_list(text, &format!("  Codes require{from} [mm]: "), &widths)?;
+        write_list(text, &format!("  Minimum by codes{from} [mm]: "), &widths)?;
     }
     let left_out = required.left_out.iter();
     let left_out = left_out.map(|rule| format!("{} needs {}", rule.name, rule.needs));

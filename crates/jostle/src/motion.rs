@@ -99,6 +99,24 @@ impl GroundMotion {
         }
     }
 
+    /// The same with the other sign of everything horizontal: records have two, and no earthquake tells which one a site sees.
+    #[must_use]
+    pub fn reversed(&self) -> Self {
+        let mut other = self.clone();
+        other.scale = -other.scale;
+        if let Some(across) = other.bearing.as_mut().and_then(|own| own.across.as_mut()) {
+            *across = across.reversed();
+        }
+        for own in other
+            .grounds
+            .iter_mut()
+            .flat_map(|grounds| &mut grounds.own)
+        {
+            own.motion = own.motion.as_ref().map(Self::reversed);
+        }
+        other
+    }
+
     /// Ground acceleration along x and across at time `t`: a₁ cos φ − a₂ sin φ and a₁ sin φ + a₂ cos φ \[m/s²\].
     #[must_use]
     pub fn components(&self, t: f64) -> Ground {

@@ -22,7 +22,7 @@ fn run_without_a_model_runs_the_example_and_writes_everything() {
         "J1",
         "J2",
         "1 impact",
-        "Codes require",
+        "No code is chosen",
         "jostle-out/paper/report.html",
     ] {
         assert!(text.contains(part), "\"{part}\" should stand in:\n{text}");

@@ -51,7 +51,7 @@ messages! {
     warning = "Warning:";
     comparison_with_measurements = "Comparison with measurements";
     notes = "Notes";
-    made_by_jostle_version(version) = "Made by jostle {version}. One file; nothing is loaded from a network.";
+    made_by_jostle_version(version) = "Made by jostle {version}. One file; nothing is loaded from a network. Whoever signs a design answers for the model, its records, its contact and the choice of code.";
     scores = "Scores";
     peaks_are_greatest_magnitudes_difference = "Peaks are greatest magnitudes. Difference: root mean square of computed less measured values over that of the measured values.";
     measured = "measured";
@@ -448,7 +448,7 @@ messages! {
     no_time_histories_were_recorded = "No time histories were recorded, so there is no animation.";
     the_model_has_no_gap = "The model has no gap.";
     peaks_over_the_height = "Peaks over the height";
-    comparison_with_code_requirements = "Comparison with code requirements";
+    comparison_with_code_requirements = "Comparison with codes";
     what_was_computed = "What was computed";
     the_animation_and_the_time = "The animation and the time charts need JavaScript.";
     the_run_ended_early = "The run ended early:";
@@ -1088,6 +1088,8 @@ messages! {
     limits_head = "limits";
     fragility_of(event) = "Fragility: {event}";
     bands_hold(method, percent, fits, left_out) = "{method} Bands hold {percent} % of {fits} resampled fits.{left_out}";
+    bands_of_few_records(method, percent, fits, records, left_out) = "{method} Bands hold {percent} % of {fits} resampled fits with {records} distinct record(s): how much other records would differ is not in them, which is usually the greatest part. Take seven records or more.{left_out}";
+    extrapolated = ", outside of the intensities computed";
     probability_of(event) = "Probability of {event}";
     probability_axis = "probability";
     mean_of_cases(count) = "mean of {count} cases";
@@ -1098,7 +1100,7 @@ messages! {
     greatest_force_of_cases(force) = "; the greatest force is {force} kN";
     design_word = "design";
     needed_gap = "needed";
-    required_gap = "Required gap";
+    required_gap = "Gaps of rules";
     smallest_gap_and_rules = "Smallest gap of this study without impact, and rules";
     needed_gap_and_rules = "Needed: the smallest gap of this study without an impact and without one at any wider gap. ABS, SRSS and DDC come from the peak displacements of cases without contact, at the highest floors that face each other; where even the widest gap is closed there is nothing to show.";
     gb50011_of_intensity(intensity) = "GB 50011, intensity {intensity}";

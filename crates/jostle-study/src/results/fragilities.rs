@@ -1,4 +1,4 @@
-//! Fragility curves with confidence bands.
+//! Fragility curves with bands.
 
 use std::collections::BTreeMap;
 
@@ -17,9 +17,16 @@ use crate::study::StudyError;
 /// Points at which curves are drawn.
 const POINTS: usize = 60;
 
+/// Distinct records from which on a band says something about other records \[–\].
+const ENOUGH_RECORDS: usize = 7;
+
 /// One fitted curve.
 struct Fitted {
     name: String,
+    /// Distinct records among its cases.
+    records: usize,
+    /// Least and greatest intensity of its cases.
+    reach: [f64; 2],
     curve: Result<Curve, FitError>,
     /// Method of a cloud fit.
     parts: Option<ModifiedCloud>,
@@ -107,7 +114,9 @@ impl Results<'_> {
             }
         };
         let curve = fit(&all);
-        let most = all.iter().map(|(x, _)| *x).fold(0.0, f64::max);
+        let intensities = || all.iter().map(|(x, _)| *x);
+        let most = intensities().fold(0.0, f64::max);
+        let reach = [intensities().fold(f64::INFINITY, f64::min), most];
         let grid: Vec<f64> = (0..=POINTS)
             .map(|i| most * i as f64 / POINTS as f64)
             .collect();
@@ -129,6 +138,8 @@ impl Results<'_> {
         });
         Fitted {
             name,
+            records: records.len(),
+            reach,
             curve,
             band: band.flatten(),
             cases: all.len(),
@@ -138,6 +149,14 @@ impl Results<'_> {
             stripes: stripes(&all, threshold),
             grid,
         }
+    }
+}
+
+impl Fitted {
+    /// Whether its median lies outside of the intensities that were computed.
+    fn is_extrapolated(&self) -> bool {
+        let median = self.curve.ok().map(|curve| curve.equivalent().median);
+        median.is_some_and(|median| median < self.reach[0] || median > self.reach[1])
     }
 }
 
@@ -241,6 +260,9 @@ fn parameters(wanted: &FragilityWanted, fitted: &[Fitted]) -> Vec<(String, Value
                         Ok(_) if wanted.method == FragilityMethod::Cloud && one.zeros > 0 => {
                             format!("{} demands of zero or less are left out", one.zeros)
                         }
+                        Ok(_) if one.is_extrapolated() => {
+                            "the median lies outside of the intensities computed".to_owned()
+                        }
                         Ok(_) => String::new(),
                     })
                     .collect(),
@@ -269,6 +291,7 @@ fn parameters(wanted: &FragilityWanted, fitted: &[Fitted]) -> Vec<(String, Value
             "collapse_alpha1".into(),
             real(&|one| Some(collapse(one)?.slope)),
         ),
+        ("records".into(), whole(&|one| one.records)),
     ]
 }
 
@@ -392,7 +415,11 @@ fn section(wanted: &FragilityWanted, fitted: &[Fitted], left_out: Option<&str>) 
         match (&one.curve, &one.band) {
             (Ok(curve), band) => {
                 let curve = curve.equivalent();
-                row.push(format!("{:.4} {}", size * curve.median, x.unit));
+                let mark = match one.is_extrapolated() {
+                    true => message::extrapolated(),
+                    false => "",
+                };
+                row.push(format!("{:.4} {}{mark}", size * curve.median, x.unit));
                 row.push(band.as_ref().map_or("–".into(), |band| {
                     format!(
                         "{:.4} … {:.4}",
@@ -409,14 +436,16 @@ fn section(wanted: &FragilityWanted, fitted: &[Fitted], left_out: Option<&str>) 
         }
         row
     });
+    let records = fitted.iter().map(|one| one.records).min().unwrap_or(0);
+    let left_out = left_out.map_or(String::new(), |text| format!(" {text}"));
+    let percent = format!("{:.0}", 100.0 * wanted.confidence);
     Section {
         title: message::fragility_of(&event),
-        remark: message::bands_hold(
-            method,
-            format_args!("{:.0}", 100.0 * wanted.confidence),
-            wanted.bootstrap,
-            left_out.map_or(String::new(), |text| format!(" {text}")),
-        ),
+        remark: if records < ENOUGH_RECORDS {
+            message::bands_of_few_records(method, percent, wanted.bootstrap, records, left_out)
+        } else {
+            message::bands_hold(method, percent, wanted.bootstrap, left_out)
+        },
         table: Some((heads.to_vec(), rows.collect())),
         charts: vec![Chart {
             title: message::probability_of(&event),

@@ -68,6 +68,7 @@ fn critical(text: &str) -> [f64; 2] {
         tolerance: 1e-6,
         codes: input.codes.clone(),
         outcomes: false,
+        reversed: false,
         curve: 0,
     };
     let gaps = critical_gaps(&input.model, &motion, &settings, &|| false, &|_| {});

@@ -103,11 +103,6 @@ impl HazardZone {
     pub const NAMES: [&'static str; 3] = ["low", "intermediate", "high"];
 }
 
-/// C_d where nothing is stated: special moment frames of reinforced concrete, ASCE 7-16 table 12.2-1 \[–\].
-pub const USUAL_AMPLIFICATION: f64 = 5.5;
-/// R of the same structures \[–\].
-pub const USUAL_RESPONSE_MODIFICATION: f64 = 8.0;
-
 /// What codes need to know about one building.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BuildingCodes {

@@ -6,10 +6,7 @@ mod code_inputs;
 mod codes;
 mod rules;
 
-pub use code_inputs::{
-    BuildingCodes, Code, CodeInputs, HazardZone, MotionLevel, USUAL_AMPLIFICATION,
-    USUAL_RESPONSE_MODIFICATION,
-};
+pub use code_inputs::{BuildingCodes, Code, CodeInputs, HazardZone, MotionLevel};
 pub use codes::{
     IRAN2800_MOST_STOREYS, Nsr10Neighbour, asce7_displacement, e030_2018_joint, e030_2026_joint,
     e030_share, en1998_joint, iran2800_setback, is1893_joint, nsr10_setback, ntc2018_joint,

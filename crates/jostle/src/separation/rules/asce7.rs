@@ -5,7 +5,7 @@ use crate::separation::srss;
 
 impl Table<'_> {
     pub(super) fn asce7(&mut self) {
-        let Some(([l, r], used)) = self.amplified("ASCE 7-16", true) else {
+        let Some(([l, r], used)) = self.amplified("ASCE 7-16", true, |_, _| true) else {
             return;
         };
         let widest = self.widest(|place| srss(l * place.peaks[0], r * place.peaks[1]));

@@ -1,11 +1,15 @@
 //! Iran's Standard 2800.
 
-use super::{Code, Place, Table};
+use super::{BuildingCodes, Code, Place, Side, Table};
 use crate::separation::codes::{IRAN2800_MOST_STOREYS, iran2800_setback};
 
 impl Table<'_> {
     pub(super) fn iran2800(&mut self) {
-        let Some((factors, used)) = self.amplified("Standard 2800", false) else {
+        // Displacements count only where the share of the height does not.
+        let by_displacement = |side: &Side, codes: &BuildingCodes| {
+            side.storeys > IRAN2800_MOST_STOREYS || codes.importance.unwrap_or(1.0) > 1.0
+        };
+        let Some((factors, used)) = self.amplified("Standard 2800", false, by_displacement) else {
             return;
         };
         let sides = self.neighbours.sides.clone();
@@ -22,18 +26,6 @@ impl Table<'_> {
         let widest = self.widest(|place| own(place).iter().sum());
         let Some((width, place)) = widest else { return };
         let setbacks = own(place);
-        // Displacements count only where the share of the height does not.
-        let by_displacement = sides.iter().flatten().filter(|side| {
-            let importance = self.codes_of(side).importance.unwrap_or(1.0);
-            side.storeys > IRAN2800_MOST_STOREYS || importance > 1.0
-        });
-        let names: Vec<String> = by_displacement
-            .map(|side| format!("{}:", side.name))
-            .collect();
-        let used = used
-            .into_iter()
-            .filter(|words| names.iter().any(|name| words.starts_with(name)))
-            .collect();
         self.add(
             "Standard 2800",
             Some(Code::Iran2800),

@@ -12,10 +12,7 @@ mod ntc2018;
 mod tbdy2018;
 mod ubc97;
 
-use super::code_inputs::{
-    BuildingCodes, Code, CodeInputs, HazardZone, MotionLevel, USUAL_AMPLIFICATION,
-    USUAL_RESPONSE_MODIFICATION,
-};
+use super::code_inputs::{BuildingCodes, Code, CodeInputs, HazardZone, MotionLevel};
 use super::codes::asce7_displacement;
 use super::srss;
 use crate::model::{FloorPairs, Gap, Model};
@@ -275,31 +272,39 @@ impl Table<'_> {
         })
     }
 
-    /// C_d δ/I_e: of elastic displacements under the full motion C_d/R, of inelastic ones 1.
-    fn amplified(&mut self, name: &str, divides_by_importance: bool) -> Option<Factors> {
+    /// C_d δ/I_e: of elastic displacements under the full motion C_d/R, of inelastic ones 1. Buildings whose displacements do not
+    /// count need no factors.
+    fn amplified(
+        &mut self,
+        name: &str,
+        divides_by_importance: bool,
+        counts: impl Fn(&Side, &BuildingCodes) -> bool,
+    ) -> Option<Factors> {
         let motion = self.inputs.motion;
         self.factors(name, |side, codes| {
+            if !counts(side, codes) {
+                return Ok((1.0, None));
+            }
             if side.yields && motion == MotionLevel::Full {
                 return Ok((1.0, Some("inelastic displacements as computed".into())));
             }
-            let (c_d, c_d_words) =
-                stated("C_d", codes.deflection_amplification, USUAL_AMPLIFICATION);
-            match motion {
-                MotionLevel::Full => {
-                    let (r, r_words) = stated(
-                        "R",
-                        codes.response_modification,
-                        USUAL_RESPONSE_MODIFICATION,
-                    );
-                    // δ_max = δ I_e/R: importance cancels.
-                    Ok((c_d / r, Some(format!("{c_d_words}, {r_words}"))))
+            // They belong to a structural system, which a model does not name; the lowest ratio would be the unsafe one.
+            let (c_d, r) = (codes.deflection_amplification, codes.response_modification);
+            match (motion, c_d, r) {
+                // δ_max = δ I_e/R: importance cancels.
+                (MotionLevel::Full, Some(c_d), Some(r)) => {
+                    Ok((c_d / r, Some(format!("C_d = {c_d}, R = {r}"))))
                 }
-                MotionLevel::Reduced if divides_by_importance => {
+                (MotionLevel::Full, ..) => {
+                    Err("deflection_amplification and response_modification")
+                }
+                (MotionLevel::Reduced, Some(c_d), _) if divides_by_importance => {
                     let (importance, words) = stated("I_e", codes.importance, 1.0);
                     let factor = asce7_displacement(1.0, c_d, importance);
-                    Ok((factor, Some(format!("{c_d_words}, {words}"))))
+                    Ok((factor, Some(format!("C_d = {c_d}, {words}"))))
                 }
-                MotionLevel::Reduced => Ok((c_d, Some(c_d_words))),
+                (MotionLevel::Reduced, Some(c_d), _) => Ok((c_d, Some(format!("C_d = {c_d}")))),
+                (MotionLevel::Reduced, None, _) => Err("deflection_amplification"),
             }
         })
     }
@@ -366,6 +371,15 @@ mod tests {
         }
     }
 
+    /// Both are special moment frames of reinforced concrete: C_d = 5.5, R = 8 (ASCE 7-16 table 12.2-1).
+    fn moment_frames() -> CodeInputs {
+        of_both(BuildingCodes {
+            response_modification: Some(8.0),
+            deflection_amplification: Some(5.5),
+            ..BuildingCodes::default()
+        })
+    }
+
     /// Full motion, by hand: SRSS 100 mm; EN 70; ASCE 7 5.5/8 · 100 = 68.75, at the line 5.5/8 · 140 = 96.25; TBDY
     /// 0.25 · 100 = 25, but at 16 m 30 + 4 · 10 = 70; IS 140; NTC max(140, 160 · 0.5) = 140; E.030 2/3 · 0.75 · 140 = 70,
     /// but 0.006 · 16 m = 96; NSR-10: nine storeys, level, 2 % of 28.8 m = 576; 2800: 0.005 · 16 m = 80 for five storeys
@@ -373,7 +387,7 @@ mod tests {
     #[test]
     fn elastic_buildings_under_the_full_motion() {
         let pair = neighbours();
-        let inputs = CodeInputs::default();
+        let inputs = moment_frames();
         for (name, due) in [
             ("ABS", 140.0),
             ("SRSS", 100.0),
@@ -531,7 +545,7 @@ mod tests {
         for place in &mut pair.places {
             place.peaks[1] = 0.0;
         }
-        let inputs = CodeInputs::default();
+        let inputs = moment_frames();
         for (name, due) in [
             ("EN 1998-1", 60.0),
             ("NSR-10", 480.0),
@@ -562,6 +576,8 @@ mod tests {
         }
         let important = of_both(BuildingCodes {
             importance: Some(1.4),
+            response_modification: Some(8.0),
+            deflection_amplification: Some(5.5),
             ..BuildingCodes::default()
         });
         let [ordinary, important] =
@@ -570,11 +586,37 @@ mod tests {
         assert!(important >= ordinary, "{important}");
     }
 
+    /// C_d and R belong to a structural system, and a model does not name one: without them ASCE 7 is left out, and Standard 2800 where
+    /// the displacement counts. Inelastic displacements need neither.
+    #[test]
+    fn elastic_displacements_are_not_reduced_by_a_system_that_nobody_stated() {
+        let mut pair = neighbours();
+        let found = required_gaps(&pair, &CodeInputs::default());
+        let needs = |name: &str| {
+            let mut rules = found.left_out.iter();
+            let rule = rules.find(|rule| rule.name == name);
+            rule.map(|rule| rule.needs.clone()).unwrap_or_default()
+        };
+        let factors = "deflection_amplification and response_modification of";
+        assert_eq!(needs("ASCE 7-16"), format!("{factors} \"Low\""));
+        assert_eq!(needs("Standard 2800"), format!("{factors} \"High\""));
+        assert!(
+            !found
+                .rules
+                .iter()
+                .any(|rule| rule.code == Some(Code::Asce7))
+        );
+        for side in pair.sides.iter_mut().flatten() {
+            side.yields = true;
+        }
+        assert_eq!(width(&pair, &CodeInputs::default(), "ASCE 7-16"), 100.0);
+    }
+
     #[test]
     fn codes_can_be_chosen() {
         let inputs = CodeInputs {
             shown: vec![Code::Asce7],
-            ..CodeInputs::default()
+            ..moment_frames()
         };
         let found = required_gaps(&neighbours(), &inputs);
         let names: Vec<&str> = found.rules.iter().map(|rule| &*rule.name).collect();
