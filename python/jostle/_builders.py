@@ -454,7 +454,9 @@ class Given(Part):
         mass: floor masses from the ground up.
         periods: periods of the modes.
         shapes: displacements of all floors in every mode, from the ground up, of any scale, shape ``(modes, floors)``.
-        remainder_period: period of all that the modes leave out; a third of the last one by default.
+        remainder_period: period of all that the modes leave out; by default from the modes that a uniform building has left.
+        contact_flexibility: displacement of the floor that is hit per unit force there, instead: ``"2.1e-8 m/N"``.
+        contact_floor: that floor, from 1; by default the highest that a neighbour reaches.
         storeys: number of storeys of a building given by modes; not needed with a list of masses.
         storey_height: one length, or a list from the ground up, of a building given by modes; 3 m by default.
         damping: ``{"ratio": 0.05, "modes": [1, 3]}`` or ``{"alpha": …, "beta": …}``; 5 % by default; not beside a damping
@@ -483,6 +485,8 @@ class Given(Part):
         periods: Quantities | None = None,
         shapes: npt.ArrayLike | None = None,
         remainder_period: Quantity | None = None,
+        contact_flexibility: Quantity | None = None,
+        contact_floor: int | None = None,
         storeys: int | None = None,
         storey_height: Quantities | None = None,
         damping: Table | None = None,
@@ -503,6 +507,8 @@ class Given(Part):
                 "periods": periods,
                 "shapes": shapes,
                 "remainder_period": remainder_period,
+                "contact_flexibility": contact_flexibility,
+                "contact_floor": contact_floor,
                 "storeys": storeys,
                 "storey_height": storey_height,
                 "damping": damping,

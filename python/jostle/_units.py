@@ -30,6 +30,7 @@ UNITS: dict[str, str] = {
     "m_s2": "m/s2", "cm_s2": "cm/s2", "g": "g", "gal": "gal",
     "kg": "kg", "t": "t", "kn": "kN", "mn": "MN", "n": "N",
     "n_m": "N/m", "kn_m": "kN/m", "mn_m": "MN/m", "n_m1_5": "N/m^1.5",
+    "m_n": "m/N",
     "n_s_m": "N.s/m", "kn_s_m": "kN.s/m", "mn_s_m": "MN.s/m",
     "pa": "Pa", "mpa": "MPa", "gpa": "GPa",
     "kg_m": "kg/m", "t_m": "t/m", "kg_m3": "kg/m3", "kn_m3": "kN/m3",
@@ -120,6 +121,7 @@ class GivenUnits(HeightUnits, total=False):
     mass_kn: Numbers
     periods_s: Iterable[float]
     remainder_period_s: float
+    contact_flexibility_m_n: float
 
 
 class LinkUnits(TypedDict, total=False):

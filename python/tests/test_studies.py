@@ -138,13 +138,16 @@ def test_the_smallest_gap(tmp_path: Path) -> None:
 
 
 def test_codes_and_their_inputs_can_be_chosen() -> None:
-    (gap,) = jostle.critical_gap(towers(), codes=["en1998", "asce7"], outcomes=False)
+    (bare,) = jostle.critical_gap(towers(), codes=["asce7"], outcomes=False)
+    assert bare.left_out[0][0] == "ASCE 7-16" and "response_modification" in bare.left_out[0][1]
+    stated = jostle.Model.loads(TOWERS + "\n[codes]\ndeflection_amplification = 5.5\nresponse_modification = 8\n")
+    (gap,) = jostle.critical_gap(stated, codes=["en1998", "asce7"], outcomes=False)
     rules = {rule.rule: rule for rule in gap.rules}
     codes = {rule.code for rule in gap.rules}
     assert codes == {None, "en1998", "asce7"} and gap.left_out == ()
     asce = rules["ASCE 7-16"]
     assert asce.gap == pytest.approx(5.5 / 8 * rules["SRSS"].gap)
-    assert asce.inputs[0].endswith("C_d = 5.5 (default), R = 8 (default)") and asce.setbacks is None
+    assert asce.inputs[0].endswith("C_d = 5.5, R = 8") and asce.setbacks is None
     line = rules["ASCE 7-16, line"]
     assert line.setbacks is not None and sum(line.setbacks) == pytest.approx(line.gap)
     reduced = jostle.Model.loads(TOWERS + '\n[codes]\nshow = "en1998"\nmotion = "reduced"\n')
