@@ -24,6 +24,9 @@ pub(crate) struct SchemaArgs {
     /// List every quantity of the results instead: name, unit, meaning, where it appears
     #[arg(long)]
     pub(crate) results: bool,
+    /// List every check instead: what it compares, limits, source, remedy
+    #[arg(long, conflicts_with = "results")]
+    pub(crate) checks: bool,
 }
 
 /// A model, and options that change it.

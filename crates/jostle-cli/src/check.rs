@@ -21,7 +21,7 @@ use base::{describe_bearing_places, describe_bearings, describe_foundation};
 use hinges::{describe_hinges, describe_yielding_in_plan};
 use jostle_report::{SitePlace, site_svg};
 use jostle_run::{BOLD, LOUD, styled};
-use jostle_run::{FileKind, Opened};
+use jostle_run::{FileKind, Opened, finding_with_remedy};
 use jostle_run::{counted, grouped, mm};
 use motion::{describe_grounds, describe_work};
 
@@ -51,10 +51,20 @@ pub(crate) fn check(args: &CheckArgs) -> Result<(), Failure> {
     if warned || !assumptions.is_empty() {
         text.push('\n');
     }
+    let motion = match opened.input.records().is_empty() && opened.input.motion.is_some() {
+        true => Some(opened.plan()?),
+        false => None,
+    };
+    let findings = opened.findings(motion.as_ref().map(|(motion, _)| motion));
+    for finding in &findings {
+        let _ = writeln!(text, "{}", finding_with_remedy(finding));
+    }
+    if !findings.is_empty() {
+        text.push('\n');
+    }
     if !opened.input.records().is_empty() {
         text += &records(&opened)?;
-    } else if opened.input.motion.is_some() {
-        let (motion, plan) = opened.plan()?;
+    } else if let Some((motion, plan)) = motion {
         if let Some(warning) = opened.input.unusual_motion(&motion) {
             let _ = writeln!(text, "{} {warning}", styled(LOUD, "warning:"));
         }

@@ -59,6 +59,10 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
         Command::New(args) => starter::new(&args),
         Command::Completions(args) => completions::completions(&args, Args::command()),
         Command::Man(args) => man::man(&args, Args::command()),
+        Command::Schema(args) if args.checks => terminal::print(&match args.markdown {
+            false => jostle_io::check_list(),
+            true => jostle_io::check_reference(),
+        }),
         Command::Schema(args) => terminal::print(&match (args.results, args.markdown) {
             (false, false) => jostle_io::model_schema(),
             (false, true) => jostle_io::model_reference(),

@@ -118,6 +118,8 @@ pub(crate) enum Section {
     Output,
     /// Which floor response spectra.
     FloorSpectra,
+    /// What reports show.
+    Report,
     /// The site in plan.
     Site,
     /// Inputs of the separation rules of codes.
@@ -395,6 +397,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Root, "analysis", Kind::Table(S::Analysis), "Steps, accuracy and solver."),
     optional(S::Root, "output", Kind::Table(S::Output), "What results hold beyond the usual."),
     optional(S::Root, "codes", Kind::Table(S::Codes), "Inputs of the separation rules of codes."),
+    optional(S::Root, "report", Kind::Table(S::Report), "What reports show."),
 
     optional(S::Motion, "record", TextOrTexts, "A built-in record, or a file relative to this file: PEER AT2, CSV or columns of text, COSMOS, CSMIP, K-NET, ESM, SMC, GeoNet, AFAD, CWA, NEES asc, miniSEED, SAC. A run, a study and jostle gap use all records of a list; the other keys apply to each."),
     optional(S::Motion, "kind", Choice(WAVES), "An analytic motion instead of a record."),
@@ -840,6 +843,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::FloorSpectra, "periods", Quantities(D::Time), "100 from 0.02 s to 4 s", "Periods of the oscillators; 0 is the rigid one."),
     default(S::FloorSpectra, "low_pass", Quantity(D::Frequency), "\"25 Hz\"", "Corner frequency of the filter of the filtered peak acceleration."),
     default(S::FloorSpectra, "order", Count, "4", "Order of this Butterworth filter, which runs forwards and backwards: 2, 4, 6 or 8."),
+    optional(S::Report, "silence", TextOrTexts, "Checks that are not shown, by identifier or name, such as [\"A12\"] or [\"records\"]; the report lists them. docs/checks.md has all checks."),
     required(S::Site, "north", Quantity(D::Dimensionless), "Angle from x to north, counter-clockwise, such as \"90 deg\" where y points north; drawn as an arrow, and directions of shaking are also written as compass bearings."),
     default(S::Codes, "show", TextOrTexts, "all codes", "Codes whose rules are listed: ubc97, gb50011, en1998, asce7, tbdy2018, is1893, ntc2018, e030, nsr10, iran2800."),
     default(S::Codes, "motion", Choice(MOTION_LEVELS), "\"full\"", "Whether the motion is the design motion in full, or reduced by q or R."),

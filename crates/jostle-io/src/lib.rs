@@ -7,6 +7,7 @@ mod baseline;
 mod bounded;
 mod builtin;
 mod builtin_model;
+mod checks_page;
 mod choices;
 mod comparison_map;
 mod csv;
@@ -47,6 +48,7 @@ pub use baseline::Baseline;
 pub use bounded::provide_file;
 pub use builtin::{BUILTIN_RECORDS, BuiltinRecord, builtin_motions, builtin_record};
 pub use builtin_model::{builtin_model, model_names, model_text};
+pub use checks_page::{check_list, check_reference};
 pub use comparison_map::{
     ComparedColumn, ComparedImpacts, ComparisonMap, ImpactSign, NamedColumn, TableMotion,
 };

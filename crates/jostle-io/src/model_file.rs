@@ -33,6 +33,7 @@ mod site;
 mod soil;
 mod space_frame;
 mod space_hinges;
+mod stated;
 #[cfg(test)]
 mod tests;
 mod unusual_results;
@@ -47,6 +48,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::Arc;
 
+use jostle::judgement::Stated;
 use jostle::separation::CodeInputs;
 use jostle::{GroundMotion, LinkLaw, Model, ModelFault};
 use jostle_motion::{GoverningRule, TargetSpectrum};
@@ -84,6 +86,8 @@ pub struct Input {
     pub north: Option<f64>,
     /// Rules for the capacity of these members.
     pub capacity: CapacityRequest,
+    /// What checks need of the file beyond the model.
+    pub stated: Stated,
     /// Warnings of a valid file.
     pub warnings: Vec<String>,
     /// Unusual values that are accepted.
@@ -198,6 +202,7 @@ pub(crate) fn read_tree(source: Arc<Source>, root: Node, base: &Path) -> Result<
             north,
             floor_spectra,
             governing,
+            silenced,
             dampers: _,
         }) if error.faults.is_empty() => Ok(Input {
             reinforced,
@@ -209,6 +214,11 @@ pub(crate) fn read_tree(source: Arc<Source>, root: Node, base: &Path) -> Result<
             warnings: {
                 noted.extend(warnings(&model, &root));
                 noted
+            },
+            stated: Stated {
+                records: motion.as_ref().map_or(0, |own| own.records().len().max(1)),
+                buildings: stated::of_buildings(&model, &root),
+                silenced,
             },
             accepted,
             model,
@@ -256,6 +266,7 @@ impl Input {
             }
         }
         if let Some(record) = &overrides.record {
+            self.stated.records = 1;
             self.motion = Some(with_record(self.motion.as_ref(), record));
         }
         if let (Some(motion), Some(angle)) = (&mut self.motion, overrides.angle) {
@@ -472,6 +483,7 @@ struct Parts {
     north: Option<f64>,
     floor_spectra: Option<FloorSpectraRequest>,
     governing: Option<GoverningRule>,
+    silenced: Vec<&'static str>,
 }
 
 /// Reads the whole tree; `None` if there is nothing to build a model from.
@@ -538,6 +550,8 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Parts>
     let codes = reader.get(&view, "codes");
     let of_buildings = buildings.as_ref().map(|read| read.codes.clone());
     let codes = codes::read(reader, codes.as_ref(), of_buildings.unwrap_or_default());
+    let report = reader.get(&view, "report");
+    let silenced = report.map_or_else(Vec::new, |field| stated::silenced(reader, &field));
     let north = reader.get(&view, "site").and_then(|field| {
         let in_plan = |own: &jostle::Building| matches!(own.structure, jostle::Structure::Tiers(_));
         let read = buildings.as_ref();
@@ -582,6 +596,7 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Parts>
         north,
         floor_spectra,
         governing,
+        silenced,
         dampers: paths,
     })
 }

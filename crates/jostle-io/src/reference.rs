@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use crate::keys::{KEYS, Key, Kind, Section};
 use crate::quantity::Dimension;
-use crate::unusual::{FIRST_PERIOD, INDENTATION, RANGES};
+use crate::unusual::{FIRST_PERIOD, RANGES};
 
 /// Tables of the file in the order of the page, with where they stand and what they are.
 const TABLES: &[(Section, &str, &str)] = &[
@@ -184,6 +184,11 @@ const TABLES: &[(Section, &str, &str)] = &[
     ),
     (Section::SoilCoupling, "`soil.coupling`", ""),
     (
+        Section::Report,
+        "`[report]`",
+        "See [Checks that always run](checks.md).",
+    ),
+    (
         Section::Site,
         "`[site]`",
         "For buildings with a plan; results do not depend on it.",
@@ -296,7 +301,6 @@ pub fn model_reference() -> String {
 /// Heading and words of the table of ranges.
 fn ranges_heading() -> String {
     let [shortest, longest] = FIRST_PERIOD;
-    let indentation = 1e3 * INDENTATION;
     format!(
         "
 ## Usual ranges
@@ -305,8 +309,8 @@ A bare number is in SI, so `width = 500` is 500 m. A value outside its usual ran
 the unit that was probably meant. A value outside the possible range is refused as a slip of units. Zero is never unusual.
 Warnings are printed by `check`, on standard error by `run` and `gap`, and stand under `notes` in `summary.json`.
 
-Also unusual: a first lateral period outside {shortest} s to {longest} s, a contact softer than a storey, an indentation of
-more than {indentation} mm, and a scaled record whose peak is outside the range of `pga`. A run that would take more than
+Also unusual: a first lateral period outside {shortest} s to {longest} s, a contact softer than a storey,
+and a scaled record whose peak is outside the range of `pga`. A run that would take more than
 some hours of computing is refused with the building, step or motion that makes it so long.
 
 To accept such values: `accept_unusual = true` under `[analysis]`, a list of fields such as

@@ -67,8 +67,6 @@ pub(crate) const GAP: Range = Range {
 
 /// First lateral period of a building \[s\].
 pub(crate) const FIRST_PERIOD: [f64; 2] = [0.05, 15.0];
-/// Greatest indentation of a contact between concrete floors \[m\].
-pub(crate) const INDENTATION: f64 = 0.05;
 /// Impact speed at which a contact is compared with a storey \[m/s\].
 pub(crate) const IMPACT_SPEED: f64 = 0.5;
 

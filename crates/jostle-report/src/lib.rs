@@ -5,6 +5,7 @@
 
 mod backbones;
 mod calculation;
+mod checks;
 mod collisions;
 mod comparison;
 mod contact_box;

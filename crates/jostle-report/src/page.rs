@@ -8,8 +8,8 @@ use crate::message;
 use crate::site_drawing::SITE_STYLE;
 use crate::verdict::{closest_approach, nearest, peak_closing, verdict};
 use crate::{
-    Page, calculation, contact_box, describe, devices, floor_spectra, format, friction, grounds,
-    hinges, joints, members, method, payload, shear_failures, site_plan, spread, tables,
+    Page, calculation, checks, contact_box, describe, devices, floor_spectra, format, friction,
+    grounds, hinges, joints, members, method, payload, shear_failures, site_plan, spread, tables,
 };
 
 /// The scripts, in the order of their dependence; together they are one module.
@@ -70,6 +70,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                 main {
                     p.verdict { (headline) }
                     (tiles(page))
+                    (checks::section(page))
                     (accuracy(page))
                     @if let Some(spread) = spread::section(page) { (spread) }
                     @if recorded {

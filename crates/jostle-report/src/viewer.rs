@@ -7,7 +7,9 @@ use crate::envelope::{self, envelopes};
 use crate::message;
 use crate::page::{self, IN_SPACE, SCRIPTS};
 use crate::site_drawing::SITE_STYLE;
-use crate::{Page, describe, friction, hinges, joints, payload, site_plan, tables, verdict};
+use crate::{
+    Page, checks, describe, friction, hinges, joints, payload, site_plan, tables, verdict,
+};
 
 /// Parts of the page that do not change with the run.
 #[derive(Clone, Debug)]
@@ -30,6 +32,7 @@ impl Viewer {
     pub fn new() -> Self {
         let sections = html! {
             div #part-tiles {}
+            div #part-checks {}
             p #accuracy.quiet {}
             (page::chart_section(true))
             div #part-hinges {}
@@ -93,6 +96,7 @@ pub fn frame(page: &Page) -> Frame {
     let parts = [
         ("warnings", page::warnings(page)),
         ("tiles", page::tiles(page)),
+        ("checks", checks::section(page)),
         ("hinges", hinges::section(page).unwrap_or_default()),
         ("impacts", impacts),
         ("envelopes", peaks),

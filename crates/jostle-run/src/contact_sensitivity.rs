@@ -26,7 +26,10 @@ impl Ran {
     /// Adds what came out of other contacts to the numbers of the run, or why it is missing.
     pub fn add_contact_sensitivity(&self, summary: &mut Summary) {
         match &self.contact_sensitivity {
-            Some(Ok(found)) => summary.contact_sensitivity = Some(found.clone()),
+            Some(Ok(found)) => {
+                summary.contact_sensitivity = Some(found.clone());
+                self.prepared.judge(summary);
+            }
             Some(Err(problem)) => summary.warnings.push(format!(
                 "results cannot be compared with those of other contacts: {problem}"
             )),

@@ -6,6 +6,7 @@
 
 mod calculation;
 mod case_cache;
+mod checks_text;
 mod collide;
 mod comparison;
 mod contact_advice;
@@ -33,6 +34,7 @@ mod style;
 mod summary_text;
 
 pub use case_cache::{CaseCache, CaseError};
+pub use checks_text::finding_with_remedy;
 pub use collide::{CollideOptions, collide, collision_json};
 pub use comparison::{
     Comparison, HistoryComparison, ImpactComparison, Measurements, PreparedComparison,

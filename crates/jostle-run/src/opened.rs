@@ -3,6 +3,8 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use jostle::judgement::{Known, judge};
+use jostle::results::summary::Finding;
 use jostle::{GroundMotion, Plan, System};
 use jostle_io::{Input, InputError, ModelTree, Overrides, TreeValue};
 
@@ -125,6 +127,18 @@ impl Opened {
         let plan = Plan::choose(&self.system, &motion, &input.model.analysis)
             .map_err(|faults| input.faults(faults))?;
         Ok((motion, plan))
+    }
+
+    /// What the checks of the model find, worst first.
+    #[must_use]
+    pub fn findings(&self, motion: Option<&GroundMotion>) -> Vec<Finding> {
+        judge(&Known {
+            model: &self.input.model,
+            system: &self.system,
+            motion,
+            stated: &self.input.stated,
+            results: None,
+        })
     }
 
     /// The model with its ground motion and its steps, ready to run.

@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
+use jostle::judgement::{Known, judge};
 use jostle::stepping::{Progress, find_sensitivity, modal};
 use jostle::{
     GroundMotion, Outcome, Plan, Pounding, RunEnd, Settings, Solver, Summary, System, simulate,
@@ -132,7 +133,25 @@ impl Prepared {
         self.input.add_notes(&mut summary);
         let missing = without_contact.and_then(|run| not_compared(run, self.motion.duration));
         summary.notes.extend(missing);
+        self.judge(&mut summary);
         summary
+    }
+
+    /// Runs all checks of the model and of its results.
+    pub fn judge(&self, summary: &mut Summary) {
+        let stated = &self.input.stated;
+        summary.checks = judge(&Known {
+            model: &self.input.model,
+            system: &self.system,
+            motion: Some(&self.motion),
+            stated,
+            results: Some((summary, &self.input.codes)),
+        });
+        summary.silenced_checks = stated
+            .silenced
+            .iter()
+            .map(|&name| name.to_owned())
+            .collect();
     }
 }
 

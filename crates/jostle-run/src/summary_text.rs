@@ -12,6 +12,7 @@ use jostle::results::summary::{
 use jostle::separation::{Requirement, Requirements};
 use jostle_io::Input;
 
+use crate::checks_text::write_findings;
 use crate::floor_spectra_text::write_floor_spectra;
 use crate::numbers::{counted, counted_grouped, grouped, kn, mm};
 use crate::style::{BOLD, DIM, LOUD, styled};
@@ -91,6 +92,11 @@ fn write_all(
     for warning in &summary.warnings {
         writeln!(text, "{} {warning}", styled(LOUD, "warning:"))?;
     }
+    let rest = match result {
+        Some(path) if path.extension().is_some_and(|own| own == "html") => "the report",
+        _ => "summary.json",
+    };
+    write_findings(text, &summary.checks, rest)?;
     for note in &summary.notes {
         writeln!(text, "{} {note}", styled(DIM, "note:"))?;
     }

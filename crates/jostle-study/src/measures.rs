@@ -94,6 +94,7 @@ pub(crate) fn measures(summary: &Summary, motion: &GroundMotion, compares: bool)
     if !summary.gaps.is_empty() {
         list.add("", Summary::POUNDING, summary);
     }
+    list.add("", Summary::CHECKS, summary);
     for gap in &summary.gaps {
         let pair = gap.between.join("-");
         list.add(&format!("{pair}."), GapSummary::QUANTITIES, gap);

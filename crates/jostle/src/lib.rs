@@ -87,6 +87,7 @@ pub mod eigen;
 pub mod history;
 pub mod hysteresis;
 pub mod interface;
+pub mod judgement;
 pub mod linear;
 pub mod method;
 pub mod model;

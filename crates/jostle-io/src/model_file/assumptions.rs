@@ -8,7 +8,7 @@ use crate::quantity::{Dimension, parse_quantity};
 use crate::tree::{Node, Table, Value};
 
 /// Sections of a stiffer material do not crack \[Pa\].
-const STIFFEST_CONCRETE: f64 = 60e9;
+pub(super) const STIFFEST_CONCRETE: f64 = 60e9;
 
 impl Input {
     /// Assumptions of the model that make results differ from those of real buildings, each with a remedy: concrete
@@ -94,7 +94,7 @@ fn massless_beams(frame: &Frame) -> Option<String> {
     ))
 }
 
-fn as_table(node: &Node) -> Option<&Table> {
+pub(super) fn as_table(node: &Node) -> Option<&Table> {
     match &node.value {
         Value::Table(table) => Some(table),
         _ => None,
@@ -110,7 +110,7 @@ fn has_size(node: &Node) -> bool {
 }
 
 /// Factor on EI of columns or beams \[–\].
-fn factor(node: Option<&Node>, key: &str) -> f64 {
+pub(super) fn factor(node: Option<&Node>, key: &str) -> f64 {
     let stated = match node {
         Some(node) => as_table(node).map_or(Some(node), |table| table.get(key)),
         None => None,
@@ -120,7 +120,7 @@ fn factor(node: Option<&Node>, key: &str) -> f64 {
         .unwrap_or(1.0)
 }
 
-fn number(node: &Node, dimension: Dimension) -> Option<f64> {
+pub(super) fn number(node: &Node, dimension: Dimension) -> Option<f64> {
     match &node.value {
         Value::Text(text) => parse_quantity(text, dimension).ok(),
         Value::Integer(value) => Some(*value as f64),

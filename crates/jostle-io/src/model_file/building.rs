@@ -1,6 +1,5 @@
 //! `[[building]]`: what frames and shear buildings have in common.
 
-use jostle::hysteresis::{Hysteresis, Side};
 use jostle::model::{FrameHinges, Hinges};
 use jostle::separation::BuildingCodes;
 use jostle::{Base, Building, Damping, Gravity, Model, PlanPoint, ProportionalDamping, Structure};
@@ -277,10 +276,6 @@ fn read(
             let hinges = stated
                 .as_ref()
                 .and_then(|field| hinges::read_frame(reader, field, frame, here.as_deref()));
-            if let (Some(Hinges::Frame(hinges)), Some(field)) = (&hinges, &stated) {
-                let factors = reader.quietly(|reader| frame::stiffness_factors(reader, &view));
-                warn_of_cracking_twice(reader, field, hinges, factors);
-            }
             let failing = reader
                 .get(&view, "shear_failure")
                 .map(|field| shear_failure::read(reader, &field, frame, here.as_deref()));
@@ -299,40 +294,6 @@ fn read(
         }
     };
     Some(building)
-}
-
-/// Warns of members whose EI is reduced for cracking and whose hinges crack as well. Hinges from sections turn by what
-/// the members leave of the rotation at yield, so that cracking counts once there.
-fn warn_of_cracking_twice(
-    reader: &mut Reader<'_>,
-    field: &Field<'_>,
-    hinges: &FrameHinges,
-    factors: (f64, f64),
-) {
-    let view = reader.reopen(field, &[Section::Hinges]);
-    if view.is_some_and(|view| view.has("from")) {
-        return;
-    }
-    let cracks = |rows: &[Vec<Hysteresis>]| {
-        let mut sides = rows.iter().flatten().flat_map(|hinge| {
-            let backbone = hinge.backbone();
-            Side::BOTH.map(|side| *backbone.side(side))
-        });
-        sides.any(|side| side.cracking.force < side.yielding.force)
-    };
-    for (name, rows, factor) in [
-        ("columns", &hinges.columns, factors.0),
-        ("beams", &hinges.beams, factors.1),
-    ] {
-        if factor < 1.0 && cracks(rows) {
-            reader.warn(
-                field,
-                &format!(
-                    "cracking of the {name} counts twice: stiffness_factor reduces their EI to {factor} of that of the full section, and their hinges soften again at a cracking moment; use stiffness_factor = 1 with hinges that crack, or rule = \"bilinear\" with a reduced EI"
-                ),
-            );
-        }
-    }
 }
 
 /// Whether a building by itself would pass the check of a model.

@@ -4,9 +4,7 @@ use jostle::results::summary::Summary;
 use jostle::{GroundMotion, LawKind, Model, System};
 
 use super::Input;
-use crate::unusual::{
-    FIRST_PERIOD, IMPACT_SPEED, INDENTATION, PEAK_ACCELERATION, Verdict, Written,
-};
+use crate::unusual::{FIRST_PERIOD, IMPACT_SPEED, PEAK_ACCELERATION, Verdict, Written};
 
 impl Input {
     /// Adds to the warnings what is unusual about the assembled model: periods, and contacts softer than a storey.
@@ -36,12 +34,10 @@ impl Input {
         }
     }
 
-    /// Adds to the notes of a summary what the model was warned of, and what is unusual about the results.
+    /// Adds to the notes of a summary what the model was warned of.
     pub fn add_notes(&self, summary: &mut Summary) {
-        let results = of_results(&self.model, summary);
         let motion = self.unusual_peak(summary.motion.pga_m_s2);
-        let notes = results.into_iter().chain(self.warnings.iter().cloned());
-        let notes = notes.chain(motion);
+        let notes = self.warnings.iter().cloned().chain(motion);
         for note in notes {
             if !summary.notes.contains(&note) {
                 summary.notes.push(note);
@@ -110,27 +106,6 @@ fn of_system(model: &Model, system: &System) -> Vec<(String, String)> {
 fn storey_period(first: f64, floors: usize) -> f64 {
     let angle = 0.5 * std::f64::consts::PI / (2.0 * floors as f64 + 1.0);
     2.0 * angle.sin() * first
-}
-
-/// Unusual results of a run.
-fn of_results(model: &Model, summary: &Summary) -> Vec<String> {
-    let mut found = Vec::new();
-    for (index, (gap, law)) in summary.gaps.iter().zip(&model.gaps).enumerate() {
-        let impacts = gap.contacts.iter().flat_map(|contact| &contact.impacts);
-        let deepest = impacts
-            .map(|impact| impact.peak_indentation_m)
-            .fold(0.0, f64::max);
-        if deepest > INDENTATION && !matches!(law.law.kind, LawKind::Rubber(_)) {
-            found.push(format!(
-                "gap[{index}]: the peak indentation between \"{}\" and \"{}\" is {:.0} mm, more than the {:.0} mm that concrete allows; check the unit of the contact stiffness",
-                gap.between[0],
-                gap.between[1],
-                1e3 * deepest,
-                1e3 * INDENTATION
-            ));
-        }
-    }
-    found
 }
 
 /// A number with three significant digits, for messages.

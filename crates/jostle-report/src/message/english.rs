@@ -468,6 +468,11 @@ messages! {
     energy_imbalance = "Energy imbalance";
     greatest_over_time = "greatest over time";
     accuracy = "Accuracy:";
+    assumptions_and_limits = "Assumptions and limits of this result";
+    all_checks_are_passed = "No check found anything.";
+    silenced_checks(names) = "Silenced in the model file: {names}.";
+    remark = "Remark:";
+    note = "Note:";
     how_they_move = "How they move";
     exaggeration = "Exaggeration";
     also_without_contact_dashed = "also without contact (dashed)";

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::effective_mass;
+use super::{LawKind, effective_mass};
 
 /// A floor that can be hit, as an elastic rod of uniform section in the direction of the impact.
 ///
@@ -215,6 +215,62 @@ pub fn hertz_of_force(effective_mass: f64, speed: f64, peak_force: f64) -> f64 {
 pub fn hertz_peak_force(stiffness: f64, effective_mass: f64, speed: f64) -> f64 {
     let energy = 1.25 * effective_mass * speed * speed;
     stiffness.powf(0.4) * energy.powf(0.6)
+}
+
+/// Stiffness of the Hertz laws that studies use if they state nothing (Muthukumar and DesRoches 2006) \[N/m^1.5\].
+pub const USUAL_HERTZ: f64 = 2e9;
+/// That fitted by Jankowski (2005) to a test of concrete elements \[N/m^1.5\].
+pub const JANKOWSKI_HERTZ: f64 = 2.75e9;
+/// Impact speed at which linear and Hertz laws are compared \[m/s\].
+const COMPARED_SPEED: f64 = 0.4;
+/// Thickness of a usual slab \[m\].
+const USUAL_THICKNESS: f64 = 0.15;
+
+/// A stiffness and the range in which it may lie \[N/m^1.5 or N/m\].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StiffnessRange {
+    /// Recommended value.
+    pub value: f64,
+    /// Lowest plausible value.
+    pub low: f64,
+    /// Highest plausible value.
+    pub high: f64,
+}
+
+/// Range of the contact stiffness between bare floors of two masses \[kg\], one of which may be infinite, if the size of the slabs is
+/// not known; `None` for laws of bumpers and of velocities.
+///
+/// Hertz laws: from what studies use to the stiffness of spheres with these masses ([`hertz_stiffness`]), which is recommended.
+/// Linear laws: from those with the same peak force at 0.4 m/s to the axial stiffness E t of a square slab of 150 mm.
+#[must_use]
+pub fn advised_range(
+    kind: LawKind,
+    materials: [SlabMaterial; 2],
+    masses: [f64; 2],
+) -> Option<StiffnessRange> {
+    // A wall is as stiff as the floor, and far heavier.
+    let heavy = 1e9
+        * masses
+            .into_iter()
+            .filter(|m| m.is_finite())
+            .fold(1.0, f64::max);
+    let masses = masses.map(|mass| mass.min(heavy));
+    let spheres = hertz_stiffness(materials, masses);
+    let [low, high] = [USUAL_HERTZ.min(spheres), JANKOWSKI_HERTZ.max(spheres)];
+    let effective = effective_mass(masses[0], masses[1]);
+    let linear = |hertz: f64| {
+        let force = hertz_peak_force(hertz, effective, COMPARED_SPEED);
+        spring_of_force(effective, COMPARED_SPEED, force)
+    };
+    let range = |value, low, high| Some(StiffnessRange { value, low, high });
+    match kind {
+        LawKind::Rubber(_) | LawKind::Restitution => None,
+        kind if kind.is_hertzian() => range(spheres, low, high),
+        _ => {
+            let slab = USUAL_THICKNESS * materials[0].modulus.min(materials[1].modulus);
+            range(linear(spheres), linear(low), linear(high).max(slab))
+        }
+    }
 }
 
 #[cfg(test)]

@@ -138,6 +138,7 @@ fn mat_response(index: usize, outcome: &Outcome, lowest: &FloorResponse) -> Floo
         storey_shear_peak_n: outcome.base_shear[index],
         overturning_moment_peak_n_m: lowest.overturning_moment_peak_n_m,
         residual_drift: 0.0,
+        stability_coefficient: None,
         vertical_displacement_peak_m: None,
     }
 }

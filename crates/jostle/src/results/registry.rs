@@ -87,7 +87,7 @@ type Row = (
 #[rustfmt::skip]
 const OWNERS: &[Row] = &[
     ("Ground motion", "motion", None, "", &[entries!(MotionSummary::QUANTITIES)]),
-    ("All gaps together", "", None, "", &[entries!(Summary::POUNDING)]),
+    ("The whole run", "", None, "", &[entries!(Summary::POUNDING), entries!(Summary::CHECKS)]),
     ("Buildings", "buildings[]", Some("buildings.parquet"), "J1.", &[entries!(BuildingSummary::QUANTITIES), entries!(BuildingResponse::QUANTITIES)]),
     ("Buildings in plan", "buildings[]", None, "A.", &[entries!(BuildingInPlan::QUANTITIES)]),
     ("Floors", "buildings[].floors[]", Some("floors.parquet"), "J1.floor3.", &[entries!(FloorSummary::QUANTITIES), entries!(FloorResponse::QUANTITIES)]),

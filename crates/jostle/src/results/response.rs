@@ -66,6 +66,9 @@ pub struct FloorResponse {
     pub overturning_moment_peak_n_m: f64,
     /// Drift ratio of the storey below at the end, positive to the right \[–\].
     pub residual_drift: f64,
+    /// Stability coefficient of the storey below, θ = P d_r/(V h): the weight above it times its greatest drift ratio, over its
+    /// greatest shear (EN 1998-1, 4.4.2.2); `None` without shear \[–\].
+    pub stability_coefficient: Option<f64>,
     /// Greatest vertical displacement of any mass of the floor relative to the ground, either sign; absent without vertical
     /// shaking \[m\].
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -94,6 +97,7 @@ impl FloorResponse {
         Quantity::<Self>::real("storey_shear_peak_n", Unit::N, "greatest shear of the storey: the horizontal restoring forces above its base", |f| f.storey_shear_peak_n).in_study().compared().shown("storey shear", "kN", 1e-3, 1),
         Quantity::<Self>::real("overturning_moment_peak_n_m", Unit::NM, "greatest moment of these forces about the base of the storey", |f| f.overturning_moment_peak_n_m).in_study().compared().shown("overturning moment", "kN·m", 1e-3, 0),
         Quantity::<Self>::real("residual_drift", Unit::NONE, "drift ratio of the storey at the end, positive to the right", |f| f.residual_drift).in_study().compared(),
+        Quantity::<Self>::optional("stability_coefficient", Unit::NONE, "stability coefficient θ = P d_r/(V h) of the storey: weight above it times greatest drift ratio over greatest shear (EN 1998-1, 4.4.2.2); absent without shear", |f| f.stability_coefficient),
         Quantity::<Self>::optional("vertical_displacement_peak_m", Unit::M, "greatest vertical displacement of any mass of the floor relative to the ground, either sign; only under vertical shaking", |f| f.vertical_displacement_peak_m).not_in_summary().in_study(),
     ];
 }
@@ -105,7 +109,7 @@ pub(super) fn floor_responses(
     outcome: &Outcome,
 ) -> Vec<FloorResponse> {
     let floors = outcome.floors[index].iter();
-    let response = |(peaks, residual_drift): (&FloorPeaks, f64)| FloorResponse {
+    let response = |((peaks, residual_drift), weight): ((&FloorPeaks, f64), f64)| FloorResponse {
         displacement_max_m: peaks.displacement_max.value,
         displacement_max_at_s: peaks.displacement_max.at,
         displacement_min_m: peaks.displacement_min.value,
@@ -115,11 +119,14 @@ pub(super) fn floor_responses(
         storey_shear_peak_n: peaks.storey_shear,
         overturning_moment_peak_n_m: peaks.overturning_moment,
         residual_drift,
+        stability_coefficient: (peaks.storey_shear > 0.0)
+            .then(|| weight * peaks.storey_drift / peaks.storey_shear),
         vertical_displacement_peak_m: (peaks.vertical_displacement > 0.0)
             .then_some(peaks.vertical_displacement),
     };
     let residual = residual_drifts(building, outcome);
-    floors.zip(residual).map(response).collect()
+    let weights = building.weights_above();
+    floors.zip(residual).zip(weights).map(response).collect()
 }
 
 /// Of a building in a run, from those of its floors.

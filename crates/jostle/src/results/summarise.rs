@@ -4,7 +4,7 @@ use super::in_plan::{
     ImpactSliding, PlanContactSummary, SlidingSummary, building_in_plan, centre_of, floor_in_plan,
     impacts_of, place_of_face, points_of,
 };
-use crate::contact::{LawKind, RestitutionIs};
+use crate::contact::LawKind;
 use crate::history::{Extreme, Impact};
 use crate::hysteresis::{Side, Stage};
 use crate::interface::LinkElement;
@@ -127,6 +127,8 @@ impl Summary {
             work: work_summary(run),
             contact_sensitivity: None,
             floor_spectra: None,
+            checks: Vec::new(),
+            silenced_checks: Vec::new(),
             ended_early: match &outcome.end {
                 RunEnd::Completed => None,
                 RunEnd::Stopped => Some(format!(
@@ -608,27 +610,6 @@ fn warnings(run: &Run) -> Vec<String> {
     } else {
         "compare with a run at another tolerance"
     };
-    for (index, building) in run.system.structures().iter().enumerate() {
-        let Some(mat) = building.discretization.mat else {
-            continue;
-        };
-        let own = isolation_summary(index, building, run.outcome);
-        if let (Some(own), Some(limit)) = (own, mat.isolation.limit)
-            && own.limit_exceeded
-        {
-            warnings.push(format!(
-                "{} of \"{}\" moves {:.0} mm, beyond the {:.0} mm that its bearings allow",
-                if own.in_plan.is_some() {
-                    "a bearing"
-                } else {
-                    "the mat"
-                },
-                building.name,
-                1e3 * own.displacement_peak_m(),
-                1e3 * limit
-            ));
-        }
-    }
     warnings.extend(foundation_warnings(run.system));
     warnings.extend(friction_warnings(run.model, run.system));
     let accuracy = run.outcome.accuracy.iter();
@@ -668,17 +649,6 @@ const MOST_GIVEN: f64 = 0.01;
 /// Notes on the results.
 fn notes(run: &Run) -> Vec<String> {
     let mut notes = Vec::new();
-    for law in run.model.gaps.iter().map(|gap| &gap.law) {
-        let (asked, free) = (law.restitution, law.free_restitution());
-        let published =
-            law.restitution_is == RestitutionIs::Input && law.kind.has_published_damping();
-        if published && (free - asked).abs() > 0.005 {
-            notes.push(format!(
-                "{} with restitution {asked}: two free masses would separate with {free:.3} of their impact speed; restitution_is = \"realised\" makes it {asked}",
-                law.kind.name()
-            ));
-        }
-    }
     if run.plan.integrator.dissipates() {
         let taken = run.outcome.energy.imbalance();
         notes.push(format!(

@@ -12,7 +12,9 @@ use crate::eigen::{
 };
 use crate::hysteresis::HysteresisMemory;
 use crate::interface::DofRow;
-use crate::model::{Building, Damping, Gravity, LEVEL_TOLERANCE, PlanPoint, usual_damping_modes};
+use crate::model::{
+    Building, Damping, Gravity, LEVEL_TOLERANCE, PlanPoint, STANDARD_GRAVITY, usual_damping_modes,
+};
 use crate::motion::Ground;
 use crate::simd;
 use crate::statics::{Collapse, Settled, under_gravity};
@@ -302,6 +304,37 @@ impl BuildingSystem {
             return Vec::new();
         }
         vertical_modes_along(&self.structure, &self.sweep).unwrap_or_default()
+    }
+
+    /// Every mass that moves along x with its height above the base, bodies that move together as one \[m, kg\].
+    #[must_use]
+    pub fn horizontal_masses(&self) -> Vec<(f64, f64)> {
+        let sticks = &self.discretization.stick_model;
+        // Masses of frames in a plan are part of the floors.
+        let is_floor = |node: usize| !matches!(sticks.frame_nodes.get(node), Some(Some(_)));
+        let mut counted = vec![false; self.equations.mass.len()];
+        let nodes = sticks.nodes.iter().enumerate();
+        nodes
+            .filter_map(|(node, place)| {
+                let dof = self.equations.horizontal(node).filter(|_| is_floor(node))?;
+                let new = !std::mem::replace(&mut counted[dof], true);
+                new.then(|| (place.y, self.equations.mass[dof]))
+            })
+            .collect()
+    }
+
+    /// Weight at and above every storey, from the ground up \[N\].
+    #[must_use]
+    pub fn weights_above(&self) -> Vec<f64> {
+        let masses = self.horizontal_masses();
+        let floors = self.floors.iter();
+        floors
+            .map(|floor| {
+                let base = floor.height - floor.storey_height + LEVEL_TOLERANCE;
+                let above = masses.iter().filter(|(height, _)| *height > base);
+                STANDARD_GRAVITY * above.map(|(_, mass)| mass).sum::<f64>()
+            })
+            .collect()
     }
 
     /// Whether any mass moves vertically.

@@ -4,6 +4,7 @@
 mod accuracy;
 mod building;
 mod capacity;
+mod checks;
 mod energy;
 mod foundation;
 mod gaps;
@@ -21,6 +22,7 @@ pub use capacity::{
     AcceptanceSummary, AxialFailureSummary, CapacitySummary, ExceededSummary, ImpactPlace,
     LevelSummary, RatioPlace, RatioSummary,
 };
+pub use checks::{Finding, Grade};
 pub use energy::EnergySummary;
 pub use foundation::FoundationSummary;
 pub use gaps::{ContactSummary, GapSummary, ImpactSummary};
@@ -96,6 +98,11 @@ pub struct Summary {
     pub floor_spectra: Option<FloorSpectra>,
     /// Work done.
     pub work: WorkSummary,
+    /// Checks that the model or the results did not pass, worst first ([`crate::judgement::judge`]).
+    pub checks: Vec<Finding>,
+    /// Checks that the model silences; absent if it silences none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub silenced_checks: Vec<String>,
     /// Reason if the run did not reach the end of the motion.
     pub ended_early: Option<String>,
     /// Warnings about the results.
@@ -113,6 +120,11 @@ impl Summary {
         Quantity::<Self>::optional("first_impact_s", Unit::S, "instant of the first impact", |s| s.gaps.iter().filter_map(|gap| gap.first_impact_s).min_by(f64::total_cmp)).not_in_summary().in_study(),
         Quantity::<Self>::real("impulse_n_s", Unit::NS, "time integral of all contact forces", |s| s.gaps.iter().fold(0.0, |sum, gap| sum + gap.impulse_n_s())).not_in_summary().in_study(),
         Quantity::<Self>::real("closing_peak_m", Unit::M, "greatest closing of any contact", |s| s.gaps.iter().map(GapSummary::closing_peak_m).fold(0.0, f64::max)).not_in_summary().in_study(),
+    ];
+
+    /// What the checks found.
+    pub const CHECKS: &[Quantity<Self>] = &[
+        Quantity::<Self>::whole("result_checks", "checks of the results, B1 to B12, that gave a note or a warning", |s| s.checks.iter().filter(|own| own.id.starts_with('B') && own.grade >= Grade::Note).count()).not_in_summary().in_study(),
     ];
 }
 

@@ -1,0 +1,79 @@
+//! What checks need of a file beyond the model: `[report]`, concrete and stiffness factors.
+
+use jostle::Model;
+use jostle::judgement::{StatedBuilding, named, names};
+use jostle_section::StrengthLevel;
+
+use super::assumptions::{STIFFEST_CONCRETE, as_table, factor, number};
+use crate::grade::parse_concrete;
+use crate::keys::Section;
+use crate::nearest::nearest;
+use crate::quantity::Dimension;
+use crate::reader::{Field, Reader};
+use crate::tree::{Node, Table, Value};
+
+/// Reads `[report]`: the checks that it silences.
+pub(super) fn silenced(reader: &mut Reader<'_>, field: &Field<'_>) -> Vec<&'static str> {
+    let Some(view) = reader.open(field, &[Section::Report]) else {
+        return Vec::new();
+    };
+    let Some(field) = reader.get(&view, "silence") else {
+        return Vec::new();
+    };
+    let entries = field.entries().unwrap_or_else(|| vec![field.clone()]);
+    let mut silenced = Vec::new();
+    for entry in &entries {
+        let Some(name) = reader.text(entry) else {
+            continue;
+        };
+        match named(&name) {
+            Some(found) => silenced.extend(found),
+            None => {
+                let meant = nearest(&name, names().into_iter());
+                *reader.bad(entry, format!("\"{name}\" is no check")) = Some(match meant {
+                    Some(meant) => format!("did you mean \"{meant}\"?"),
+                    None => "docs/checks.md lists all checks; write an identifier such as \"A12\", or a name such as \"records\"".to_owned(),
+                });
+            }
+        }
+    }
+    silenced.sort_unstable();
+    silenced.dedup();
+    silenced
+}
+
+/// What a file says of every building.
+pub(super) fn of_buildings(model: &Model, root: &Node) -> Vec<StatedBuilding> {
+    let tables = match as_table(root).and_then(|root| root.get("building")) {
+        Some(Node {
+            value: Value::List(list),
+            ..
+        }) => list.iter().map(as_table).collect(),
+        _ => Vec::new(),
+    };
+    let known = tables
+        .into_iter()
+        .map(|table| table.map_or_else(Default::default, of_building));
+    let mut stated: Vec<StatedBuilding> = known.collect();
+    stated.resize(model.buildings.len(), StatedBuilding::default());
+    stated
+}
+
+fn of_building(table: &Table) -> StatedBuilding {
+    let concrete = table.get("concrete").and_then(|node| match &node.value {
+        Value::Text(text) => parse_concrete(text, StrengthLevel::Characteristic).ok(),
+        _ => None,
+    });
+    let modulus = table
+        .get("elastic_modulus")
+        .and_then(|node| number(node, Dimension::Modulus));
+    let modulus = modulus.or(concrete.map(|concrete| concrete.modulus));
+    let factors = table.get("stiffness_factor");
+    let hinges = table.get("hinges").and_then(as_table);
+    StatedBuilding {
+        strength: concrete.map(|concrete| concrete.strength),
+        modulus: modulus.filter(|modulus| *modulus <= STIFFEST_CONCRETE),
+        stiffness_factor: ["column", "beam"].map(|key| factor(factors, key)),
+        hinges_from_sections: hinges.is_some_and(|hinges| hinges.get("from").is_some()),
+    }
+}

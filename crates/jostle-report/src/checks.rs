@@ -1,0 +1,38 @@
+//! What the checks found: assumptions and limits of the result.
+
+use jostle::results::summary::{Finding, Grade};
+use maud::{Markup, html};
+
+use crate::{Page, message};
+
+/// The section on the first page.
+pub(crate) fn section(page: &Page) -> Markup {
+    let (checks, silenced) = (&page.summary.checks, &page.summary.silenced_checks);
+    html! {
+        section #checks.checks {
+            h2 { (message::assumptions_and_limits()) }
+            @if checks.is_empty() {
+                p.quiet { (message::all_checks_are_passed()) }
+            } @else {
+                ul { @for finding in checks { (item(finding)) } }
+            }
+            @if !silenced.is_empty() {
+                p.quiet { (message::silenced_checks(silenced.join(", "))) }
+            }
+        }
+    }
+}
+
+fn item(finding: &Finding) -> Markup {
+    let grade = match finding.grade {
+        Grade::Remark => message::remark(),
+        Grade::Note => message::note(),
+        Grade::Warning => message::warning(),
+    };
+    html! {
+        li.(finding.grade.word()) {
+            b { (grade) } " " (finding.text) " (" (finding.id) "). "
+            span.quiet { (finding.remedy) "." }
+        }
+    }
+}

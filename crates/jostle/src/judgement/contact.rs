@@ -1,0 +1,73 @@
+//! A7 and A8: stiffness and restitution of contacts.
+
+use super::{Known, Tally, sides};
+use crate::contact::{LawKind, RestitutionIs, SlabMaterial, advised_range};
+use crate::interface::Contact;
+
+/// Contact stiffness over the end of the advised range that it is beyond; 1 within. Of every gap the pair of floors with the
+/// greatest effective mass counts.
+pub(super) fn contact_stiffness(known: &Known<'_>, tally: &mut Tally<'_>) {
+    for (index, gap) in known.model.gaps.iter().enumerate() {
+        let own = known.system.contacts.iter();
+        let own = own.filter(|contact| contact.gap == index);
+        let heaviest = own.max_by(|a, b| a.effective_mass().total_cmp(&b.effective_mass()));
+        let Some(contact) = heaviest.filter(|_| !gap.in_plan.per_length) else {
+            continue;
+        };
+        let Some(range) = advised_range(
+            gap.law.kind,
+            [SlabMaterial::default(); 2],
+            struck_masses(contact),
+        ) else {
+            continue;
+        };
+        let stiffness = gap.law.stiffness;
+        let ratio = if stiffness < range.low {
+            stiffness / range.low
+        } else {
+            (stiffness / range.high).max(1.0)
+        };
+        tally.add(ratio, || {
+            let place = sides(known, index);
+            let unit = match gap.law.kind.is_hertzian() {
+                true => "N/m^1.5",
+                false => "N/m",
+            };
+            let text = format!(
+                "{place}: the contact stiffness of {stiffness:.2e} {unit} is outside {:.1e} to {:.1e} {unit}, the range for these masses",
+                range.low, range.high
+            );
+            (place, text)
+        });
+    }
+}
+
+/// Masses that meet at a contact, those of whole faces in plan; infinite for a rigid wall \[kg\].
+pub(super) fn struck_masses(contact: &Contact) -> [f64; 2] {
+    // Points of a face share its mass.
+    let share = contact.plan.map_or(1.0, |place| place.share);
+    contact.ports.masses().map(|mass| mass / share)
+}
+
+/// Difference between the restitution of free masses and the one that the model states.
+pub(super) fn restitution(known: &Known<'_>, tally: &mut Tally<'_>) {
+    for (index, law) in known.model.gaps.iter().map(|gap| &gap.law).enumerate() {
+        if law.restitution_is != RestitutionIs::Input || !law.kind.has_published_damping() {
+            continue;
+        }
+        let (asked, free) = (law.restitution, law.free_restitution());
+        tally.add((free - asked).abs(), || {
+            let place = sides(known, index);
+            let text = format!(
+                "{place}: the published {} formula with e = {asked} really rebounds with {free:.3}",
+                law.kind.name()
+            );
+            (place, text)
+        });
+    }
+}
+
+/// Whether a law stands for bare concrete, which has a range of stiffness and hardly indents.
+pub(super) fn is_bare(kind: LawKind) -> bool {
+    !matches!(kind, LawKind::Rubber(_))
+}

@@ -1,0 +1,51 @@
+//! B2 and B8: drifts of storeys, at their peak and at the end.
+
+use super::{Known, Tally};
+use crate::model::Structure;
+
+/// Greatest drift of storeys, in space at corners as well.
+pub(super) fn peak(known: &Known<'_>, tally: &mut Tally<'_>) {
+    let Some((summary, _)) = known.results else {
+        return;
+    };
+    for own in &summary.buildings {
+        for floor in &own.floors {
+            let corner = floor
+                .in_plan
+                .map_or(0.0, |own| own.storey_drift_corner_peak);
+            let drift = floor.response.storey_drift_peak.max(corner);
+            tally.add(drift, || {
+                let place = format!("{}, storey {}", own.name, floor.floor);
+                let beyond = match drift > super::table::OUTSIDE_DRIFT {
+                    true => {
+                        ": outside the model, which keeps strength and geometry of small drifts"
+                    }
+                    false => "",
+                };
+                let text = format!("{place}: a drift of {:.1} %{beyond}", 100.0 * drift);
+                (place, text)
+            });
+        }
+    }
+}
+
+/// Drift at the end of buildings that yield; elastic ones are still swinging.
+pub(super) fn residual(known: &Known<'_>, tally: &mut Tally<'_>) {
+    let Some((summary, _)) = known.results else {
+        return;
+    };
+    for (model, own) in known.model.buildings.iter().zip(&summary.buildings) {
+        let in_plan = matches!(&model.structure, Structure::Tiers(tiers) if tiers.may_yield());
+        if model.hinges.is_none() && !in_plan {
+            continue;
+        }
+        for floor in &own.floors {
+            let drift = floor.response.residual_drift.abs();
+            tally.add(drift, || {
+                let place = format!("{}, storey {}", own.name, floor.floor);
+                let text = format!("{place}: a drift of {:.2} % remains", 100.0 * drift);
+                (place, text)
+            });
+        }
+    }
+}

@@ -1,0 +1,64 @@
+//! A12 to A14: number, length and scale of records.
+
+use super::{Known, Tally};
+use crate::motion::{GroundMotion, Wave};
+
+/// A record, not an analytic wave.
+fn record<'a>(known: &Known<'a>) -> Option<(&'a GroundMotion, f64, &'a [f64])> {
+    let motion = known.motion?;
+    match &motion.wave {
+        Wave::Sampled { step, acceleration } => Some((motion, *step, acceleration)),
+        Wave::Sine { .. } | Wave::Ricker { .. } => None,
+    }
+}
+
+/// Records that results are compared over.
+pub(super) fn records(known: &Known<'_>, tally: &mut Tally<'_>) {
+    let count = known.stated.records;
+    let Some((motion, ..)) = record(known).filter(|_| count > 0) else {
+        return;
+    };
+    tally.add(count as f64, || {
+        let what = match count {
+            1 => "one record, one sign".to_owned(),
+            _ => format!("{count} records, one sign"),
+        };
+        let text = format!("{what}: no design value; codes want 3, 7 or 11 records");
+        (motion.name.clone(), text)
+    });
+}
+
+/// Share of the Arias intensity ∫a² dt of the record after the end of the analysis.
+pub(super) fn cut(known: &Known<'_>, tally: &mut Tally<'_>) {
+    let Some((motion, step, acceleration)) = record(known) else {
+        return;
+    };
+    let kept = (motion.duration / step * (1.0 + 1e-12)).floor() as usize;
+    if kept + 1 >= acceleration.len() {
+        return;
+    }
+    let squares = |values: &[f64]| values.iter().map(|a| a * a).sum::<f64>();
+    let (lost, all) = (squares(&acceleration[kept + 1..]), squares(acceleration));
+    tally.add(lost / all, || {
+        let text = format!(
+            "{}: the cut at {:.1} s drops {:.0} % of the shaking (Arias intensity) of a record of {:.1} s",
+            motion.name,
+            motion.duration,
+            100.0 * lost / all,
+            step * (acceleration.len() - 1) as f64
+        );
+        (motion.name.clone(), text)
+    });
+}
+
+/// Factor on the record, either sign.
+pub(super) fn scale(known: &Known<'_>, tally: &mut Tally<'_>) {
+    let Some((motion, ..)) = record(known) else {
+        return;
+    };
+    let factor = motion.scale.abs();
+    tally.add(factor, || {
+        let text = format!("{}: the record is scaled by {factor:.2}", motion.name);
+        (motion.name.clone(), text)
+    });
+}

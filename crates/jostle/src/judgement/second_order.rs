@@ -1,0 +1,70 @@
+//! A5 and B1: slender frames, and stability coefficients.
+
+use super::{Known, Tally, quoted};
+use crate::model::{Frame, Structure};
+
+/// Height over width of frames whose columns keep their length.
+pub(super) fn rigid_columns(known: &Known<'_>, tally: &mut Tally<'_>) {
+    let mut compare = |name: &str, frame: &Frame| {
+        let (height, width): (f64, f64) =
+            (frame.storey_heights.iter().sum(), frame.spans.iter().sum());
+        if frame.axial.columns_flexible {
+            return;
+        }
+        tally.add(height / width, || {
+            let text = format!(
+                "{}: {:.1} times as high as wide, with columns that keep their length: real ones shorten, and the building is softer",
+                quoted(name),
+                height / width
+            );
+            (name.to_owned(), text)
+        });
+    };
+    for building in &known.model.buildings {
+        match &building.structure {
+            Structure::Frame(frame) => compare(&building.name, frame),
+            Structure::Tiers(tiers) => {
+                for own in &tiers.frames {
+                    compare(&building.name, &own.frame);
+                }
+            }
+            Structure::Shear(_) | Structure::Given(_) => {}
+        }
+    }
+}
+
+/// Greatest stability coefficient of the storeys of buildings, `leaning` with P-Delta or without it.
+fn stability(known: &Known<'_>, tally: &mut Tally<'_>, counts: impl Fn(bool) -> bool) {
+    let Some((summary, _)) = known.results else {
+        return;
+    };
+    for (model, own) in known.model.buildings.iter().zip(&summary.buildings) {
+        if !counts(model.gravity.p_delta) {
+            continue;
+        }
+        for floor in &own.floors {
+            let Some(theta) = floor.response.stability_coefficient else {
+                continue;
+            };
+            tally.add(theta, || {
+                let place = format!("{}, storey {}", own.name, floor.floor);
+                let with = match model.gravity.p_delta {
+                    true => "",
+                    false => ", and P-Delta is left out",
+                };
+                let text = format!("{place}: the stability coefficient θ is {theta:.2}{with}");
+                (place, text)
+            });
+        }
+    }
+}
+
+/// Stability coefficient of storeys without P-Delta.
+pub(super) fn left_out(known: &Known<'_>, tally: &mut Tally<'_>) {
+    stability(known, tally, |p_delta| !p_delta);
+}
+
+/// Stability coefficient of all storeys.
+pub(super) fn coefficient(known: &Known<'_>, tally: &mut Tally<'_>) {
+    stability(known, tally, |_| true);
+}

@@ -1,0 +1,173 @@
+//! A9, A10, B3, B4 and B5: what yields, and what would.
+
+use super::{Known, Tally, quoted};
+use crate::hysteresis::{Hysteresis, Side};
+use crate::model::{Building, Hinges, STANDARD_GRAVITY, Structure};
+
+/// Drift at which storeys of concrete frames yield: θ_y = 0.5 ε_y L_b/h_b with ε_y = 0.2 % and L_b/h_b = 10 \[–\].
+const YIELD_DRIFT: f64 = 0.01;
+
+/// Whether storeys or members of a building can yield, not its base alone.
+fn structure_yields(building: &Building) -> bool {
+    building.hinges.is_some()
+        || matches!(&building.structure, Structure::Tiers(tiers) if tiers.may_yield())
+}
+
+/// 1 for a building that yields without P-Delta, 0 for others.
+pub(super) fn without_p_delta(known: &Known<'_>, tally: &mut Tally<'_>) {
+    for building in &known.model.buildings {
+        if !structure_yields(building) || building.gravity.p_delta {
+            continue;
+        }
+        tally.add(1.0, || {
+            let text = format!(
+                "{} yields without P-Delta: drifts past yield come out too small",
+                quoted(&building.name)
+            );
+            (building.name.clone(), text)
+        });
+    }
+}
+
+/// Factor on EI of members whose hinges crack as well.
+pub(super) fn cracking_twice(known: &Known<'_>, tally: &mut Tally<'_>) {
+    for (index, building) in known.model.buildings.iter().enumerate() {
+        let stated = known.stated(index);
+        let Some(Hinges::Frame(hinges)) = &building.hinges else {
+            continue;
+        };
+        if stated.hinges_from_sections {
+            continue;
+        }
+        let members = [("columns", &hinges.columns), ("beams", &hinges.beams)];
+        for ((name, rows), factor) in members.into_iter().zip(stated.stiffness_factor) {
+            if !rows.iter().flatten().any(cracks) {
+                continue;
+            }
+            tally.add(factor, || {
+                let text = format!(
+                    "{}: cracking of the {name} counts twice: stiffness_factor reduces their EI to {factor} of that of the full section, and their hinges soften again at a cracking moment",
+                    quoted(&building.name)
+                );
+                (format!("{}, {name}", building.name), text)
+            });
+        }
+    }
+}
+
+/// Whether a hinge loses stiffness before it yields.
+fn cracks(hinge: &Hysteresis) -> bool {
+    Side::BOTH.into_iter().any(|side| {
+        let side = hinge.backbone().side(side);
+        side.cracking.force < side.yielding.force
+    })
+}
+
+/// Greatest ductility of the hinges or storeys of a building.
+pub(super) fn ductility(known: &Known<'_>, tally: &mut Tally<'_>) {
+    let Some((summary, _)) = known.results else {
+        return;
+    };
+    for building in &summary.buildings {
+        let Some(ductility) = building.response.ductility else {
+            continue;
+        };
+        tally.add(ductility, || {
+            let text = format!(
+                "{}: ductility reaches {ductility:.1}",
+                quoted(&building.name)
+            );
+            (building.name.clone(), text)
+        });
+    }
+}
+
+/// Rotation of members over the last of the accepted ones.
+pub(super) fn rotation(known: &Known<'_>, tally: &mut Tally<'_>) {
+    let Some((summary, _)) = known.results else {
+        return;
+    };
+    for member in summary.buildings.iter().flat_map(|own| &own.members) {
+        for own in &member.acceptance {
+            let Some(last) = own.limits.last() else {
+                continue;
+            };
+            tally.add(own.rotation_rad / last.rotation_rad, || {
+                let text = format!(
+                    "{}: a rotation of {:.1} mrad exceeds the {:.1} mrad of {} ({})",
+                    member.name,
+                    1e3 * own.rotation_rad,
+                    1e3 * last.rotation_rad,
+                    last.level,
+                    own.rule
+                );
+                (member.name.clone(), text)
+            });
+        }
+    }
+}
+
+/// Elastic buildings on a fixed base: drift and base shear over weight, as numbers and in words.
+fn elastic(known: &Known<'_>, mut add: impl FnMut(f64, f64, &str, String)) {
+    let Some((summary, _)) = known.results else {
+        return;
+    };
+    for (model, own) in known.model.buildings.iter().zip(&summary.buildings) {
+        if structure_yields(model) || model.base.isolation.is_some() || own.mass_kg <= 0.0 {
+            continue;
+        }
+        let drift = own.response.drift_peak;
+        let shear = own.response.base_shear_peak_n / (STANDARD_GRAVITY * own.mass_kg);
+        let times = drift / YIELD_DRIFT;
+        let drifts = match times > 1.0 {
+            true => format!(
+                "a drift of {:.1} % is {times:.1} times that at which frames yield",
+                100.0 * drift
+            ),
+            false => format!("a drift of {:.1} %", 100.0 * drift),
+        };
+        let text = format!(
+            "{} is elastic, but {drifts}, and its base shear is {shear:.2} of its weight",
+            quoted(&own.name)
+        );
+        add(times, shear, &own.name, text);
+    }
+}
+
+/// Drift of elastic buildings over that at yield.
+pub(super) fn elastic_drift(known: &Known<'_>, tally: &mut Tally<'_>) {
+    elastic(known, |times, _, name, text| {
+        tally.add(times, || (name.to_owned(), text));
+    });
+}
+
+/// Base shear of elastic buildings over their weight.
+pub(super) fn elastic_shear(known: &Known<'_>, tally: &mut Tally<'_>) {
+    elastic(known, |_, shear, name, text| {
+        tally.add(shear, || (name.to_owned(), text));
+    });
+}
+
+/// Greatest tension of columns over their greatest compression, where self weight is part of their forces.
+pub(super) fn column_tension(known: &Known<'_>, tally: &mut Tally<'_>) {
+    let Some((summary, _)) = known.results else {
+        return;
+    };
+    for (model, own) in known.model.buildings.iter().zip(&summary.buildings) {
+        if !model.gravity.preload {
+            continue;
+        }
+        let columns = own.members.iter().filter(|m| m.name.contains(".column."));
+        for (column, end) in columns.flat_map(|m| m.ends.iter().map(move |end| (m, end))) {
+            let (tension, compression) = (end.axial_max_n, -end.axial_min_n);
+            tally.add(tension / compression.max(1.0), || {
+                let text = format!(
+                    "{}: {:.0} kN of tension in a column",
+                    column.name,
+                    1e-3 * tension
+                );
+                (column.name.clone(), text)
+            });
+        }
+    }
+}
