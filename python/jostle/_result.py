@@ -255,6 +255,15 @@ class Result:
         """Peaks, impacts, energies and work: the tree of ``summary.json``; names contain units."""
         return cast("dict[str, Any]", json.loads(self._core.summary_json(self._twin)))
 
+    @property
+    def checks(self) -> list[dict[str, Any]]:
+        """Checks that the model or the results did not pass, worst first; empty if all are passed.
+
+        Each has ``id``, ``name``, ``grade`` (``"remark"``, ``"note"`` or ``"warning"``), ``value`` and ``limit`` in ``unit``,
+        ``where``, ``text`` and ``remedy``. docs/checks.md lists all checks.
+        """
+        return cast("list[dict[str, Any]]", self.summary["checks"])
+
     @cached_property
     def _rows(self) -> dict[tuple[str, str, int, int], int]:
         return {row: at for at, row in enumerate(self._core.rows)}

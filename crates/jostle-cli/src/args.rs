@@ -87,7 +87,7 @@ pub(crate) struct RunArgs {
     /// --members. Without rules: all, where ties are known
     #[arg(long, value_name = "RULE", num_args = 0..=1, default_missing_values = ShearRule::ALL.map(ShearRule::name), value_delimiter = ',', value_parser = clap::builder::PossibleValuesParser::new(ShearRule::ALL.map(ShearRule::name)))]
     pub(crate) capacity: Vec<String>,
-    /// Run with half and twice the contact stiffness and with restitution ± 0.15 as well, and report the spread
+    /// Run over the advised range of contact stiffness and with restitution ± 0.15 as well, and report the spread
     #[arg(long)]
     pub(crate) sensitivity: bool,
     /// Use this solver instead of that of the model

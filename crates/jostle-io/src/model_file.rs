@@ -358,6 +358,7 @@ impl Input {
 
     /// Replaces the ground motion. How grounds differ stays as the model says, unless the new motion says it.
     pub fn replace_motion(&mut self, motion: MotionSpec) {
+        self.stated.records = 1;
         let old = self.motion.take().and_then(|old| old.grounds);
         self.motion = Some(MotionSpec {
             grounds: motion.grounds.clone().or(old),

@@ -1,6 +1,6 @@
 //! How far the main results spread with the contact stiffness and the restitution.
 
-use jostle::results::contact_sensitivity::{BuildingChange, ContactVariant, GapSpread};
+use jostle::results::contact_sensitivity::{BuildingChange, GapSpread, RangeEnd, VariantResult};
 use maud::{Markup, html};
 
 use crate::message;
@@ -47,6 +47,9 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
                         @let counts = [own.impact_count, gap.impact_count_min, gap.impact_count_max].map(|count| count as f64);
                         (row(&named(message::impacts(), gap, several), counts, |count| format::fixed(count, 0)))
                     }
+                    @for (building, own) in found.buildings.iter().zip(&page.summary.buildings) {
+                        (row(&message::total_acceleration_of(&building.name), [own.response.total_acceleration_peak_m_s2, building.total_acceleration_min_m_s2, building.total_acceleration_max_m_s2], |value| format::significant(value, 3)))
+                    }
                 }
             } }
             div.scroll { table {
@@ -56,7 +59,7 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
                 tbody {
                     tr { th scope="row" { (message::of_this_run()) } td.number { (format::significant(greatest * 1e-3, 4)) } td.number { (impacts) } }
                     @for variant in &found.variants {
-                        tr { th scope="row" { (in_words(variant.contact)) } td.number { (format::significant(variant.peak_force_n * 1e-3, 4)) } td.number { (variant.impact_count) } }
+                        tr { th scope="row" { (in_words(variant)) } td.number { (format::significant(variant.peak_force_n * 1e-3, 4)) } td.number { (variant.impact_count) } }
                     }
                 }
             } }
@@ -111,10 +114,18 @@ fn named(name: &str, gap: &GapSpread, several: bool) -> String {
     }
 }
 
-fn in_words(contact: ContactVariant) -> String {
-    match (contact.stiffness_factor, contact.restitution_change) {
-        (factor, 0.0) => message::stiffness_factor(format::plain(factor, 3)),
-        (_, change) if change < 0.0 => message::restitution_minus(format::plain(-change, 3)),
-        (_, change) => message::restitution_plus(format::plain(change, 3)),
+fn in_words(variant: &VariantResult) -> String {
+    let one = variant.stiffnesses.len() == 1;
+    match (
+        variant.contact.stiffness,
+        variant.contact.restitution_change,
+    ) {
+        (Some(_), _) if one => {
+            message::stiffness_factor(format::significant(variant.stiffness_factor, 3))
+        }
+        (Some(RangeEnd::Low), _) => message::softest_advised_contacts().into(),
+        (Some(RangeEnd::High), _) => message::stiffest_advised_contacts().into(),
+        (None, change) if change < 0.0 => message::restitution_minus(format::plain(-change, 3)),
+        (None, change) => message::restitution_plus(format::plain(change, 3)),
     }
 }

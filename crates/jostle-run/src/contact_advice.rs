@@ -1,8 +1,9 @@
 //! Stiffness and restitution for the contacts of a gap, estimated from slabs, material and colliding masses.
 
 use jostle::contact::{
-    HERTZ_DURATION, Rod, Slab, SlabMaterial, effective_mass, hertz_indentation, hertz_of_force,
-    hertz_peak_force, hertz_stiffness, rod_collision, spring_of_duration, spring_of_force,
+    HERTZ_DURATION, JANKOWSKI_HERTZ, Rod, Slab, SlabMaterial, USUAL_HERTZ, effective_mass,
+    hertz_indentation, hertz_of_force, hertz_peak_force, hertz_stiffness, rod_collision,
+    spring_of_duration, spring_of_force,
 };
 use jostle::{Model, Summary, System};
 use jostle_io::{Dimension, parse_concrete, parse_quantity};
@@ -128,10 +129,6 @@ pub struct StiffnessEstimate {
     pub validity: &'static str,
 }
 
-/// Stiffness of the Hertz laws if nothing is stated \[N/m^1.5\].
-const USUAL_HERTZ: f64 = 2e9;
-/// That fitted by Jankowski (2005) to a test of concrete elements \[N/m^1.5\].
-const JANKOWSKI_HERTZ: f64 = 2.75e9;
 /// Restitution if nothing is stated \[–\].
 const USUAL_RESTITUTION: f64 = 0.65;
 /// Change of the restitution that `jostle run --sensitivity` makes \[–\].
@@ -177,12 +174,9 @@ fn of_contact(known: &Known, model: &Model, system: &System, gap: usize) -> Opti
     let names = model.gaps[gap]
         .between
         .map(|side| system.side_name(side).to_owned());
-    // Points of a face share its mass.
-    let share = contact.plan.map_or(1.0, |place| place.share);
     let masses = contact
-        .ports
-        .masses()
-        .map(|m| m.is_finite().then_some(m / share));
+        .struck_masses()
+        .map(|mass| mass.is_finite().then_some(mass));
     let given = known.masses.map(|given| given.map(Some));
     Some(known.advise(names, Some(contact.height), given.unwrap_or(masses)))
 }

@@ -1,12 +1,13 @@
-//! The same run with other contacts: half and twice the stiffness, lower and higher restitution.
+//! The same run with other contacts: both ends of the advised range of stiffness, lower and higher restitution.
 
 use std::sync::Arc;
 
+use jostle::contact::{SlabMaterial, StiffnessRange, advised_range};
 use jostle::results::contact_sensitivity::{
-    BuildingChange, ContactSensitivity, ContactVariant, GapSpread, VariantResult,
+    BuildingChange, ContactSensitivity, ContactVariant, GapSpread, RangeEnd, VariantResult,
 };
 use jostle::results::summary::{BuildingSummary, FloorSummary};
-use jostle::{LawKind, Model, Plan, RunEnd, Summary};
+use jostle::{Gap, LawKind, Model, Plan, RunEnd, Summary, System};
 
 use crate::observer::{Observer, Stage};
 use crate::prepared::Prepared;
@@ -55,9 +56,19 @@ impl Ran {
                 RunEnd::Stopped => return Err("they were interrupted".to_owned()),
                 RunEnd::Failed(error) => return Err(format!("{}: {error}", in_words(variant))),
             }
-            others.push((variant, prepared.summary(&outcome, None, 0.0)));
+            let model = &prepared.input.model;
+            others.push((
+                variant,
+                model.gaps.iter().map(|gap| gap.law.stiffness).collect(),
+                prepared.summary(&outcome, None, 0.0),
+            ));
         }
-        Ok(compare(summary, &others))
+        let own = self.prepared.input.model.gaps.first();
+        Ok(compare(
+            summary,
+            own.map_or(1.0, |gap| gap.law.stiffness),
+            &others,
+        ))
     }
 }
 
@@ -65,7 +76,7 @@ impl Prepared {
     /// The same with another contact; `None` if it is the same contact.
     fn with_contact(&self, variant: ContactVariant) -> Result<Option<Self>, String> {
         let mut input = (*self.input).clone();
-        change(&mut input.model, variant);
+        change(&mut input.model, &self.system, variant);
         if input.model == self.input.model {
             return Ok(None);
         }
@@ -88,10 +99,15 @@ impl Prepared {
 /// Lowest restitution of a variant: a body that stays where it hits is another model.
 const LEAST_RESTITUTION: f64 = 0.05;
 
-fn change(model: &mut Model, variant: ContactVariant) {
-    for gap in &mut model.gaps {
+fn change(model: &mut Model, system: &System, variant: ContactVariant) {
+    for (index, gap) in model.gaps.iter_mut().enumerate() {
+        let range = range_of(system, index, gap);
         let law = &mut gap.law;
-        law.stiffness *= variant.stiffness_factor;
+        law.stiffness = match variant.stiffness {
+            None => law.stiffness,
+            Some(RangeEnd::Low) => range.map_or(0.5 * law.stiffness, |range| range.low),
+            Some(RangeEnd::High) => range.map_or(2.0 * law.stiffness, |range| range.high),
+        };
         if !matches!(law.kind, LawKind::Linear | LawKind::Hertz) {
             let least = law
                 .least_restitution()
@@ -102,32 +118,46 @@ fn change(model: &mut Model, variant: ContactVariant) {
     }
 }
 
+/// The advised range of stiffness of a gap, for the pair of floors with the greatest effective mass.
+fn range_of(system: &System, index: usize, gap: &Gap) -> Option<StiffnessRange> {
+    let own = system.contacts.iter().filter(|own| own.gap == index);
+    let heaviest = own.max_by(|a, b| a.effective_mass().total_cmp(&b.effective_mass()))?;
+    let masses = heaviest.struck_masses();
+    let range = advised_range(gap.law.kind, [SlabMaterial::default(); 2], masses)?;
+    (!gap.in_plan.per_length).then_some(range)
+}
+
 fn in_words(variant: ContactVariant) -> String {
-    if variant.restitution_change == 0.0 {
-        format!(
-            "with {} times the contact stiffness",
-            variant.stiffness_factor
-        )
-    } else {
-        format!(
+    match variant.stiffness {
+        Some(RangeEnd::Low) => "with the softest advised contact".to_owned(),
+        Some(RangeEnd::High) => "with the stiffest advised contact".to_owned(),
+        None => format!(
             "with a restitution changed by {:+}",
             variant.restitution_change
-        )
+        ),
     }
 }
 
 /// Compares runs with other contacts with the run itself.
-fn compare(own: &Summary, others: &[(ContactVariant, Summary)]) -> ContactSensitivity {
-    let variants = others.iter().map(|(contact, summary)| VariantResult {
-        contact: *contact,
-        peak_force_n: summary
-            .gaps
-            .iter()
-            .map(|gap| gap.peak_force_n)
-            .fold(0.0, f64::max),
-        impact_count: summary.gaps.iter().map(|gap| gap.impact_count).sum(),
-    });
-    let all = || std::iter::once(own).chain(others.iter().map(|(_, summary)| summary));
+fn compare(
+    own: &Summary,
+    stiffness: f64,
+    others: &[(ContactVariant, Vec<f64>, Summary)],
+) -> ContactSensitivity {
+    let variants = others
+        .iter()
+        .map(|(contact, stiffnesses, summary)| VariantResult {
+            contact: *contact,
+            stiffness_factor: stiffnesses.first().map_or(1.0, |other| other / stiffness),
+            stiffnesses: stiffnesses.clone(),
+            peak_force_n: summary
+                .gaps
+                .iter()
+                .map(|gap| gap.peak_force_n)
+                .fold(0.0, f64::max),
+            impact_count: summary.gaps.iter().map(|gap| gap.impact_count).sum(),
+        });
+    let all = || std::iter::once(own).chain(others.iter().map(|(.., summary)| summary));
     let gaps = own.gaps.iter().enumerate().map(|(index, gap)| {
         let forces = || all().map(|run| run.gaps[index].peak_force_n);
         let counts = || all().map(|run| run.gaps[index].impact_count);
@@ -140,12 +170,14 @@ fn compare(own: &Summary, others: &[(ContactVariant, Summary)]) -> ContactSensit
         }
     });
     let buildings = own.buildings.iter().enumerate().map(|(index, building)| {
-        let others = || others.iter().map(|(_, run)| &run.buildings[index]);
+        let others = || others.iter().map(|(.., run)| &run.buildings[index]);
         let change = |of: fn(&FloorSummary) -> f64| {
             others()
                 .map(|other| greatest_change(building, other, of))
                 .fold(0.0, f64::max)
         };
+        let accelerations =
+            || all().map(|run| run.buildings[index].response.total_acceleration_peak_m_s2);
         BuildingChange {
             name: building.name.clone(),
             displacement: change(|floor| floor.response.displacement_peak_m()),
@@ -153,6 +185,8 @@ fn compare(own: &Summary, others: &[(ContactVariant, Summary)]) -> ContactSensit
             total_acceleration: change(|floor| floor.response.total_acceleration_peak_m_s2),
             storey_shear: change(|floor| floor.response.storey_shear_peak_n),
             overturning_moment: change(|floor| floor.response.overturning_moment_peak_n_m),
+            total_acceleration_min_m_s2: accelerations().fold(f64::INFINITY, f64::min),
+            total_acceleration_max_m_s2: accelerations().fold(0.0, f64::max),
         }
     });
     ContactSensitivity {

@@ -494,9 +494,10 @@ fn write_gap(
     let [left, right] = &gap.between;
     let verdict = match gap.first_impact_s {
         Some(first) => format!(
-            "{}, peak {} kN, first at {first:.3} s",
+            "{}, peak {} kN{}, first at {first:.3} s",
             counted(gap.impact_count, "impact"),
-            kn(gap.peak_force_n)
+            kn(gap.peak_force_n),
+            range_beside(gap, summary)
         ),
         None => {
             format!("no contact; smallest clearance {} mm", mm(gap.clearance_m))
@@ -576,8 +577,18 @@ fn write_gap(
     write_codes(text, required, computed, [has_impacts, are_named])
 }
 
+/// The range of the peak force over other contacts, where they were run.
+fn range_beside(gap: &GapSummary, summary: &Summary) -> String {
+    let spread = summary.contact_sensitivity.as_ref();
+    let own = spread.and_then(|all| all.gaps.iter().find(|own| own.between == gap.between));
+    own.map_or_else(String::new, |own| {
+        let [least, most] = [own.peak_force_min_n, own.peak_force_max_n].map(kn);
+        format!(" ({least} to {most} kN)")
+    })
+}
+
 fn write_spread(text: &mut String, spread: &ContactSensitivity) -> std::fmt::Result {
-    let heading = "With half and twice the contact stiffness, and restitution ± 0.15";
+    let heading = "Over the advised range of contact stiffness, and restitution ± 0.15";
     writeln!(text, "\n{}", styled(BOLD, heading))?;
     for gap in &spread.gaps {
         let [left, right] = &gap.between;
@@ -598,12 +609,13 @@ fn write_spread(text: &mut String, spread: &ContactSensitivity) -> std::fmt::Res
         let percent = |share: f64| format!("{:.1} %", 100.0 * share);
         writeln!(
             text,
-            "{}: displacements change by up to {}, drifts {}, storey shears {}, accelerations {}",
+            "{}: floor accelerations {:.1} to {:.1} m/s²; displacements change by up to {}, drifts {}, storey shears {}",
             building.name,
+            building.total_acceleration_min_m_s2,
+            building.total_acceleration_max_m_s2,
             percent(building.displacement),
             percent(building.storey_drift),
-            percent(building.storey_shear),
-            percent(building.total_acceleration)
+            percent(building.storey_shear)
         )?;
     }
     Ok(())

@@ -78,7 +78,19 @@ fn every_variant_is_the_run_with_that_contact() {
     let (k, e) = (2e8, 0.6);
     let own = run(&model("kelvin", k, e), &["--sensitivity", "--no-report"]);
     let spread = &own["contact_sensitivity"];
-    let by_hand = [(0.5 * k, e), (2.0 * k, e), (k, e - 0.15), (k, e + 0.15)];
+    // Hertz's F = k^0.4 (5 m v²/4)^0.6 at 0.4 m/s with 40 t against 60 t, and the spring with that force; a slab of 150 mm.
+    let (mass, speed) = (24e3_f64, 0.4_f64);
+    let energy = mass * speed * speed;
+    let force = 2e9_f64.powf(0.4) * (1.25 * energy).powf(0.6);
+    let (low, high) = (force * force / energy, 0.15 * 30e9);
+    for (variant, stiffness) in [(0, low), (1, high), (2, k), (3, k)] {
+        let found = number(&spread["variants"][variant]["stiffnesses"][0]);
+        assert!(
+            (found / stiffness - 1.0).abs() < 1e-9,
+            "{found} {stiffness}"
+        );
+    }
+    let by_hand = [(low, e), (high, e), (k, e - 0.15), (k, e + 0.15)];
     let others = by_hand.map(|(k, e)| run(&model("kelvin", k, e), &["--no-report"]));
     let force = |run: &Value| number(&run["gaps"][0]["peak_force_n"]);
     let mut forces = vec![force(&own)];

@@ -24,6 +24,10 @@ pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>) -> Analysis {
         let value = reader.quantity(&field, Dimension::Dimensionless);
         analysis.tolerance = value.unwrap_or(analysis.tolerance);
     }
+    if let Some(field) = reader.get(&view, "collapse_drift") {
+        let value = reader.quantity(&field, Dimension::Dimensionless);
+        analysis.collapse_drift = value.unwrap_or(analysis.collapse_drift);
+    }
     if let Some(field) = reader.get(&view, "energy_tolerance") {
         let value = reader.quantity(&field, Dimension::Dimensionless);
         analysis.energy_tolerance = value.unwrap_or(analysis.energy_tolerance);

@@ -293,6 +293,11 @@ fn read(
             }
         }
     };
+    let in_plan = matches!(&building.structure, Structure::Tiers(tiers) if tiers.may_yield());
+    if !view.has("p_delta") {
+        // What yields falls over sideways sooner under its weight.
+        building.gravity.p_delta = building.hinges.is_some() || in_plan;
+    }
     Some(building)
 }
 

@@ -260,7 +260,8 @@ pub(super) fn flexible_members(
     };
     if !matches!(field.node.value, Value::Table(_)) {
         let flexible = is_flexible(reader, &field);
-        return (flexible, flexible);
+        // Axial deformation in a word is that of columns: floors stay rigid.
+        return (flexible, flexible && section != Section::Axial);
     }
     let sections: &'static [Section] = match section {
         Section::Axial => &[Section::Axial],

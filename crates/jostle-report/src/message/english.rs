@@ -734,7 +734,7 @@ messages! {
     // spread
     storey_drift = "storey drift";
     spread_over_contacts = "Spread over contacts";
-    nobody_knows_contact_stiffness(variants) = "Nobody knows contact stiffness and restitution closely. These are the results of this run, and the least and the greatest of it and of {variants} runs with other contacts.";
+    nobody_knows_contact_stiffness(variants) = "Nobody knows contact stiffness and restitution closely. These are the results of this run, and the least and the greatest of it and of {variants} runs with other contacts: both ends of the stiffness that jostle contact-advice gives for these masses, and a restitution 0.15 lower and higher.";
     result = "result";
     this_run = "this run";
     least = "least";
@@ -744,6 +744,9 @@ messages! {
     changes_of_peaks_by_up = "changes of peaks by up to";
     changes_are_those_of_any = "Changes are those of any floor or storey, relative to the greatest peak of their kind in the building.";
     stiffness_factor(factor) = "stiffness × {factor}";
+    softest_advised_contacts = "softest advised contacts";
+    stiffest_advised_contacts = "stiffest advised contacts";
+    total_acceleration_of(building) = "{building}, total acceleration [m/s²]";
     restitution_minus(change) = "restitution − {change}";
     restitution_plus(change) = "restitution + {change}";
 

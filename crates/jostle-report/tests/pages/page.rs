@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use crate::fixture::{Run, alone, isolated, row_of_three, two_frames, walled, yielding};
 use jostle::results::contact_sensitivity::{
-    BuildingChange, ContactSensitivity, ContactVariant, GapSpread, VariantResult,
+    BuildingChange, ContactSensitivity, ContactVariant, GapSpread, RangeEnd, VariantResult,
 };
 use jostle::results::response::FloorResponse;
 use jostle_report::render;
@@ -384,6 +384,12 @@ fn the_spread_over_contacts_stands_beside_its_results() {
         variants: results
             .map(|(contact, peak_force_n)| VariantResult {
                 contact,
+                stiffness_factor: match contact.stiffness {
+                    Some(RangeEnd::Low) => 0.5,
+                    Some(RangeEnd::High) => 2.0,
+                    None => 1.0,
+                },
+                stiffnesses: vec![2e9],
                 peak_force_n,
                 impact_count: 7,
             })
@@ -402,6 +408,8 @@ fn the_spread_over_contacts_stands_beside_its_results() {
             total_acceleration: 0.456,
             storey_shear: 0.1,
             overturning_moment: 0.05,
+            total_acceleration_min_m_s2: 38.0,
+            total_acceleration_max_m_s2: 116.0,
         }],
     });
     run.summary.gaps[0].peak_force_n = 1283e3;
@@ -419,6 +427,7 @@ fn the_spread_over_contacts_stands_beside_its_results() {
     };
     assert_eq!(cells("peak force [kN]"), ["1283", "880.0", "1640"]);
     assert_eq!(cells("impacts")[1..], ["5", "7"]);
+    assert_eq!(cells("J1, total acceleration [m/s²]")[1..], ["38.0", "116"]);
     assert_eq!(cells("stiffness × 0.5"), ["880.0", "7"]);
     assert_eq!(cells("restitution − 0.15"), ["1285", "7"]);
     assert_eq!(cells("restitution + 0.15"), ["1295", "7"]);

@@ -1,5 +1,6 @@
 //! Runs from model files, and what they report.
 
+mod checks;
 mod comparison;
 mod given;
 mod indentation;

@@ -434,6 +434,12 @@ fn check_analysis(faults: &mut Faults, model: &Model) {
             integrator.gamma, integrator.beta
         )
     });
+    let drift = analysis.collapse_drift;
+    faults.require(
+        drift > 0.0 && drift <= 1.0,
+        "analysis.collapse_drift",
+        || format!("must lie above 0 and be at most 1, found {drift}"),
+    );
     for (name, value, range) in [
         ("tolerance", analysis.tolerance, 1e-6..=0.1),
         ("energy_tolerance", analysis.energy_tolerance, 1e-15..=1.0),

@@ -45,6 +45,14 @@ pub struct PlanPlace {
 }
 
 impl Contact {
+    /// Masses that meet, those of whole faces in plan; infinite for a rigid wall \[kg\].
+    #[must_use]
+    pub fn struck_masses(&self) -> [f64; 2] {
+        // Points of a face share its mass.
+        let share = self.plan.map_or(1.0, |place| place.share);
+        self.ports.masses().map(|mass| mass / share)
+    }
+
     /// m₁m₂/(m₁ + m₂) of the two faces \[kg\].
     #[must_use]
     pub fn effective_mass(&self) -> f64 {

@@ -2,7 +2,6 @@
 
 use super::{Known, Tally, sides};
 use crate::contact::{LawKind, RestitutionIs, SlabMaterial, advised_range};
-use crate::interface::Contact;
 
 /// Contact stiffness over the end of the advised range that it is beyond; 1 within. Of every gap the pair of floors with the
 /// greatest effective mass counts.
@@ -17,7 +16,7 @@ pub(super) fn contact_stiffness(known: &Known<'_>, tally: &mut Tally<'_>) {
         let Some(range) = advised_range(
             gap.law.kind,
             [SlabMaterial::default(); 2],
-            struck_masses(contact),
+            contact.struck_masses(),
         ) else {
             continue;
         };
@@ -40,13 +39,6 @@ pub(super) fn contact_stiffness(known: &Known<'_>, tally: &mut Tally<'_>) {
             (place, text)
         });
     }
-}
-
-/// Masses that meet at a contact, those of whole faces in plan; infinite for a rigid wall \[kg\].
-pub(super) fn struck_masses(contact: &Contact) -> [f64; 2] {
-    // Points of a face share its mass.
-    let share = contact.plan.map_or(1.0, |place| place.share);
-    contact.ports.masses().map(|mass| mass / share)
 }
 
 /// Difference between the restitution of free masses and the one that the model states.

@@ -13,10 +13,12 @@ const FORMULAS: [(f64, f64); 6] = [
     (0.0488, 0.75),
 ];
 
-/// First period over the nearest of the periods by the formulas; 1 between them. One storey often stands for a whole building,
-/// whose height it does not have.
+/// First period over the nearest of the periods by the formulas; 1 between them. The formulas are those of buildings that have not
+/// cracked: the period is multiplied by the root of the factor on EI, where the file states one. One storey often stands for a whole
+/// building, whose height it does not have.
 pub(super) fn first_period(known: &Known<'_>, tally: &mut Tally<'_>) {
-    for (building, own) in known.model.buildings.iter().zip(&known.system.buildings) {
+    let buildings = known.model.buildings.iter().zip(&known.system.buildings);
+    for (index, (building, own)) in buildings.enumerate() {
         let heights = own.floors.last().map_or(0.0, |roof| roof.height);
         let Some(mode) = own.lateral_modes().next() else {
             continue;
@@ -25,7 +27,8 @@ pub(super) fn first_period(known: &Known<'_>, tally: &mut Tally<'_>) {
             continue;
         }
         let (least, most) = range(heights);
-        let period = mode.period();
+        let [columns, beams] = known.stated(index).stiffness_factor;
+        let period = mode.period() * (0.5 * (columns + beams)).min(1.0).sqrt();
         let ratio = if period < least {
             period / least
         } else {
@@ -33,7 +36,7 @@ pub(super) fn first_period(known: &Known<'_>, tally: &mut Tally<'_>) {
         };
         tally.add(ratio, || {
             let text = format!(
-                "{}: the first period is {period:.2} s; formulas of codes give {least:.2} to {most:.2} s for {heights:.1} m",
+                "{}: the first period before cracking is {period:.2} s; formulas of codes give {least:.2} to {most:.2} s for {heights:.1} m",
                 quoted(&building.name)
             );
             (building.name.clone(), text)

@@ -33,19 +33,17 @@ pub(super) fn rigid_columns(known: &Known<'_>, tally: &mut Tally<'_>) {
     }
 }
 
-/// Greatest stability coefficient of the storeys of buildings, `leaning` with P-Delta or without it.
-fn stability(known: &Known<'_>, tally: &mut Tally<'_>, counts: impl Fn(bool) -> bool) {
+/// Greatest stability coefficient of the storeys that count, by whether their building has P-Delta, and by the coefficient.
+fn stability(known: &Known<'_>, tally: &mut Tally<'_>, counts: impl Fn(bool, f64) -> bool) {
     let Some((summary, _)) = known.results else {
         return;
     };
     for (model, own) in known.model.buildings.iter().zip(&summary.buildings) {
-        if !counts(model.gravity.p_delta) {
-            continue;
-        }
         for floor in &own.floors {
-            let Some(theta) = floor.response.stability_coefficient else {
+            let theta = floor.response.stability_coefficient.unwrap_or(0.0);
+            if !counts(model.gravity.p_delta, theta) {
                 continue;
-            };
+            }
             tally.add(theta, || {
                 let place = format!("{}, storey {}", own.name, floor.floor);
                 let with = match model.gravity.p_delta {
@@ -59,12 +57,14 @@ fn stability(known: &Known<'_>, tally: &mut Tally<'_>, counts: impl Fn(bool) -> 
     }
 }
 
-/// Stability coefficient of storeys without P-Delta.
+/// Stability coefficient of storeys without P-Delta; those above the next limit belong to [`coefficient`].
 pub(super) fn left_out(known: &Known<'_>, tally: &mut Tally<'_>) {
-    stability(known, tally, |p_delta| !p_delta);
+    stability(known, tally, |p_delta, theta| {
+        !p_delta && theta <= super::table::SECOND_ORDER
+    });
 }
 
 /// Stability coefficient of all storeys.
 pub(super) fn coefficient(known: &Known<'_>, tally: &mut Tally<'_>) {
-    stability(known, tally, |_| true);
+    stability(known, tally, |_, _| true);
 }

@@ -9,6 +9,10 @@ use crate::results::summary::Grade::{self, Note, Remark, Warning};
 /// Source of limits that no publication gives.
 pub const JUDGEMENT: &str = "judgement";
 
+/// Stability coefficient above which P-Delta matters \[–\].
+const P_DELTA_NEEDED: f64 = 0.1;
+/// Stability coefficient above which it decides \[–\].
+pub(super) const SECOND_ORDER: f64 = 0.2;
 /// Drift beyond which results are outside the model \[–\].
 pub(super) const OUTSIDE_DRIFT: f64 = 0.045;
 
@@ -33,7 +37,7 @@ pub const CHECKS: &[Check] = &[
     Check {
         id: "A1",
         name: "first-period",
-        quantity: "first period over the nearest of the periods that formulas of codes give for the height; 1 between them",
+        quantity: "first period before cracking over the nearest of the periods that formulas of codes give for the height; 1 between them",
         unit: "–",
         limits: &[below(0.5, Note), above(2.0, Note)],
         source: "formulas: EN 1998-1:2004, 4.3.3.2.2(3), and ASCE/SEI 7-16, table 12.8-2; factors: judgement",
@@ -83,7 +87,7 @@ pub const CHECKS: &[Check] = &[
     Check {
         id: "A4",
         name: "modal-damping",
-        quantity: "share of critical damping of lateral modes 1 to 5, without dashpots of bases, bearings, soil and links",
+        quantity: "share of critical damping of lateral modes 1 to 5 that carry at least 5 % of the mass, without dashpots of bases and links; not on bearings or soil",
         unit: "–",
         limits: &[below(0.01, Note), above(0.10, Note)],
         source: JUDGEMENT,
@@ -116,12 +120,12 @@ pub const CHECKS: &[Check] = &[
         quantity: "contact stiffness over the end of the advised range that it is beyond; 1 within",
         unit: "–",
         limits: &[
-            below(1.0, Note),
-            above(1.0, Note),
+            below(0.9, Note),
+            above(1.1, Note),
             below(0.1, Warning),
             above(10.0, Warning),
         ],
-        source: "range: Goldsmith 1960, Muthukumar and DesRoches 2006, Jankowski 2005 (jostle contact-advice); factor 10: judgement",
+        source: "range: Goldsmith 1960, Muthukumar and DesRoches 2006, Jankowski 2005 (jostle contact-advice); factors: judgement",
         remedy: "take the stiffness from jostle contact-advice, and check its unit",
         measure: contact::contact_stiffness,
     },
@@ -200,7 +204,7 @@ pub const CHECKS: &[Check] = &[
         name: "p-delta-left-out",
         quantity: "stability coefficient θ = P d_r/(V h) of a storey without P-Delta",
         unit: "–",
-        limits: &[above(0.1, Note)],
+        limits: &[above(P_DELTA_NEEDED, Note)],
         source: "EN 1998-1:2004, 4.4.2.2(2)",
         remedy: "write p_delta = true",
         measure: second_order::left_out,
@@ -210,7 +214,7 @@ pub const CHECKS: &[Check] = &[
         name: "stability",
         quantity: "stability coefficient θ = P d_r/(V h) of a storey",
         unit: "–",
-        limits: &[above(0.2, Note), above(0.3, Warning)],
+        limits: &[above(SECOND_ORDER, Note), above(0.3, Warning)],
         source: "EN 1998-1:2004, 4.4.2.2(3) and (4)",
         remedy: "stiffen or strengthen the storey; θ above 0.3 is not allowed",
         measure: second_order::coefficient,
@@ -250,7 +254,7 @@ pub const CHECKS: &[Check] = &[
         name: "elastic-drift",
         quantity: "drift of an elastic building over 1 %, at which concrete frames yield",
         unit: "–",
-        limits: &[above(1.0, Note), above(2.0, Warning)],
+        limits: &[above(1.0, Remark), above(1.5, Note), above(3.0, Warning)],
         source: JUDGEMENT,
         remedy: "give the building hinges",
         measure: yielding::elastic_drift,

@@ -107,8 +107,8 @@ pub(super) fn rotation(known: &Known<'_>, tally: &mut Tally<'_>) {
     }
 }
 
-/// Elastic buildings on a fixed base: drift and base shear over weight, as numbers and in words.
-fn elastic(known: &Known<'_>, mut add: impl FnMut(f64, f64, &str, String)) {
+/// Elastic buildings that are not isolated: drift over that at yield, base shear over weight, and name.
+fn elastic(known: &Known<'_>, mut add: impl FnMut(f64, f64, &str)) {
     let Some((summary, _)) = known.results else {
         return;
     };
@@ -116,35 +116,35 @@ fn elastic(known: &Known<'_>, mut add: impl FnMut(f64, f64, &str, String)) {
         if structure_yields(model) || model.base.isolation.is_some() || own.mass_kg <= 0.0 {
             continue;
         }
-        let drift = own.response.drift_peak;
         let shear = own.response.base_shear_peak_n / (STANDARD_GRAVITY * own.mass_kg);
-        let times = drift / YIELD_DRIFT;
-        let drifts = match times > 1.0 {
-            true => format!(
-                "a drift of {:.1} % is {times:.1} times that at which frames yield",
-                100.0 * drift
-            ),
-            false => format!("a drift of {:.1} %", 100.0 * drift),
-        };
-        let text = format!(
-            "{} is elastic, but {drifts}, and its base shear is {shear:.2} of its weight",
-            quoted(&own.name)
-        );
-        add(times, shear, &own.name, text);
+        add(own.response.drift_peak / YIELD_DRIFT, shear, &own.name);
     }
 }
 
 /// Drift of elastic buildings over that at yield.
 pub(super) fn elastic_drift(known: &Known<'_>, tally: &mut Tally<'_>) {
-    elastic(known, |times, _, name, text| {
-        tally.add(times, || (name.to_owned(), text));
+    elastic(known, |times, shear, name| {
+        tally.add(times, || {
+            let text = format!(
+                "{} is elastic, but a drift of {:.1} % is {times:.1} times that at which frames yield, and its base shear is {shear:.2} of its weight",
+                quoted(name),
+                100.0 * YIELD_DRIFT * times
+            );
+            (name.to_owned(), text)
+        });
     });
 }
 
 /// Base shear of elastic buildings over their weight.
 pub(super) fn elastic_shear(known: &Known<'_>, tally: &mut Tally<'_>) {
-    elastic(known, |_, shear, name, text| {
-        tally.add(shear, || (name.to_owned(), text));
+    elastic(known, |_, shear, name| {
+        tally.add(shear, || {
+            let text = format!(
+                "{} is elastic, but its base shear is {shear:.2} of its weight",
+                quoted(name)
+            );
+            (name.to_owned(), text)
+        });
     });
 }
 

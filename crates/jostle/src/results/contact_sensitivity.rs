@@ -2,27 +2,38 @@
 
 use serde::Serialize;
 
+/// An end of the advised range of contact stiffness.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum RangeEnd {
+    /// Softest.
+    Low,
+    /// Stiffest.
+    High,
+}
+
 /// One other contact.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ContactVariant {
-    /// Factor on the contact stiffness of every gap, > 0 \[–\].
-    pub stiffness_factor: f64,
+    /// End of the advised range ([`advised_range`](crate::contact::advised_range)) to which the stiffness of every gap is set; `None`
+    /// keeps it. Gaps without such a range take half and twice their stiffness.
+    pub stiffness: Option<RangeEnd>,
     /// Change of the coefficient of restitution of every gap, before it is kept within what its law can do \[–\].
     pub restitution_change: f64,
 }
 
 impl ContactVariant {
-    /// Half and twice the stiffness, and a restitution 0.15 lower and higher.
+    /// Both ends of the advised range of stiffness, and a restitution 0.15 lower and higher.
     pub const USUAL: [Self; 4] = [
-        Self::new(0.5, 0.0),
-        Self::new(2.0, 0.0),
-        Self::new(1.0, -0.15),
-        Self::new(1.0, 0.15),
+        Self::new(Some(RangeEnd::Low), 0.0),
+        Self::new(Some(RangeEnd::High), 0.0),
+        Self::new(None, -0.15),
+        Self::new(None, 0.15),
     ];
 
-    const fn new(stiffness_factor: f64, restitution_change: f64) -> Self {
+    const fn new(stiffness: Option<RangeEnd>, restitution_change: f64) -> Self {
         Self {
-            stiffness_factor,
+            stiffness,
             restitution_change,
         }
     }
@@ -45,6 +56,10 @@ pub struct VariantResult {
     /// The contact.
     #[serde(flatten)]
     pub contact: ContactVariant,
+    /// Factor on the contact stiffness of the first gap \[–\].
+    pub stiffness_factor: f64,
+    /// Contact stiffness of every gap \[N/m^1.5 or N/m\].
+    pub stiffnesses: Vec<f64>,
     /// Greatest force of any gap \[N\].
     pub peak_force_n: f64,
     /// Impacts of all gaps.
@@ -81,4 +96,8 @@ pub struct BuildingChange {
     pub storey_shear: f64,
     /// Overturning moments.
     pub overturning_moment: f64,
+    /// Least greatest total acceleration of any floor over the run and the others \[m/s²\].
+    pub total_acceleration_min_m_s2: f64,
+    /// Greatest one \[m/s²\].
+    pub total_acceleration_max_m_s2: f64,
 }

@@ -5,9 +5,6 @@ use super::plan_drifts::PlanDrifts;
 use crate::history::FloorPeaks;
 use crate::system::System;
 
-/// Storey drift from which a building that yields or leans has collapsed \[–\].
-const COLLAPSE_DRIFT: f64 = 0.25;
-
 /// Looks at the drifts so far, building by building, in space at the corners as well. Elastic buildings may lean as far as they like:
 /// their numbers are those of their model.
 ///
@@ -30,7 +27,7 @@ pub(super) fn check_collapse(
         let corners = in_plan.get(index).into_iter().flat_map(PlanDrifts::corners);
         let all = storeys.chain(corners.enumerate());
         let worst = all.max_by(|a, b| a.1.total_cmp(&b.1));
-        if let Some((storey, drift)) = worst.filter(|(_, drift)| *drift > COLLAPSE_DRIFT) {
+        if let Some((storey, drift)) = worst.filter(|(_, drift)| *drift > system.collapse_drift) {
             return Err(StepError::Collapse {
                 building: building.name.clone(),
                 storey: storey + 1,

@@ -123,6 +123,7 @@ impl System {
         }
         let mut system = Self::of_buildings(buildings);
         system.walls = walls;
+        system.collapse_drift = model.analysis.collapse_drift;
         system.join(&row, model)?;
         let places = system.buildings.iter().enumerate();
         let places: Vec<_> = places
@@ -160,6 +161,7 @@ impl System {
             soil_links: 0,
             members_followed: Vec::new(),
             links_followed: Vec::new(),
+            collapse_drift: model.analysis.collapse_drift,
             ratings: Vec::new(),
             walls: self.walls.clone(),
             rigid_walls: Vec::new(),

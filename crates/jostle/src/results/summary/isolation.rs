@@ -68,7 +68,7 @@ impl Serialize for Floors {
 }
 
 /// Bearings of a building, all together.
-#[derive(Clone, Debug, Serialize, PartialEq)]
+#[derive(Clone, Debug, Default, Serialize, PartialEq)]
 pub struct IsolationSummary {
     /// Kind of the bearings, as a model file spells it.
     pub kind: &'static str,

@@ -6,7 +6,7 @@ use super::capacity::{AcceptanceSummary, AxialFailureSummary, RatioSummary};
 use crate::quantity::{Quantity, Unit};
 
 /// Greatest forces of one column or beam.
-#[derive(Clone, Debug, Serialize, PartialEq)]
+#[derive(Clone, Debug, Default, Serialize, PartialEq)]
 pub struct MemberSummary {
     /// `J1.column.LINE.STOREY` or `J1.beam.FLOOR.SPAN`, counted from 1; `J1.FRAME.column.LINE.STOREY` and so on where frames
     /// stand in a plan; `J1.column.X.Y.STOREY`, `J1.beam_x.FLOOR.X.Y` and `J1.beam_y.FLOOR.X.Y` in a space frame.
@@ -102,7 +102,7 @@ impl ForcesSummary {
 }
 
 /// Greatest forces at one section of a member.
-#[derive(Clone, Copy, Debug, Serialize, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, Serialize, PartialEq)]
 pub struct SectionSummary {
     /// `foot`, `head`, `left`, `right`, `below` or `above`.
     pub at: &'static str,
