@@ -68,7 +68,7 @@ def run(
         pounding: false runs the buildings without contact.
         without_contact: adds a second run without contact, as the command line does for its report; the summary
             then includes the smallest gap without pounding.
-        sensitivity: runs the model with half and twice the contact stiffness and with restitution ± 0.15 as well;
+        sensitivity: runs the model with both ends of the advised contact stiffness and with restitution ± 0.15 as well;
             ``result.summary["contact_sensitivity"]`` then has the spread of forces and the greatest changes of every building.
         record_interval: least time between recorded instants in free vibration, zero for every step (every step of a
             closed contact is recorded); ``None`` records no histories. Rows are additional steps of modal stepping, so

@@ -16,6 +16,18 @@ from conftest import TOWERS
 import jostle
 
 
+def test_checks_are_worst_first_and_can_be_silenced() -> None:
+    text = TOWERS.replace('pga = "0.3 g"', 'pga = "1.5 g"')
+    found = jostle.run(jostle.Model.loads(text)).checks
+    grades = [{"remark": 0, "note": 1, "warning": 2}[own["grade"]] for own in found]
+    assert grades == sorted(grades, reverse=True) and grades[0] == 2
+    assert {"id", "value", "limit", "where", "text"} <= set(found[0])
+    silenced = jostle.run(jostle.Model.loads(text + "\n[report]\nsilence = ['A12']\n")).checks
+    assert [own for own in found if own["id"] != "A12"] == silenced and len(silenced) < len(found)
+    with pytest.raises(jostle.ModelError, match="did you mean"):
+        jostle.Model.loads(text + "\n[report]\nsilence = ['A99']\n")
+
+
 def test_histories_are_views_that_nobody_writes_to(result: jostle.Result) -> None:
     floor = result.floor("soft", 3)
     for values in (result.time, floor.displacement, floor.velocity, result.contacts[0].force):

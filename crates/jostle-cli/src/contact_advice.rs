@@ -152,7 +152,7 @@ fn describe(text: &mut String, advice: &ContactAdvice) -> std::fmt::Result {
     }
     writeln!(
         text,
-        "The stiffness is known to an order of magnitude. \"jostle run --sensitivity\" repeats a run with half and twice the stiffness and\n\
+        "The stiffness is known to an order of magnitude. \"jostle run --sensitivity\" repeats a run with both ends of this range and\n\
          restitution ± 0.15, and gives the spread of every result."
     )?;
     writeln!(text)

@@ -19,7 +19,12 @@ const ILL_CONDITIONED: &str = "\
 - **Below some step size accuracy stops improving.** In double precision the step equations have a relative error of about
   10⁻¹⁵/(ωh)². Below about 10 µs rounding therefore exceeds the error of the method for slow structures.
 - **Not compared**: contact laws that OpenSees lacks or defines differently; the tables of Zhang et al. (2019), whose
-  inputs are not available; laboratory tests.
+  inputs are not available.
+- **None of these numbers is a measured impact.** Mathematics and other programs show that the equations are solved right, not that
+  they are the right equations. Public experiments that would serve: the moat-wall tests of report MCEER-13-0003 (DesignSafe,
+  project NEES-2008-0571), in the layout that `jostle compare` reads; the pounding tests of Khatami et al. (2019) and of Rashid and
+  Abbas (2025); the frame with bumper of Los Alamos National Laboratory. With such a table and a [map of its
+  columns](how-to/shake-table.md): `jostle compare model.toml test.asc --map map.toml --out compared`.
 ";
 
 /// The whole page.

@@ -90,7 +90,7 @@ messages! {
     greatest_impact_speed = "greatest impact speed";
     wall = "wall";
     hertz_k_4_3_h = "Hertz: k = 4/[3π (h₁ + h₂)] √[R₁R₂/(R₁ + R₂)] with spheres of the masses of the floors (Goldsmith 1960; Muthukumar and DesRoches 2006), concrete of 30 GPa. The peak force of free masses grows with k^0.4, under linear laws with k^0.5:";
-    repeats_the_run_with_half = "repeats the run with half and twice the stiffness and restitution ± 0.15.";
+    repeats_the_run_with_half = "repeats the run with both ends of the advised stiffness and restitution ± 0.15.";
     adds_the_axial_stiffness = "adds the axial stiffness and the waves of slabs whose size is given.";
     stiffnesses_in_n_m = "Stiffnesses in N/m and N/m^1.5 cannot be compared directly.";
 
