@@ -95,6 +95,8 @@ pub struct Page<'a> {
     pub north: Option<f64>,
     /// Contact data beside what masses suggest, by gap; empty to omit them.
     pub contacts: &'a [ContactBox],
+    /// Greatest total acceleration of every floor of every building after a low-pass filter; empty to omit it \[m/s²\].
+    pub filtered: &'a [Vec<f64>],
     /// Results of `jostle method` for these buildings, shown as a section; empty to omit it.
     pub methods: &'a [MethodSurvey],
     /// What makes the page a calculation document, if it is known.

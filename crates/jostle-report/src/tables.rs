@@ -152,16 +152,16 @@ fn title(quantity: &Quantity<FloorResponse>, shown: Shown) -> &'static str {
 /// Peaks of every floor and of the storey below it, with and without contact: one folded table for each building.
 pub(crate) fn peaks(page: &Page) -> Markup {
     html! {
-        @for building in &page.summary.buildings {
+        @for (index, building) in page.summary.buildings.iter().enumerate() {
             details.peaks {
                 summary { (message::peaks_of_in_numbers(&building.name)) }
-                (peaks_of(building))
+                (peaks_of(building, page.filtered.get(index).map(Vec::as_slice)))
             }
         }
     }
 }
 
-fn peaks_of(building: &BuildingSummary) -> Markup {
+fn peaks_of(building: &BuildingSummary, filtered: Option<&[f64]>) -> Markup {
     let compared = building.floors.iter().any(|f| f.without_contact.is_some());
     html! {
         div.scroll {
@@ -172,6 +172,9 @@ fn peaks_of(building: &BuildingSummary) -> Markup {
                         th.number scope="col" rowspan=[compared.then_some("2")] { (message::height()) br; span.unit { "[m]" } }
                         @for (quantity, shown) in peaks_shown() {
                             th.number scope="colgroup" colspan=[compared.then_some("2")] { (title(quantity, shown)) br; span.unit { "[" (shown.unit) "]" } }
+                        }
+                        @if filtered.is_some() {
+                            th.number scope="col" rowspan=[compared.then_some("2")] { (message::filtered_acceleration()) br; span.unit { "[m/s²]" } }
                         }
                     }
                     @if compared {
@@ -189,6 +192,9 @@ fn peaks_of(building: &BuildingSummary) -> Markup {
                                     td.number { (peak_cell(quantity, shown, floor.without_contact.as_ref())) }
                                 }
                             }
+                            @if let Some(filtered) = filtered {
+                                td.number { (filtered.get(floor.floor - 1).map_or(format::NOTHING.into(), |peak| format::fixed(*peak, 2))) }
+                            }
                         }
                     }
                 }
@@ -198,6 +204,7 @@ fn peaks_of(building: &BuildingSummary) -> Markup {
             (message::greatest_absolute_values())
             @if compared { (message::with_and_without_contact()) }
             (message::drift_and_shear_are_those())
+            @if filtered.is_some() { (message::the_filter_of_floor_spectra()) }
         }
     }
 }

@@ -6,6 +6,7 @@ use jostle_io::Input;
 use jostle_report::{Page, ReinforcedSection};
 
 use crate::contact_advice::contact_boxes;
+use crate::floor_spectra::filtered_peaks;
 use crate::prepared::Prepared;
 
 /// A run in the form that its files are written from.
@@ -49,6 +50,8 @@ impl<'a> Results<'a> {
             &self.prepared.system,
             self.summary,
         );
+        let request = self.prepared.input.floor_spectra.as_ref();
+        let filtered = filtered_peaks(request, history, &self.outcome.floors);
         Some(show(&Page {
             model: &self.prepared.input.model,
             motion: &self.prepared.motion,
@@ -60,6 +63,7 @@ impl<'a> Results<'a> {
             codes: &self.prepared.input.codes,
             north: self.prepared.input.north,
             contacts: &contacts,
+            filtered: &filtered,
             methods: self.methods,
             calculation: Some(&calculation),
         }))

@@ -185,7 +185,11 @@ fn an_indentation_that_concrete_does_not_allow_is_noted() {
     let found: Value = serde_json::from_str(&told).expect("JSON");
     let checks = found["checks"].as_array().expect("a list").iter();
     let mut deep = checks.filter(|own| own["name"] == "indentation");
-    assert_eq!(deep.next().map(|own| &own["grade"]), Some(&Value::from("warning")), "{told}");
+    assert_eq!(
+        deep.next().map(|own| &own["grade"]),
+        Some(&Value::from("warning")),
+        "{told}"
+    );
     let warned = complained(&output);
     assert!(
         warned.contains("gap[0].stiffness: the contact is softer than a storey"),

@@ -143,6 +143,8 @@ fn summary() -> Summary {
         work: WorkSummary::default(),
         contact_sensitivity: None,
         floor_spectra: None,
+        checks: Vec::new(),
+        silenced_checks: Vec::new(),
         ended_early: None,
         warnings: Vec::new(),
         notes: Vec::new(),

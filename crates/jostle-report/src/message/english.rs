@@ -744,6 +744,8 @@ messages! {
     changes_of_peaks_by_up = "changes of peaks by up to";
     changes_are_those_of_any = "Changes are those of any floor or storey, relative to the greatest peak of their kind in the building.";
     stiffness_factor(factor) = "stiffness × {factor}";
+    filtered_acceleration = "total acceleration, filtered";
+    the_filter_of_floor_spectra = " Filtered: after the low-pass filter of floor spectra, 25 Hz unless the model states another; impacts are mostly above.";
     softest_advised_contacts = "softest advised contacts";
     stiffest_advised_contacts = "stiffest advised contacts";
     total_acceleration_of(building) = "{building}, total acceleration [m/s²]";
