@@ -5,6 +5,7 @@ mod assumptions;
 mod capacity;
 mod codes;
 mod damage;
+mod defaults;
 mod faults;
 mod fixture;
 mod formats;

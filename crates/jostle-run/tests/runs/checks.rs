@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 use std::path::Path;
 
+use jostle::contact::{SlabMaterial, advised_range};
 use jostle::judgement::{CHECKS, JUDGEMENT, Known, Stated, judge};
 use jostle::results::contact_sensitivity::{ContactSensitivity, GapSpread};
 use jostle::results::summary::{
@@ -669,4 +670,103 @@ fn two_hundred_sensible_models_raise_at_most_one_note() {
         loud.len(),
         loud.join("\n")
     );
+}
+
+#[test]
+fn templates_take_the_stiffness_of_the_advice() {
+    for name in ["frames", "towers", "row", "space-frames"] {
+        let text = jostle_io::template(name, "title").expect("it is there");
+        let opened = opened(sound(&text));
+        let gaps = &opened.input.model.gaps;
+        assert!(!gaps.is_empty());
+        for (index, gap) in gaps.iter().enumerate() {
+            let own = opened.system.contacts.iter().filter(|c| c.gap == index);
+            let heaviest = own.max_by(|a, b| a.effective_mass().total_cmp(&b.effective_mass()));
+            let masses = heaviest.expect("they touch").struck_masses();
+            let range = advised_range(gap.law.kind, [SlabMaterial::default(); 2], masses);
+            let ratio = gap.law.stiffness / range.expect("a range").value;
+            assert!((0.95..1.05).contains(&ratio), "{name}: {ratio}");
+        }
+    }
+}
+
+/// θ of an elastic storey is P/(k h), whatever it has been through.
+#[test]
+fn stability_coefficients_of_elastic_storeys_follow_from_weight_and_stiffness() {
+    let text = "[[building]]\nname = \"A\"\nkind = \"shear\"\nmass = [\"40 t\", \"30 t\", \"20 t\"]\nstiffness = [\"60 MN/m\", \"50 MN/m\", \"40 MN/m\"]\nstorey_height = [\"4 m\", \"3 m\", \"3 m\"]\n";
+    let (_, summary) = run(sound(text), false);
+    let g = 9.806_65;
+    let due = [
+        90e3 * g / (60e6 * 4.0),
+        50e3 * g / (50e6 * 3.0),
+        20e3 * g / (40e6 * 3.0),
+    ];
+    for (floor, due) in summary.buildings[0].floors.iter().zip(due) {
+        let found = floor
+            .response
+            .stability_coefficient
+            .expect("it was sheared");
+        assert!((found / due - 1.0).abs() < 1e-9, "{found} {due}");
+    }
+}
+
+/// Storeys that yield under 1.5 g: the first page of the report says why nobody may sign it.
+#[test]
+fn the_first_page_says_that_a_collapse_is_outside_the_model() {
+    let text = r#"
+[motion]
+record = "el-centro-1940-ns"
+pga = "1.5 g"
+[[building]]
+name = "A"
+kind = "shear"
+storeys = 5
+storey_height = "3 m"
+mass = "100 t"
+stiffness = "80 MN/m"
+p_delta = false
+hinges = { rule = "takeda", cracking = "3 mm", yield = "12 mm", post_cracking = 0.4, post_yield = 0.02 }
+[[building]]
+name = "B"
+kind = "shear"
+storeys = 8
+storey_height = "3 m"
+mass = "100 t"
+stiffness = "90 MN/m"
+[[gap]]
+between = ["A", "B"]
+width = "50 mm"
+"#;
+    let prepared = opened(sound(text))
+        .prepare()
+        .unwrap_or_else(|error| panic!("{error}"));
+    let ran = prepared.run(Settings::default(), &mut |_, _| ControlFlow::Continue(()));
+    let summary = ran.summary();
+    assert!(
+        summary
+            .ended_early
+            .as_deref()
+            .is_some_and(|why| why.contains("collapses"))
+    );
+    let report = ran.results(&summary).report().expect("histories");
+    let first = report.split("id=\"impacts\"").next().expect("a page");
+    let checks = first.split("id=\"checks\"").nth(1).expect("the section");
+    for word in [
+        "Assumptions and limits",
+        "outside the model",
+        "P-Delta is left out",
+        "ductility",
+        "one record",
+    ] {
+        assert!(checks.contains(word), "{word}");
+    }
+    let terminal = jostle_run::summary_text(&summary, &ran.prepared.input);
+    let lines = |word: &str| {
+        terminal
+            .lines()
+            .filter(|line| line.starts_with(word))
+            .count()
+    };
+    assert_eq!(lines("warning:") + lines("note:"), 3, "{terminal}");
+    assert!(terminal.contains("more in"), "{terminal}");
 }
