@@ -57,6 +57,8 @@ fn model(buildings: Vec<Building>, gaps: Vec<Gap>) -> Model {
         analysis: Analysis {
             step: Some(1e-3),
             contact_step: Some(5e-5),
+            // However far they drift: two computations are compared.
+            collapse_drift: 1.0,
             ..Analysis::default()
         },
         ..Model::default()
