@@ -83,6 +83,9 @@ fn every_record_is_as_on_its_own() {
             .map(|folder| json_at(&folder.join("summary.json")));
         for summary in [&mut a, &mut b] {
             summary["work"]["wall_s"] = Value::Null;
+            // Alone it is one record, in the suite one of three.
+            let checks = summary["checks"].as_array_mut().expect("a list");
+            checks.retain(|own| own["id"] != "A12");
         }
         assert!(a == b, "{record}: another summary");
         for table in ["history.parquet", "impacts.parquet"] {
