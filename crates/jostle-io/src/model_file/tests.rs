@@ -83,6 +83,8 @@ integrator = { method = "hht" }
 [output]
 members = true
 floor_spectra = { floors = ["A.1"], damping = 0.05, periods = 1, low_pass = 25, order = 4 }
+[report]
+silence = ["A12"]
 [codes]
 show = "asce7"
 "#,
