@@ -31,8 +31,8 @@ fn item(finding: &Finding) -> Markup {
     };
     html! {
         li.(finding.grade.word()) {
-            b { (grade) } " " (finding.text) " (" (finding.id) "). "
-            span.quiet { (finding.remedy) "." }
+            b { (grade) } " " (message::what_was_found(&finding.text, finding.id)) " "
+            span.quiet { (message::what_to_do(finding.remedy)) }
         }
     }
 }

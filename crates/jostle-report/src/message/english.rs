@@ -471,6 +471,8 @@ messages! {
     assumptions_and_limits = "Assumptions and limits of this result";
     all_checks_are_passed = "No check found anything.";
     silenced_checks(names) = "Silenced in the model file: {names}.";
+    what_was_found(text, check) = "{text} ({check}).";
+    what_to_do(remedy) = "{remedy}.";
     remark = "Remark:";
     note = "Note:";
     how_they_move = "How they move";
