@@ -121,7 +121,7 @@ fn in_words(variant: &VariantResult) -> String {
         variant.contact.restitution_change,
     ) {
         (Some(_), _) if one => {
-            message::stiffness_factor(format::significant(variant.stiffness_factor, 3))
+            message::stiffness_factor(format::plain(variant.stiffness_factor, 3))
         }
         (Some(RangeEnd::Low), _) => message::softest_advised_contacts().into(),
         (Some(RangeEnd::High), _) => message::stiffest_advised_contacts().into(),
