@@ -390,7 +390,7 @@ fn results() -> Vec<(&'static str, Change, f64, f64)> {
             |s, x| {
                 impact(s, |own| {
                     (own.start_s, own.end_s, own.finished) = (1.0, 1.0 + x * 12.0 / 3464.1, true);
-                })
+                });
             },
             2.01,
             1.99,
