@@ -121,7 +121,12 @@ fn elastic_frames_pound_less_across_wider_gaps_and_more_in_stronger_shaking() {
 
 #[test]
 fn yielding_frames_pound_less_across_wider_gaps_and_more_in_stronger_shaking() {
+    // As published, without P-Delta.
     let hinges = r#"
+[[vary]]
+name = "p_delta"
+path = "building[*].p_delta"
+values = [false]
 [[vary]]
 name = "hinges"
 path = "building[*].hinges"
