@@ -11,8 +11,8 @@ use std::time::Duration;
 
 use crate::case;
 use crate::dataset::{
-    Claim, Journal, PartFault, cases_of, journal_path, keep_copy, part_path, set_aside, settle,
-    strangers, verify, write_part,
+    Claim, Journal, PartFault, cases_of, journal_path, keep_copy, no_journal, part_path, set_aside,
+    settle, strangers, verify, write_part,
 };
 use crate::row::{Row, Status};
 use crate::single::{add_run_without_contact, run_until, write_run};
@@ -382,6 +382,16 @@ impl Work<'_> {
     /// Claims the journal of a part; that of another study is kept.
     fn claim(&self, number: u64) -> Result<Claim, StudyError> {
         let path = journal_path(self.folder, self.study.part(number).start);
+        if let Some(fault) = no_journal(&path) {
+            let moved = set_aside(self.folder, &path, "no-journal");
+            if let Some(now) = moved.map_err(|error| unwritable(&path, &error))? {
+                self.remark(&format!(
+                    "{} {fault}. It was moved to {}.",
+                    path.display(),
+                    now.display()
+                ));
+            }
+        }
         let keep = |bytes: &[u8]| {
             let kept = keep_copy(self.folder, &path, "other-study", bytes)?;
             self.remark(&format!(

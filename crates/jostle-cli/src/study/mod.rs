@@ -182,7 +182,7 @@ fn open(args: &StudyArgs) -> Result<(Study, PathBuf), Failure> {
     {
         let same = match ready {
             Some(name) => known.file.name() == name,
-            None => std::fs::read_to_string(path).is_ok_and(|text| text == known.file.text()),
+            None => StudyFile::text_of(path).is_ok_and(|text| text == known.file.text()),
         };
         if same {
             return Ok((known, out));

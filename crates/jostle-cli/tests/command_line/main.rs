@@ -13,6 +13,7 @@ mod live_command;
 mod mistakes;
 mod module_cycles;
 mod motion;
+mod one_opener;
 mod overdamped;
 mod pages;
 mod promise;

@@ -6,6 +6,7 @@ use std::path::Path;
 use jostle_section::{Reinforcement, Ties};
 
 use super::read_root;
+use crate::files::Files;
 use crate::keys::{KEYS, Kind, Section};
 use crate::quantity::{Dimension, parse_quantity};
 use crate::reader::Reader;
@@ -195,7 +196,7 @@ fn every_key_of_the_table_is_read() {
         let root = parse(&source, Format::Toml).unwrap_or_else(|error| panic!("{error}"));
         let mut reader = Reader::new(&source);
         // Keys that are not in the table make the reader panic here.
-        read_root(&mut reader, &root, Path::new(""));
+        read_root(&mut reader, &root, &Files::beside(Path::new("")));
         asked.extend(reader.asked);
     }
     let source = Source::new("study.toml", STUDY);

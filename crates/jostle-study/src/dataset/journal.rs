@@ -25,6 +25,19 @@ pub(crate) struct Journal {
     path: PathBuf,
 }
 
+/// Largest journal \[bytes\].
+const LARGEST: u64 = 1 << 30;
+
+/// Why what lies in the place of a journal cannot be one; `None` for a plain file and for nothing.
+pub(crate) fn no_journal(path: &Path) -> Option<String> {
+    let found = std::fs::metadata(path).ok()?;
+    match jostle_io::plain(&found) {
+        Err(error) => Some(error.to_string()),
+        Ok(()) if found.len() > LARGEST => Some("is larger than a journal can be".to_owned()),
+        Ok(()) => None,
+    }
+}
+
 /// Header of a journal: prevents reading that of another study.
 const HEAD: usize = 64;
 
@@ -48,7 +61,7 @@ impl Journal {
             Err(TryLockError::Error(error)) => return Err(error),
         }
         let mut bytes = Vec::new();
-        file.read_to_end(&mut bytes)?;
+        (&file).take(LARGEST).read_to_end(&mut bytes)?;
         let (rows, good) = if bytes.get(..HEAD) == Some(fingerprint.as_bytes()) {
             records(&bytes)
         } else {

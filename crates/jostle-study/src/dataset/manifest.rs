@@ -2,7 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use jostle_io::{FactorValues, Format, ModelTree, StudyFile, write_atomically};
+use jostle_io::{
+    FactorValues, FileError, Format, ModelTree, StudyFile, read_file, write_atomically,
+};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
@@ -49,6 +51,8 @@ struct Origin {
 }
 
 const FORMAT: u32 = 2;
+/// Largest manifest \[bytes\]: the texts of a study and a model, twice.
+const LARGEST: usize = 128 << 20;
 
 impl Manifest {
     pub(crate) fn new(study: &Study) -> Self {
@@ -102,10 +106,17 @@ impl Manifest {
     /// The manifest of a folder; `None` without one.
     fn load(folder: &Path) -> Result<Option<Self>, StudyError> {
         let path = Self::path(folder);
-        let bytes = match std::fs::read(&path) {
+        let bytes = match read_file(&path, LARGEST) {
             Ok(bytes) => bytes,
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
-            Err(error) => return Err(StudyError::Output(format!("{}: {error}", path.display()))),
+            Err(FileError::Io(error)) if error.kind() == std::io::ErrorKind::NotFound => {
+                return Ok(None);
+            }
+            Err(error) => {
+                return Err(StudyError::Folder(format!(
+                    "{} {error}; choose another folder with --out",
+                    path.display()
+                )));
+            }
         };
         let manifest = serde_json::from_slice(&bytes).map_err(|error| {
             StudyError::Folder(format!(
