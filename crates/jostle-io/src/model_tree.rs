@@ -252,9 +252,15 @@ impl ModelTree {
     }
 }
 
+/// Most steps of a path. What follows a path calls itself once a step; no key of a model takes a tenth of that.
+const MOST_PARTS: usize = 64;
+
 /// The steps of a path.
 pub(crate) fn parts(path: &str) -> Result<Vec<Part>, String> {
     const EXAMPLE: &str = "write it like gap[0].width, gap[*].width or building.J1.damping.ratio";
+    if path.split(['.', '[']).nth(MOST_PARTS).is_some() {
+        return Err(format!("has more than {MOST_PARTS} parts; {EXAMPLE}"));
+    }
     let mut parts = Vec::new();
     for piece in path.split('.') {
         let (key, indices) = match piece.find('[') {
@@ -554,6 +560,8 @@ mod tests {
             ("gap[x].width", "no index"),
             ("building[0].mass[0]", "has no mass"),
             ("", "not a path"),
+            (&"a.".repeat(60_000), "more than 64 parts"),
+            (&format!("a{}", "[0]".repeat(60_000)), "more than 64 parts"),
         ] {
             let error = tree.set(path, &TreeValue::Number(1.0));
             let error = error
