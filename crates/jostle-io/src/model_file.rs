@@ -58,6 +58,7 @@ use crate::fault::{Fault, InputError};
 use crate::files::{FileError, Files, read_file};
 use crate::keys::Section;
 use crate::motion_spec::{BearingSpec, MatchTo, MotionError, MotionSource, MotionSpec, Scaling};
+use crate::quantity::Dimension;
 use crate::reader::{Field, Reader};
 use crate::record::RecordOptions;
 use crate::record_list;
@@ -245,8 +246,13 @@ impl Input {
             return Err(OverrideError::NoMotion);
         }
         let unusual = [
-            self.judge("gap", &GAP, overrides.gap)?,
-            self.judge("motion.pga", &PEAK_ACCELERATION, overrides.pga)?,
+            self.judge("gap", &GAP, Dimension::Length, overrides.gap)?,
+            self.judge(
+                "motion.pga",
+                &PEAK_ACCELERATION,
+                Dimension::Acceleration,
+                overrides.pga,
+            )?,
         ];
         // Warnings about the replaced values.
         let other_motion = overrides.pga.is_some() || overrides.record.is_some();
@@ -279,12 +285,13 @@ impl Input {
         &self,
         path: &str,
         range: &Range,
+        dimension: Dimension,
         value: Option<f64>,
     ) -> Result<Option<String>, OverrideError> {
         let Some(value) = value.filter(|_| !self.accepts(path)) else {
             return Ok(None);
         };
-        match range.judge(value, Written::bare(value)) {
+        match range.judge(value, dimension, Written::bare(value)) {
             Verdict::Usual => Ok(None),
             Verdict::Unusual(text) => Ok(Some(format!("{path}: {text}"))),
             Verdict::Refused(problem, remedy) => Err(OverrideError::Unusual { problem, remedy }),
@@ -623,7 +630,7 @@ fn add_model_faults(reader: &mut Reader<'_>, root: &Node, faults: Vec<ModelFault
 
 /// The position of a field in the file, and its path as written: a single value for a list has no index. A field
 /// that is absent is shown at the table that lacks it.
-fn locate(root: &Node, path: &str) -> (Span, String) {
+pub(crate) fn locate(root: &Node, path: &str) -> (Span, String) {
     let mut node = root;
     let mut spelt = String::new();
     let parts = path

@@ -92,7 +92,7 @@ impl Matrix {
         let mut found = Self::new(n, n);
         for (i, row) in inverse.into_iter().enumerate() {
             for (j, value) in row.into_iter().enumerate() {
-                found.add(i, j, value);
+                found.add(i, j, value)?;
             }
         }
         Ok(found)

@@ -103,6 +103,19 @@ pub(crate) fn read_spectrum(
         };
     }
     let view = reader.open(field, &[Section::Spectrum])?;
+    let quantities = [
+        ("ag", Dimension::Acceleration),
+        ("sds", Dimension::Acceleration),
+        ("sd1", Dimension::Acceleration),
+        ("tl", Dimension::Time),
+        ("factor", Dimension::Dimensionless),
+    ];
+    for (key, dimension) in quantities {
+        // Warns of what is unusual; the words below say what is wrong.
+        if let Some(field) = reader.get(&view, key) {
+            reader.quietly(|reader| reader.quantity(&field, dimension));
+        }
+    }
     let mut word = |key| {
         reader
             .get(&view, key)
