@@ -68,7 +68,10 @@ pub use motion_spec::{
     OwnMotionSpec, Scaling,
 };
 pub use nearest::nearest as nearest_name;
-pub use output::{OutputError, put_in_place, summary_json, write_atomically, write_summary_json};
+pub use output::{
+    OutputError, PART_SUFFIX, part_prefix, put_in_place, remove_leftovers, summary_json,
+    write_atomically, write_summary_json,
+};
 pub use pushover::{pushover_csv, pushover_json, pushover_tree};
 pub use quantities_page::{quantity_list, quantity_reference};
 pub use quantity::{Dimension, QuantityError, in_unit_of, parse_quantity};

@@ -12,8 +12,9 @@ const WORDS: [&str; 5] = [
 ];
 
 /// Files that may contain them: the opener itself; the ends of results that are to be replaced, whose kind was looked at;
-/// journals, which are locked while they are read; what the tests of the workspace read.
-const MAY: [&str; 3] = [
+/// claims and journals, which are locked; what the tests of the workspace read.
+const MAY: [&str; 4] = [
+    "jostle-run/src/claim.rs",
     "jostle-io/src/files.rs",
     "jostle-run/src/replace.rs",
     "jostle-study/src/dataset/journal.rs",
