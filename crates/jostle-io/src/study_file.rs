@@ -56,6 +56,7 @@ pub struct StudyFile {
     /// Files that the study itself names, apart from its model.
     pub files: Files,
     source: Arc<Source>,
+    root: Node,
 }
 
 /// How cases are made of what varies.
@@ -160,6 +161,22 @@ impl StudyFile {
                     .factors
                     .get(factor)
                     .map(|factor| self.source.place(&factor.span)),
+                problem: problem.into(),
+                remedy: None,
+            }],
+            more: 0,
+        }
+    }
+
+    /// A fault at a key of the file, such as `fragility[0].demand`.
+    #[must_use]
+    pub fn fault_at(&self, path: &str, problem: impl Into<String>) -> InputError {
+        let (span, path) = model_file::locate(&self.root, path);
+        InputError {
+            name: self.source.name.clone(),
+            faults: vec![Fault {
+                path,
+                place: (span != (0..0)).then(|| self.source.place(&span)),
                 problem: problem.into(),
                 remedy: None,
             }],
@@ -300,6 +317,7 @@ fn read_root(
         folder: folder.to_owned(),
         files: files.clone(),
         source: Arc::clone(source),
+        root: root.clone(),
     }))
 }
 

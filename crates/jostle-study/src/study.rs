@@ -27,6 +27,8 @@ pub struct Study {
     pub model_hash: String,
     /// Things the user should know.
     pub warnings: Vec<String>,
+    /// Whether a folder is continued that another build of jostle began.
+    pub any_build: bool,
 }
 
 /// Why a study cannot be run.
@@ -95,6 +97,7 @@ impl Study {
             fingerprint,
             model_hash,
             warnings: trial.warnings,
+            any_build: false,
             file,
         };
         study.check_wishes()?;
@@ -131,7 +134,7 @@ impl Study {
     /// Names in the evaluations of the file that are not columns.
     fn check_wishes(&self) -> Result<(), StudyError> {
         let names = self.layout.names();
-        let missing = |wanted: &str| -> Result<(), StudyError> {
+        let missing = |path: &str, wanted: &str| -> Result<(), StudyError> {
             if names.contains(&wanted) {
                 return Ok(());
             }
@@ -146,39 +149,42 @@ impl Study {
             } else {
                 format!("; similar: {}", near.join(", "))
             };
-            Err(StudyError::Column(format!(
-                "{}: there is no column \"{wanted}\"{hint}; all columns: {}",
-                self.file.name(),
+            let problem = format!(
+                "there is no column \"{wanted}\"{hint}; all columns: {}",
                 names.join(", ")
-            )))
+            );
+            Err(self.file.fault_at(path, problem).into())
         };
-        for wanted in &self.file.fragilities {
-            missing(&wanted.intensity)?;
-            missing(&wanted.demand)?;
+        for (index, wanted) in self.file.fragilities.iter().enumerate() {
+            let path = format!("fragility[{index}]");
+            missing(&format!("{path}.intensity"), &wanted.intensity)?;
+            missing(&format!("{path}.demand"), &wanted.demand)?;
             for name in &wanted.by {
                 self.input_column(name)?;
             }
         }
-        for wanted in &self.file.idas {
-            missing(&wanted.intensity)?;
-            missing(&wanted.demand)?;
+        for (index, wanted) in self.file.idas.iter().enumerate() {
+            let path = format!("ida[{index}]");
+            missing(&format!("{path}.intensity"), &wanted.intensity)?;
+            missing(&format!("{path}.demand"), &wanted.demand)?;
         }
-        self.file
-            .responses
-            .iter()
-            .try_for_each(|name| missing(name))?;
-        self.file.roses.iter().try_for_each(|name| missing(name))?;
+        for name in &self.file.responses {
+            missing("sensitivity.responses", name)?;
+        }
+        for name in &self.file.roses {
+            missing("rose", name)?;
+        }
         if let Some(case) = self
             .file
             .histories
             .iter()
             .find(|case| **case >= self.design.cases)
         {
-            return Err(StudyError::Column(format!(
-                "{}: histories: there is no case {case}; there are {}, counted from 0",
-                self.file.name(),
+            let problem = format!(
+                "there is no case {case}; there are {}, counted from 0",
                 self.design.cases
-            )));
+            );
+            return Err(self.file.fault_at("histories", problem).into());
         }
         Ok(())
     }
