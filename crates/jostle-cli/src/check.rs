@@ -54,21 +54,30 @@ pub(crate) fn check(args: &CheckArgs) -> Result<(), Failure> {
     if !opened.input.records().is_empty() {
         text += &records(&opened)?;
     } else if opened.input.motion.is_some() {
-        let (motion, plan) = opened.plan()?;
-        if let Some(warning) = opened.input.unusual_motion(&motion) {
+        let prepared = opened.prepare()?;
+        prepared.check_digits(Some("jostle run --force runs it anyway"))?;
+        let (motion, plan) = (&prepared.motion, &prepared.plan);
+        if let Some(warning) = opened.input.unusual_motion(motion) {
             let _ = writeln!(text, "{} {warning}", styled(LOUD, "warning:"));
         }
-        let _ = describe_grounds(&mut text, &opened.system, &motion);
+        let _ = describe_grounds(&mut text, &opened.system, motion);
         let _ = writeln!(text, "{}", styled(BOLD, "Expected work"));
-        let _ = describe_work(&mut text, &opened.system, &plan, motion.duration);
+        let _ = describe_work(&mut text, &opened.system, plan, motion.duration);
     } else {
         let _ = writeln!(
             text,
-            "{} the model has no ground motion; give one with --record to run it",
+            "{} the model has no ground motion; a run needs one: add [motion], or --record",
             styled(LOUD, "note:")
         );
     }
-    text.push_str("The model is valid.");
+    let files = opened.input.files();
+    if !files.is_empty() {
+        let _ = writeln!(text, "Files read: {}", files.join(", "));
+    }
+    text.push_str(match opened.input.motion {
+        Some(_) => "The model is valid.",
+        None => "The model is valid, without a ground motion.",
+    });
     terminal::print(&text)?;
     match site {
         Some(target) => draw_site(&target, &opened),

@@ -9,6 +9,7 @@ mod contact_sensitivity;
 mod export;
 mod floor_spectra;
 mod gap_curve;
+mod hardening;
 mod live_command;
 mod mistakes;
 mod module_cycles;

@@ -213,6 +213,9 @@ fn damping_ratio(equations: &Equations, mode: &Mode) -> f64 {
 /// foundations do not act on each other.
 ///
 /// # Errors
+/// Most pairs of foundations whose influence on each other is integrated.
+const MOST_PAIRS: usize = 200;
+
 /// What is wrong with the coupling.
 pub(super) fn matrices(
     model: &Model,
@@ -246,6 +249,7 @@ pub(super) fn matrices(
                 damping[(2 * k, 2 * k)] = springs.sway_damping;
                 damping[(2 * k + 1, 2 * k + 1)] = springs.rocking_damping;
             }
+            let mut known: Vec<(([Rectangle; 2], f64), [f64; 2])> = Vec::new();
             for right in 1..founded.len() {
                 for left in 0..right {
                     let [(a, one), (b, other)] = [&founded[left], &founded[right]];
@@ -254,8 +258,23 @@ pub(super) fn matrices(
                         length: place.foundation.length,
                         width: place.foundation.width,
                     });
-                    let found = influence(half_space, rectangles, distance);
-                    for (k, value) in [found.sway, found.rocking].into_iter().enumerate() {
+                    // Rows of equal foundations have few pairs that differ.
+                    let pair = (rectangles, distance);
+                    let same = known.iter().find(|(known, _)| *known == pair);
+                    let found = match same {
+                        Some((_, found)) => *found,
+                        None if known.len() == MOST_PAIRS => {
+                            return Err(format!(
+                                "has more than {MOST_PAIRS} pairs of foundations that differ in size or distance; give the matrices instead: coupling = {{ stiffness = …, damping = … }}"
+                            ));
+                        }
+                        None => {
+                            let found = influence(half_space, rectangles, distance);
+                            known.push((pair, [found.sway, found.rocking]));
+                            [found.sway, found.rocking]
+                        }
+                    };
+                    for (k, value) in found.into_iter().enumerate() {
                         flexibility[(2 * left + k, 2 * right + k)] = value;
                         flexibility[(2 * right + k, 2 * left + k)] = value;
                     }
