@@ -54,15 +54,17 @@ pub(crate) fn check(args: &CheckArgs) -> Result<(), Failure> {
     if !opened.input.records().is_empty() {
         text += &records(&opened)?;
     } else if opened.input.motion.is_some() {
-        let prepared = opened.prepare()?;
-        prepared.check_digits(Some("jostle run --force runs it anyway"))?;
-        let (motion, plan) = (&prepared.motion, &prepared.plan);
-        if let Some(warning) = opened.input.unusual_motion(motion) {
+        let (motion, plan) = opened.plan()?;
+        if let Err(refusal) = plan.check_digits(&opened.system) {
+            let problem = format!("{refusal}; jostle run --force runs it anyway");
+            return Err(opened.input.fault("analysis.solver", problem).into());
+        }
+        if let Some(warning) = opened.input.unusual_motion(&motion) {
             let _ = writeln!(text, "{} {warning}", styled(LOUD, "warning:"));
         }
-        let _ = describe_grounds(&mut text, &opened.system, motion);
+        let _ = describe_grounds(&mut text, &opened.system, &motion);
         let _ = writeln!(text, "{}", styled(BOLD, "Expected work"));
-        let _ = describe_work(&mut text, &opened.system, plan, motion.duration);
+        let _ = describe_work(&mut text, &opened.system, &plan, motion.duration);
     } else {
         let _ = writeln!(
             text,
