@@ -120,7 +120,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                     (guide(page))
                 }
                 footer {
-                    (message::made_by_jostle_version(&crate::version()))
+                    (message::made_by_jostle_version(crate::version()))
                 }
                 @if recorded {
                     (player(page.summary.gaps.iter().any(|gap| gap.impact_count > 0)))

@@ -165,8 +165,11 @@ fn after<'a>(text: &'a str, mark: &str) -> Option<&'a str> {
     text.find(mark).map(|at| &text[at + mark.len()..])
 }
 
+/// The number in some bytes.
+type Decode = fn(&[u8]) -> f64;
+
 /// Size of a number of a type such as `<f8` \[bytes\], and its value.
-fn decoder(kind: &str) -> Result<(usize, fn(&[u8]) -> f64), String> {
+fn decoder(kind: &str) -> Result<(usize, Decode), String> {
     fn exact<const N: usize>(bytes: &[u8]) -> [u8; N] {
         bytes.try_into().unwrap_or([0; N])
     }

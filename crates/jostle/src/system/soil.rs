@@ -209,13 +209,16 @@ fn damping_ratio(equations: &Equations, mode: &Mode) -> f64 {
     damped / (2.0 * mode.circular_frequency * modal_mass)
 }
 
+/// Most pairs of foundations whose influence on each other is integrated.
+const MOST_PAIRS: usize = 200;
+
+/// Two foundations and the clear distance between them \[m\].
+type Pair = ([Rectangle; 2], f64);
+
 /// Stiffness and dashpots of all foundations, from left to right, over displacement and rotation of each; `None` where the
 /// foundations do not act on each other.
 ///
 /// # Errors
-/// Most pairs of foundations whose influence on each other is integrated.
-const MOST_PAIRS: usize = 200;
-
 /// What is wrong with the coupling.
 pub(super) fn matrices(
     model: &Model,
@@ -249,7 +252,7 @@ pub(super) fn matrices(
                 damping[(2 * k, 2 * k)] = springs.sway_damping;
                 damping[(2 * k + 1, 2 * k + 1)] = springs.rocking_damping;
             }
-            let mut known: Vec<(([Rectangle; 2], f64), [f64; 2])> = Vec::new();
+            let mut known: Vec<(Pair, [f64; 2])> = Vec::new();
             for right in 1..founded.len() {
                 for left in 0..right {
                     let [(a, one), (b, other)] = [&founded[left], &founded[right]];
