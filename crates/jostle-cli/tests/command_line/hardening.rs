@@ -98,7 +98,7 @@ fn long_paths_are_refused() {
     write(folder, "m.toml", SMALL);
     let path = "a.".repeat(60_000) + "b";
     write(
-        &folder,
+        folder,
         "s.toml",
         &format!("base = \"m.toml\"\n[[vary]]\npath = \"{path}\"\nvalues = [1, 2]\n"),
     );
