@@ -5,9 +5,11 @@ from __future__ import annotations
 import contextlib
 import json
 import os
+import pickle
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
@@ -178,7 +180,8 @@ class Study:
         distributed: Any = import_module("distributed")
         parts = self._core.parts
         missing = self._core.missing(folder)
-        share = client.scatter(self, broadcast=True, hash=False) if missing else None
+        # With every task: what is scattered dies with the worker that holds its last copy.
+        share = pickle.dumps(self)
         futures = [
             client.submit(_compute, share, folder, part, parts, pure=False, retries=10, key=f"jostle-{part}-{id(self)}")
             for part in missing
@@ -520,9 +523,16 @@ def _base_of(model: Model) -> _Base:
     return (str(name), str(text), bool(is_json), str(folder))
 
 
-def _compute(study: Study, folder: str, part: int, parts: int) -> int:
+@lru_cache(maxsize=4)
+def _read_study(share: bytes) -> Study:
+    """A study from its bytes, read once by every process."""
+    study: Study = pickle.loads(share)
+    return study
+
+
+def _compute(share: bytes, folder: str, part: int, parts: int) -> int:
     """One part, on a worker: as many shares as parts."""
-    return study._core.run(folder, 1, part, parts, None, _remark)[1]
+    return _read_study(share)._core.run(folder, 1, part, parts, None, _remark)[1]
 
 
 def _remark(text: str) -> None:

@@ -33,7 +33,7 @@ def study(**more: Any) -> jostle.Study:
 
 
 def table(folder: Path) -> dict[str, bytes]:
-    assert list((folder / "under-way").iterdir()) == []
+    assert not (folder / "under-way").exists()
     return {path.name: path.read_bytes() for path in (folder / "cases").glob("*.parquet")}
 
 
@@ -223,3 +223,38 @@ def test_workers_of_a_cluster_one_of_which_is_killed(tmp_path: Path) -> None:
     assert len(killed) == 1
     assert result.complete and result.report.is_file()
     assert table(folder) == table(tmp_path / "alone")
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_the_only_busy_worker_is_killed(tmp_path: Path) -> None:
+    distributed = pytest.importorskip("distributed")
+    # One part, so that one of two workers is idle.
+    vary = [{**VARY[0], "range": {"from": "2 mm", "to": "60 mm", "count": 16}}]
+    model = jostle.Model.loads(TOWERS.replace('duration = "12 s"', 'duration = "2000 s"'))
+    small = jostle.Study(model, vary)
+    folder = tmp_path / "cluster"
+    with (
+        distributed.LocalCluster(
+            n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+        ) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        processes = client.run(os.getpid)
+        killed: list[int] = []
+
+        def kill() -> None:
+            # While the part is under way.
+            while not list(folder.glob("under-way/*.journal")):
+                time.sleep(0.01)
+            with distributed.Client(cluster.scheduler_address) as other:
+                busy = [worker for worker, tasks in other.processing().items() if tasks]
+            for worker in busy[:1]:
+                os.kill(processes[worker], signal.SIGKILL)
+                killed.append(processes[worker])
+
+        thread = threading.Thread(target=kill)
+        thread.start()
+        result = small.run(folder, client=client, report=False)
+        thread.join()
+    assert len(killed) == 1
+    assert result.complete

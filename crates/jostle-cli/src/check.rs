@@ -65,6 +65,10 @@ pub(crate) fn check(args: &CheckArgs) -> Result<(), Failure> {
     if !opened.input.records().is_empty() {
         text += &records(&opened)?;
     } else if let Some((motion, plan)) = motion {
+        if let Err(refusal) = plan.check_digits(&opened.system) {
+            let problem = format!("{refusal}; jostle run --force runs it anyway");
+            return Err(opened.input.fault("analysis.solver", problem).into());
+        }
         if let Some(warning) = opened.input.unusual_motion(&motion) {
             let _ = writeln!(text, "{} {warning}", styled(LOUD, "warning:"));
         }
@@ -74,11 +78,18 @@ pub(crate) fn check(args: &CheckArgs) -> Result<(), Failure> {
     } else {
         let _ = writeln!(
             text,
-            "{} the model has no ground motion; give one with --record to run it",
+            "{} the model has no ground motion; a run needs one: add [motion], or --record",
             styled(LOUD, "note:")
         );
     }
-    text.push_str("The model is valid.");
+    let files = opened.input.files();
+    if !files.is_empty() {
+        let _ = writeln!(text, "Files read: {}", files.join(", "));
+    }
+    text.push_str(match opened.input.motion {
+        Some(_) => "The model is valid.",
+        None => "The model is valid, without a ground motion.",
+    });
     terminal::print(&text)?;
     match site {
         Some(target) => draw_site(&target, &opened),

@@ -107,11 +107,23 @@ pub(crate) fn gap(args: &GapArgs) -> Result<(), Failure> {
             let report = |progress: &GapProgress| shown.show(progress);
             let gaps = critical_gaps(&input.model, &motion, &settings, &stop, &report);
             shown.bar.borrow().finish();
-            found.extend(gaps.map_err(|error| match error {
-                GapError::Stopped => Failure::Stopped,
-                GapError::Run(_) => Failure::Analysis(error.to_string()),
-                _ => input.fault("gap", error.to_string()).into(),
-            })?);
+            match gaps {
+                Ok(gaps) => found.extend(gaps),
+                Err(GapError::Stopped) => {
+                    if let Some(out) = out.as_ref().filter(|_| !found.is_empty()) {
+                        write_gap_curves(out, &title, &found)?;
+                        terminal::remark(&format!(
+                            "stopped; the curves of the records before are in {}",
+                            out.display()
+                        ));
+                    }
+                    return Err(Failure::Stopped);
+                }
+                Err(error @ GapError::Run(_)) => {
+                    return Err(Failure::Analysis(error.to_string()));
+                }
+                Err(error) => return Err(input.fault("gap", error.to_string()).into()),
+            }
         }
     }
     if let Some(out) = &out {

@@ -5,6 +5,7 @@ use std::process::{Command, Stdio};
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
+use jostle_io::{FileError, read_file};
 use jostle_live::{Engine, Server};
 use jostle_run::{EXAMPLE, FileKind};
 
@@ -63,19 +64,22 @@ pub(crate) fn live(args: &LiveArgs) -> Result<(), Failure> {
 
 /// Name of the engine of exported pages.
 const MODULE: &str = "jostle.wasm.gz";
+/// Its largest size \[bytes\].
+const LARGEST_MODULE: usize = 64 << 20;
 
 /// The engine of exported pages: the file that was asked for, or the one beside the program.
 fn module(asked: Option<&Path>) -> Result<Vec<u8>, Failure> {
     if let Some(path) = asked {
-        return std::fs::read(path).map_err(|error| {
-            Failure::Input(format!("--module: cannot read {}: {error}", path.display()))
-        });
+        return read_file(path, LARGEST_MODULE)
+            .map_err(|error| Failure::Input(format!("--module: {} {error}", path.display())));
     }
     let program = std::env::current_exe().and_then(|path| path.canonicalize());
     let beside = program.map(|path| path.with_file_name(MODULE));
-    beside.and_then(std::fs::read).map_err(|error| {
+    let read = beside.map_err(FileError::from);
+    let read = read.and_then(|path| read_file(&path, LARGEST_MODULE));
+    read.map_err(|error| {
         Failure::Input(format!(
-            "--export needs the engine as WebAssembly, and {MODULE} beside the program cannot be read: {error}\n\
+            "--export needs the engine as WebAssembly, and {MODULE} beside the program {error}\n\
              build it in a copy of the source with packaging/wasm, and name it with --module target/wasm/{MODULE}"
         ))
     })

@@ -7,6 +7,9 @@ use jostle_run::{Paper, find_chromium, print_pdf};
 use crate::args::RunArgs;
 use crate::failure::Failure;
 
+/// Largest page that is printed \[bytes\].
+const LARGEST_PAGE: usize = 1 << 30;
+
 /// A Chromium, and the paper it prints on.
 pub(crate) struct Printer {
     chromium: PathBuf,
@@ -34,7 +37,7 @@ impl Printer {
 
     /// Prints a page beside itself, `report.html` to `report.pdf`; a page that does not exist is left out.
     pub(crate) fn print(&self, page: &Path) -> Result<(), Failure> {
-        let Ok(text) = std::fs::read_to_string(page) else {
+        let Ok(text) = jostle_io::read_text_file(page, LARGEST_PAGE) else {
             return Ok(());
         };
         let pdf = page.with_extension("pdf");

@@ -8,8 +8,8 @@ use jostle::method::MethodSurvey;
 use jostle::{RunEnd, Solver};
 use jostle_io::FloorSpectraRequest;
 use jostle_run::{
-    Content, FileKind, Opened, Prepared, Ran, Results, describe_summary, earlier_files, may_write,
-    stopped_by,
+    Content, FileKind, FolderClaim, Opened, Prepared, Ran, Results, describe_summary,
+    earlier_files, may_write, stopped_by,
 };
 use jostle_section::capacity::ShearRule;
 
@@ -68,22 +68,26 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
         prepared.check_digits(Some("--force runs it anyway"))?;
     }
     let out = folder(args, &opened.name);
+    let mut claim = None;
     if let Some(out) = &out {
         std::fs::create_dir_all(out).map_err(|error| {
             Failure::Input(format!("cannot make the folder {}: {error}", out.display()))
         })?;
+        claim = Some(FolderClaim::new(out)?);
         replace_earlier(out, args.force)?;
         if printer.is_some() {
             may_write(&out.join("report.pdf"), Some(FileKind::PDF), args.force)?;
         }
     }
-    analyse(
+    let analysed = analyse(
         args,
         prepared,
         out.as_deref(),
         printer.as_ref(),
         &stop_on_interrupt(),
-    )
+    );
+    drop(claim);
+    analysed
 }
 
 /// Runs, writes and prints.

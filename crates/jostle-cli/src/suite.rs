@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use jostle_motion::GoverningRule;
-use jostle_run::Opened;
+use jostle_run::{FolderClaim, Opened};
 use jostle_study::suite::{Suite, SuiteOptions, SuiteProgress, earlier_suite_files};
 
 use crate::args::RunArgs;
@@ -43,6 +43,7 @@ pub(crate) fn run(
             ));
         }
     }
+    let claim = out.as_deref().map(FolderClaim::new).transpose()?;
     let options = SuiteOptions {
         report: !args.no_report,
         sensitivity: args.sensitivity,
@@ -53,6 +54,7 @@ pub(crate) fn run(
     let bar = Bar::new();
     let show = |progress| bar.show(progress);
     let done = suite.run(out.as_deref(), &options, &stop, &show);
+    drop(claim);
     bar.finish();
     let done = done?;
     let Some(results) = &done.results else {

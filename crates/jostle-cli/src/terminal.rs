@@ -1,7 +1,7 @@
 //! The only place that prints: colours on a terminal, plain text elsewhere, and no complaint when a reader
 //! of the output goes away.
 
-use std::io::{IsTerminal, Write};
+use std::io::{ErrorKind, IsTerminal, Write};
 
 use anstyle::{AnsiColor, Style};
 use jostle_run::{LOUD, styled};
@@ -13,20 +13,25 @@ const ESCAPE: char = '\x1b';
 const ERROR: Style = AnsiColor::Red.on_default().bold();
 
 /// Prints a text and a line break to standard output.
-#[allow(
-    clippy::unnecessary_wraps,
-    reason = "commands that only print end with it"
-)]
+///
+/// # Errors
+/// The text is lost, say because the disk is full. A reader that goes away, such as `head`, has what it wanted.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
     let text = text.trim_end();
-    // A closed pipe, as of `head`, is not an error.
-    let _ = if text.contains(ESCAPE) {
-        writeln!(anstream::stdout().lock(), "{text}")
+    let written = if text.contains(ESCAPE) {
+        let mut out = anstream::stdout().lock();
+        writeln!(out, "{text}").and_then(|()| out.flush())
     } else {
         // Nothing to take out where colours are not wanted: the search for it takes longer than everything else in long output.
-        writeln!(std::io::stdout().lock(), "{text}")
+        let mut out = std::io::stdout().lock();
+        writeln!(out, "{text}").and_then(|()| out.flush())
     };
-    Ok(())
+    match written {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Failure::Analysis(format!(
+            "standard output cannot be written: {error}"
+        ))),
+        _ => Ok(()),
+    }
 }
 
 /// Prints a remark to standard error.

@@ -223,18 +223,12 @@ fn kind_of(kind: &Kind) -> (KnobKind, &'static [&'static str]) {
     }
 }
 
+/// The dimension of a value that is typed into a field: not of lists of points, nor where a grade is usual.
 fn dimension(kind: &Kind) -> Option<Dimension> {
     match kind {
-        Kind::Quantity(dimension)
-        | Kind::PerStorey(dimension)
-        | Kind::Quantities(dimension)
-        | Kind::OneOrMore(dimension)
-        | Kind::WordOr(_, dimension)
-        | Kind::PerContact(dimension) => Some(*dimension),
-        Kind::ContactStiffness => Some(Dimension::HertzStiffness),
-        Kind::LinkDamping => Some(Dimension::Damping),
-        Kind::NumberOrTable(_) => Some(Dimension::Dimensionless),
-        _ => None,
+        Kind::Plan | Kind::PlanPoints | Kind::PlanStiffness => None,
+        Kind::GradeOr(_) | Kind::Concrete(_) | Kind::ConcreteOr(_) => None,
+        kind => kind.dimension(),
     }
 }
 
@@ -298,7 +292,7 @@ mod tests {
         let gap = find(&knobs, "gap[0].width");
         assert_eq!((gap.group.as_str(), gap.name.as_str()), ("J1-J2", "width"));
         assert_eq!((gap.number, gap.unit.as_str()), (Some(100.0), "mm"));
-        assert_eq!(gap.usual, Some([0.0, 2.0]));
+        assert_eq!(gap.usual, Some([1e-5, 2.0]));
         let law = find(&knobs, "gap[0].law");
         assert_eq!(law.kind, KnobKind::Choice);
         assert!(law.choices.contains(&"kelvin"));

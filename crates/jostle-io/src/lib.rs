@@ -1,10 +1,9 @@
 //! Reads model files and ground motions; writes result files.
 //!
-//! Parsers take text or bytes and never panic; only [`read_model_file`], [`read_record`] and the writers open a
-//! path. Everything that leaves this crate is in SI.
+//! Parsers take text or bytes and never panic. All reading of files goes through [`Files`] and [`read_file`], which refuse
+//! what may not be read, what is no plain file and what is too large. Everything that leaves this crate is in SI.
 
 mod baseline;
-mod bounded;
 mod builtin;
 mod builtin_model;
 mod checks_page;
@@ -12,6 +11,7 @@ mod choices;
 mod comparison_map;
 mod csv;
 mod fault;
+mod files;
 mod floor_table;
 mod grade;
 mod keys;
@@ -44,8 +44,6 @@ mod unit;
 mod unusual;
 
 pub use baseline::Baseline;
-#[cfg(target_family = "wasm")]
-pub use bounded::provide_file;
 pub use builtin::{BUILTIN_RECORDS, BuiltinRecord, builtin_motions, builtin_record};
 pub use builtin_model::{builtin_model, model_names, model_text};
 pub use checks_page::{check_list, check_reference};
@@ -54,6 +52,7 @@ pub use comparison_map::{
 };
 pub use csv::csv_field;
 pub use fault::{Fault, InputError};
+pub use files::{FileError, Files, plain, read_file, read_text_file};
 pub use floor_table::{floor_spectra_columns, write_floor_spectra_parquet};
 pub use grade::{parse_concrete, parse_steel};
 /// Standard gravity: the size of the unit `g`, and of a weight given where a mass is wanted \[m/s²\].
@@ -71,7 +70,10 @@ pub use motion_spec::{
     OwnMotionSpec, Scaling,
 };
 pub use nearest::nearest as nearest_name;
-pub use output::{OutputError, put_in_place, summary_json, write_atomically, write_summary_json};
+pub use output::{
+    OutputError, PART_SUFFIX, part_prefix, put_in_place, remove_leftovers, summary_json,
+    write_atomically, write_summary_json,
+};
 pub use pushover::{pushover_csv, pushover_json, pushover_tree};
 pub use quantities_page::{quantity_list, quantity_reference};
 pub use quantity::{Dimension, QuantityError, in_unit_of, parse_quantity};

@@ -56,10 +56,11 @@ use jostle_section::capacity::ShearRule;
 
 use self::building::Buildings;
 use self::damper::DamperPaths;
-use crate::bounded::read_at_most;
 use crate::fault::{Fault, InputError};
+use crate::files::{FileError, Files, read_file};
 use crate::keys::Section;
 use crate::motion_spec::{BearingSpec, MatchTo, MotionError, MotionSource, MotionSpec, Scaling};
+use crate::quantity::Dimension;
 use crate::reader::{Field, Reader};
 use crate::record::RecordOptions;
 use crate::record_list;
@@ -92,6 +93,7 @@ pub struct Input {
     pub warnings: Vec<String>,
     /// Unusual values that are accepted.
     accepted: Accepted,
+    files: Files,
     origin: Origin,
 }
 
@@ -155,10 +157,10 @@ pub fn read_model_file(path: &Path) -> Result<Input, InputError> {
 /// The name and the text of a file, without a byte-order mark.
 pub(crate) fn read_text(path: &Path) -> Result<(String, String), InputError> {
     let name = path.display().to_string();
-    let unreadable =
-        |error: std::io::Error| InputError::whole(&name, format!("cannot be read: {error}"), None);
-    let bytes = read_at_most(path, tree::LARGEST_FILE).map_err(unreadable)?;
-    let bytes = bytes.ok_or_else(|| tree::too_large(&name))?;
+    let bytes = read_file(path, tree::LARGEST_FILE).map_err(|error| match error {
+        FileError::TooLarge { .. } => tree::too_large(&name),
+        error => InputError::whole(&name, error.to_string(), None),
+    })?;
     let text = tree::decode(&name, &bytes)?.to_owned();
     Ok((name, text))
 }
@@ -176,13 +178,17 @@ pub fn read_model_text(
     let text = tree::decode(name, text.as_bytes())?;
     let source = Source::new(name, text);
     let root = tree::parse(&source, format)?;
-    read_tree(Arc::new(source), root, base)
+    read_tree(Arc::new(source), root, &Files::beside(base))
 }
 
 /// Reads and checks a parsed model file.
-pub(crate) fn read_tree(source: Arc<Source>, root: Node, base: &Path) -> Result<Input, InputError> {
+pub(crate) fn read_tree(
+    source: Arc<Source>,
+    root: Node,
+    files: &Files,
+) -> Result<Input, InputError> {
     let mut reader = Reader::new(&source);
-    let read = read_root(&mut reader, &root, base);
+    let read = read_root(&mut reader, &root, files);
     if let Some(Parts { model, dampers, .. }) = &read {
         let mut checked = model.check().err().unwrap_or_default();
         for fault in &mut checked {
@@ -221,6 +227,7 @@ pub(crate) fn read_tree(source: Arc<Source>, root: Node, base: &Path) -> Result<
                 silenced,
             },
             accepted,
+            files: files.clone(),
             model,
             motion,
             origin: Origin { source, root },
@@ -249,8 +256,13 @@ impl Input {
             return Err(OverrideError::NoMotion);
         }
         let unusual = [
-            self.judge("gap", &GAP, overrides.gap)?,
-            self.judge("motion.pga", &PEAK_ACCELERATION, overrides.pga)?,
+            self.judge("gap", &GAP, Dimension::Length, overrides.gap)?,
+            self.judge(
+                "motion.pga",
+                &PEAK_ACCELERATION,
+                Dimension::Acceleration,
+                overrides.pga,
+            )?,
         ];
         // Warnings about the replaced values.
         let other_motion = overrides.pga.is_some() || overrides.record.is_some();
@@ -284,12 +296,13 @@ impl Input {
         &self,
         path: &str,
         range: &Range,
+        dimension: Dimension,
         value: Option<f64>,
     ) -> Result<Option<String>, OverrideError> {
         let Some(value) = value.filter(|_| !self.accepts(path)) else {
             return Ok(None);
         };
-        match range.judge(value, Written::bare(value)) {
+        match range.judge(value, dimension, Written::bare(value)) {
             Verdict::Usual => Ok(None),
             Verdict::Unusual(text) => Ok(Some(format!("{path}: {text}"))),
             Verdict::Refused(problem, remedy) => Err(OverrideError::Unusual { problem, remedy }),
@@ -413,6 +426,13 @@ impl Input {
         self.origin.source.text()
     }
 
+    /// Files that the model turned out to name so far: those of its buildings once it is read, those of its ground motion
+    /// once that is asked for.
+    #[must_use]
+    pub fn files(&self) -> Vec<String> {
+        self.files.asked()
+    }
+
     /// Faults that only assembly or planning shows, at their lines of the file.
     #[must_use]
     pub fn faults(&self, found: Vec<ModelFault>) -> InputError {
@@ -457,13 +477,13 @@ fn with_record(old: Option<&MotionSpec>, record: &str) -> MotionSpec {
                 old.source,
                 MotionSource::Record { .. } | MotionSource::Records { .. }
             );
-            let MotionSource::Record { name, base, .. } = new.source else {
+            let MotionSource::Record { name, files, .. } = new.source else {
                 return new;
             };
             MotionSpec {
                 source: MotionSource::Record {
                     name,
-                    base,
+                    files,
                     options: RecordOptions::default(),
                 },
                 duration: old.duration.filter(|_| was_record),
@@ -488,7 +508,7 @@ struct Parts {
 }
 
 /// Reads the whole tree; `None` if there is nothing to build a model from.
-fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Parts> {
+fn read_root(reader: &mut Reader<'_>, root: &Node, files: &Files) -> Option<Parts> {
     let field = Field::root(root);
     let view = reader.open(&field, &[Section::Root])?;
     let analysis = reader.get(&view, "analysis");
@@ -501,13 +521,13 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Parts>
     };
     let (mut motion, governing) = match reader.get(&view, "motion") {
         Some(field) => (
-            motion::read(reader, &field, base),
+            motion::read(reader, &field, files),
             motion::governing(reader, &field),
         ),
         None => (None, None),
     };
     let buildings = match reader.get(&view, "building") {
-        Some(field) => building::read_all(reader, &field, base),
+        Some(field) => building::read_all(reader, &field, files),
         None => {
             reader.missing(
                 &view,
@@ -584,7 +604,7 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, base: &Path) -> Option<Parts>
         gap::for_all_neighbours(reader, &fields, &at, &mut model);
         plan::check_widths(reader, &mut model, &fields);
     }
-    grounds::read_own(reader, &view, &mut motion, &model, base);
+    grounds::read_own(reader, &view, &mut motion, &model, files);
     shear_failure::add_heads(&mut model, reader, &view);
     given::soften_contacts(&mut model, reader, &view);
     capacity::fill(&mut model, &capacity, &reinforced);
@@ -626,7 +646,7 @@ fn add_model_faults(reader: &mut Reader<'_>, root: &Node, faults: Vec<ModelFault
 
 /// The position of a field in the file, and its path as written: a single value for a list has no index. A field
 /// that is absent is shown at the table that lacks it.
-fn locate(root: &Node, path: &str) -> (Span, String) {
+pub(crate) fn locate(root: &Node, path: &str) -> (Span, String) {
     let mut node = root;
     let mut spelt = String::new();
     let parts = path

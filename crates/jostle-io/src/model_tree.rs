@@ -1,11 +1,12 @@
 //! A model file as a tree whose values can be changed before it is read: what studies vary.
 
 use std::fmt;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use crate::builtin_model;
 use crate::fault::InputError;
+use crate::files::Files;
 use crate::model_file::{self, Input};
 use crate::reader::join;
 use crate::record_list;
@@ -18,7 +19,7 @@ use crate::tree::{self, Entry, Format, Node, Table, Value};
 pub struct ModelTree {
     source: Arc<Source>,
     pub(crate) root: Node,
-    base: PathBuf,
+    files: Files,
 }
 
 /// A value for a model file.
@@ -46,6 +47,15 @@ pub struct PathError {
     pub path: String,
     /// The problem, and a valid alternative.
     pub problem: String,
+}
+
+impl PathError {
+    pub(crate) fn new(path: &str, problem: String) -> Self {
+        Self {
+            path: crate::quantity::shorten(path),
+            problem,
+        }
+    }
 }
 
 /// One step of a path.
@@ -88,9 +98,22 @@ impl ModelTree {
     /// # Errors
     /// Syntax errors.
     pub fn parse(name: &str, text: &str, format: Format, base: &Path) -> Result<Self, InputError> {
+        Self::parse_with(name, text, format, Files::beside(base))
+    }
+
+    /// The same for a model that may read these files only.
+    ///
+    /// # Errors
+    /// Syntax errors.
+    pub fn parse_with(
+        name: &str,
+        text: &str,
+        format: Format,
+        files: Files,
+    ) -> Result<Self, InputError> {
         let source = Source::new(name, tree::decode(name, text.as_bytes())?);
         let root = tree::parse(&source, format)?;
-        Ok(Self::new(Arc::new(source), root, base))
+        Ok(Self::new(Arc::new(source), root, files))
     }
 
     /// The model file at a path, or the built-in model of that name.
@@ -117,11 +140,11 @@ impl ModelTree {
         Self::parse(name, text, Format::Toml, Path::new(""))
     }
 
-    pub(crate) fn new(source: Arc<Source>, root: Node, base: &Path) -> Self {
+    pub(crate) fn new(source: Arc<Source>, root: Node, files: Files) -> Self {
         Self {
             source,
             root,
-            base: base.to_owned(),
+            files,
         }
     }
 
@@ -145,7 +168,28 @@ impl ModelTree {
     /// The folder from where records are looked for.
     #[must_use]
     pub fn base(&self) -> &Path {
-        &self.base
+        self.files.folder()
+    }
+
+    /// What the model may read, and what it asked for so far.
+    #[must_use]
+    pub fn files(&self) -> &Files {
+        &self.files
+    }
+
+    /// Names of the files that the model names, as written, whether they are there or not: the model is read, with its
+    /// ground motion and with every record that it lists.
+    #[must_use]
+    pub fn named_files(&self) -> Vec<String> {
+        let mut tree = self.clone();
+        tree.files = self.files.afresh();
+        for record in 0..self.records().len().max(1) {
+            let mut one = tree.clone();
+            one.keep_record(record);
+            // Faults are reported where the model is run; the report has what was asked for until then.
+            let _ = one.input().and_then(|input| input.ground_motion());
+        }
+        tree.files.asked()
     }
 
     /// Puts a value in at a path such as `gap[0].width`, `gap[*].width`, `building.J1.column.depth` or
@@ -191,10 +235,7 @@ impl ModelTree {
     }
 
     fn change(&mut self, path: &str, change: &Change<'_>) -> Result<(), PathError> {
-        let wrong = |problem: String| PathError {
-            path: path.to_owned(),
-            problem,
-        };
+        let wrong = |problem: String| PathError::new(path, problem);
         let parts = parts(path).map_err(wrong)?;
         let mut root = self.root.clone();
         apply_at(&mut root, &parts, "", change).map_err(wrong)?;
@@ -207,13 +248,19 @@ impl ModelTree {
     /// # Errors
     /// All faults at once. A value that was set has no line.
     pub fn input(&self) -> Result<Input, InputError> {
-        model_file::read_tree(Arc::clone(&self.source), self.root.clone(), &self.base)
+        model_file::read_tree(Arc::clone(&self.source), self.root.clone(), &self.files)
     }
 }
+
+/// Most steps of a path. What follows a path calls itself once a step; no key of a model takes a tenth of that.
+const MOST_PARTS: usize = 64;
 
 /// The steps of a path.
 pub(crate) fn parts(path: &str) -> Result<Vec<Part>, String> {
     const EXAMPLE: &str = "write it like gap[0].width, gap[*].width or building.J1.damping.ratio";
+    if path.split(['.', '[']).nth(MOST_PARTS).is_some() {
+        return Err(format!("has more than {MOST_PARTS} parts; {EXAMPLE}"));
+    }
     let mut parts = Vec::new();
     for piece in path.split('.') {
         let (key, indices) = match piece.find('[') {
@@ -513,6 +560,8 @@ mod tests {
             ("gap[x].width", "no index"),
             ("building[0].mass[0]", "has no mass"),
             ("", "not a path"),
+            (&"a.".repeat(60_000), "more than 64 parts"),
+            (&format!("a{}", "[0]".repeat(60_000)), "more than 64 parts"),
         ] {
             let error = tree.set(path, &TreeValue::Number(1.0));
             let error = error

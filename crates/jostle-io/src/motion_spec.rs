@@ -4,7 +4,7 @@ mod grounds;
 
 pub use grounds::{GroundsSpec, OwnGroundSpec, OwnMotionSpec};
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use jostle::{Bearing, GroundMotion, Wave};
 use jostle_motion::{
@@ -12,8 +12,9 @@ use jostle_motion::{
 };
 
 use crate::builtin;
+use crate::files::Files;
 use crate::nearest::nearest;
-use crate::record::{GREATEST_ACCELERATION, RecordError, RecordOptions, read_record};
+use crate::record::{GREATEST_ACCELERATION, RecordError, RecordOptions, read_record_of};
 use crate::source::BACKSLASH;
 
 /// The ground motion of a model file.
@@ -40,8 +41,8 @@ pub enum MotionSource {
     Record {
         /// Name or path as written.
         name: String,
-        /// Folder that a relative path starts from.
-        base: PathBuf,
+        /// Where a file of that name is looked for.
+        files: Files,
         /// Data missing in the file.
         options: RecordOptions,
     },
@@ -49,8 +50,8 @@ pub enum MotionSource {
     Records {
         /// Names or paths as written.
         names: Vec<String>,
-        /// Folder that relative paths start from.
-        base: PathBuf,
+        /// Where files of these names are looked for.
+        files: Files,
         /// Data missing in the files.
         options: RecordOptions,
     },
@@ -245,7 +246,7 @@ impl MotionSpec {
         Self {
             source: MotionSource::Record {
                 name: name.to_owned(),
-                base: PathBuf::new(),
+                files: Files::beside(Path::new("")),
                 options: RecordOptions::default(),
             },
             scaling: Scaling::AsRecorded,
@@ -270,7 +271,7 @@ impl MotionSpec {
     pub fn with_one_of_several(&self, record: &str) -> Option<Self> {
         let MotionSource::Records {
             names,
-            base,
+            files,
             options,
         } = &self.source
         else {
@@ -280,7 +281,7 @@ impl MotionSpec {
         Some(Self {
             source: MotionSource::Record {
                 name: name.clone(),
-                base: base.clone(),
+                files: files.clone(),
                 options: options.clone(),
             },
             ..self.clone()
@@ -298,9 +299,9 @@ impl MotionSpec {
         let mut motion = match &self.source {
             MotionSource::Record {
                 name,
-                base,
+                files,
                 options,
-            } => find_record(name, base, options)?,
+            } => find_record(name, files, options)?,
             MotionSource::Records { names, .. } => {
                 return Err(MotionError::Several {
                     names: names.clone(),
@@ -421,24 +422,24 @@ fn analytic(name: &str, duration: f64, wave: Wave) -> GroundMotion {
 /// A built-in record, or the file of that name.
 fn find_record(
     name: &str,
-    base: &Path,
+    files: &Files,
     options: &RecordOptions,
 ) -> Result<GroundMotion, MotionError> {
     if let Some(motion) = builtin::builtin_record(name) {
         return Ok(motion);
     }
-    let path = base.join(name);
-    if !crate::bounded::exists(&path) {
-        return Err(MotionError::NotFound {
-            name: name.to_owned(),
-            nearest: similar_names(name, &path),
-        });
-    }
+    let path = files.shown(name);
     let error = |error| MotionError::Record {
         name: path.display().to_string(),
         error,
     };
-    let record = read_record(&path, options).map_err(error)?;
+    if !files.has(name).map_err(|found| error(found.into()))? {
+        return Err(MotionError::NotFound {
+            name: name.to_owned(),
+            nearest: similar_names(name, files),
+        });
+    }
+    let record = read_record_of(files, name, options).map_err(error)?;
     let title = if names_a_direction(&path) {
         path.file_name()
     } else {
@@ -459,31 +460,19 @@ fn names_a_direction(path: &Path) -> bool {
     matches!(&letters[..], "NS" | "EW" | "UD")
 }
 
-/// The built-in record and the file next to `path` with the most similar names.
-fn similar_names(name: &str, path: &Path) -> Vec<String> {
+/// The built-in record and the file in the same folder with the most similar names.
+fn similar_names(name: &str, files: &Files) -> Vec<String> {
     let aliases = builtin::BUILTIN_RECORDS
         .iter()
         .flat_map(|record| record.aliases);
     let names = builtin::builtin_motions();
     let known = names.iter().map(|(name, _)| *name).chain(aliases.copied());
     let builtin = nearest(name, known).map(str::to_owned);
-    let folder = match path.parent() {
-        Some(parent) if parent != Path::new("") => parent,
-        _ => Path::new("."),
-    };
-    let wanted = path
+    let wanted = Path::new(name)
         .file_name()
         .map(|n| n.to_string_lossy().into_owned())
         .unwrap_or_default();
-    let files: Vec<String> = std::fs::read_dir(folder)
-        .map(|entries| {
-            entries
-                .flatten()
-                .take(10_000)
-                .map(|entry| entry.file_name().to_string_lossy().into_owned())
-                .collect()
-        })
-        .unwrap_or_default();
-    let file = nearest(&wanted, files.iter().map(String::as_str)).map(str::to_owned);
+    let beside = files.names_beside(name);
+    let file = nearest(&wanted, beside.iter().map(String::as_str)).map(str::to_owned);
     builtin.into_iter().chain(file).collect()
 }

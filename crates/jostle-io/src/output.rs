@@ -2,6 +2,7 @@
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use jostle::Summary;
 
@@ -27,6 +28,54 @@ pub enum OutputError {
     },
 }
 
+/// Ends of names of what is being written.
+pub const PART_SUFFIX: &str = ".part";
+
+/// Begins of the names of what this process is writing: they say whose it is.
+#[must_use]
+pub fn part_prefix() -> String {
+    format!(".jostle-{}-", std::process::id())
+}
+
+/// Removes what processes that were killed left behind in a folder while they wrote: what bears the number of a process
+/// that is gone, and is older than `age`.
+pub fn remove_leftovers(folder: &Path, age: Duration) {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    for entry in entries {
+        let name = entry.file_name();
+        let owner = name.to_str().and_then(owner);
+        if !owner.is_some_and(is_gone) {
+            continue;
+        }
+        let old = |found: std::fs::Metadata| {
+            let changed = found.modified().ok()?;
+            Some(changed.elapsed().unwrap_or_default() >= age)
+        };
+        if !entry.metadata().ok().and_then(old).unwrap_or(false) {
+            continue;
+        }
+        // Whoever else removes it at the same time is welcome.
+        let _ = match entry.file_type() {
+            Ok(kind) if kind.is_dir() => std::fs::remove_dir_all(entry.path()),
+            _ => std::fs::remove_file(entry.path()),
+        };
+    }
+}
+
+/// The process that a name of something being written bears.
+fn owner(name: &str) -> Option<u32> {
+    let inside = name.strip_prefix(".jostle-")?.strip_suffix(PART_SUFFIX)?;
+    inside.split_once('-')?.0.parse().ok()
+}
+
+/// Whether there is no such process. Where that cannot be told there is one.
+fn is_gone(process: u32) -> bool {
+    let processes = Path::new("/proc");
+    process != std::process::id()
+        && processes.join("self").exists()
+        && !processes.join(process.to_string()).exists()
+}
+
 /// Writes a file under a temporary name in the same folder, then renames it, so that a reader sees the old file
 /// or the new one, never a part.
 ///
@@ -38,8 +87,9 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
             Some(parent) if parent != Path::new("") => parent,
             _ => Path::new("."),
         };
+        let prefix = part_prefix();
         let mut builder = tempfile::Builder::new();
-        builder.prefix(".jostle-").suffix(".part");
+        builder.prefix(&prefix).suffix(PART_SUFFIX);
         readable_by_all(&mut builder);
         let mut file = builder.tempfile_in(folder)?;
         file.write_all(bytes)?;
@@ -78,7 +128,7 @@ fn persist(mut file: tempfile::TempPath, path: &Path) -> std::io::Result<()> {
                 if left > 0 && failed.error.kind() == std::io::ErrorKind::PermissionDenied =>
             {
                 file = failed.path;
-                std::thread::sleep(std::time::Duration::from_millis(TRIES.1));
+                std::thread::sleep(Duration::from_millis(TRIES.1));
             }
             Err(failed) => return Err(failed.error),
         }

@@ -275,15 +275,15 @@ impl<'s> Reader<'s> {
                 self.bad(field, problem);
             })
             .ok()?;
-        self.judge(field, value).then_some(value)
+        self.judge(field, value, dimension).then_some(value)
     }
 
     /// Whether a value is possible; warns if it is unusual.
-    fn judge(&mut self, field: &Field<'_>, value: f64) -> bool {
+    pub(crate) fn judge(&mut self, field: &Field<'_>, value: f64, dimension: Dimension) -> bool {
         let Some(range) = field.range.filter(|_| !self.accepted.covers(&field.path)) else {
             return true;
         };
-        match range.judge(value, Written::from_node(field.node, value)) {
+        match range.judge(value, dimension, Written::from_node(field.node, value)) {
             Verdict::Usual => true,
             Verdict::Unusual(text) => {
                 self.warn(field, &text);

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use crate::keys::{KEYS, Key, Kind, Section};
 use crate::quantity::Dimension;
-use crate::unusual::{FIRST_PERIOD, RANGES};
+use crate::unusual::{FIRST_PERIOD, Usual, span};
 
 /// Tables of the file in the order of the page, with where they stand and what they are.
 const TABLES: &[(Section, &str, &str)] = &[
@@ -281,18 +281,39 @@ pub fn model_reference() -> String {
         }
     }
     page.push_str(&ranges_heading());
-    for range in RANGES {
-        let places = TABLES
-            .iter()
-            .filter(|(section, ..)| range.sections.contains(section));
-        let places: Vec<&str> = places.map(|(_, place, _)| *place).collect();
+    // Keys of one name and one range stand together.
+    let mut ranges: Vec<(&Key, Vec<&str>)> = Vec::new();
+    for (section, place, _) in TABLES {
+        for key in KEYS.iter().filter(|key| key.section == *section) {
+            if key.usual == Usual::NoQuantity {
+                continue;
+            }
+            let same = |(known, _): &&mut (&Key, Vec<&str>)| {
+                known.name == key.name
+                    && known.usual == key.usual
+                    && known.kind.dimension() == key.kind.dimension()
+            };
+            match ranges.iter_mut().find(same) {
+                Some((_, places)) => places.push(place),
+                None => ranges.push((key, vec![place])),
+            }
+        }
+    }
+    for (key, places) in ranges {
+        let dimension = key.kind.dimension().unwrap_or(Dimension::Dimensionless);
+        let (usual, possible) = match key.usual {
+            Usual::Within(range) => (
+                span(range.usual, dimension),
+                span(range.possible, dimension),
+            ),
+            Usual::Any(why) => (format!("any: {why}"), "any".to_owned()),
+            Usual::NoQuantity => continue,
+        };
         let _ = writeln!(
             page,
-            "| `{}` | {} | {} | {} |",
-            range.key,
-            places.join("; "),
-            range.span(range.usual),
-            range.span(range.possible)
+            "| `{}` | {} | {usual} | {possible} |",
+            key.name,
+            places.join("; ")
         );
     }
     page

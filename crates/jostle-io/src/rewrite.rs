@@ -17,10 +17,7 @@ impl ModelTree {
     /// # Errors
     /// [`PathError`] when the path leads nowhere.
     pub fn rewritten(&self, path: &str, value: Option<&TreeValue>) -> Result<String, PathError> {
-        let wrong = |problem: String| PathError {
-            path: path.to_owned(),
-            problem,
-        };
+        let wrong = |problem: String| PathError::new(path, problem);
         let mut wanted = self.clone();
         match value {
             Some(value) => wanted.set(path, value)?,
@@ -31,8 +28,8 @@ impl ModelTree {
         }
         let edited = self.edited(path, value);
         if let Some(text) = edited {
-            let read = Self::parse(self.name(), &text, Format::of_text(&text), self.base());
-            if read.is_ok_and(|read| same(&read.root, &wanted.root)) {
+            let read = self.again(&text);
+            if read.is_some_and(|read| same(&read.root, &wanted.root)) {
                 return Ok(text);
             }
         }
@@ -77,7 +74,13 @@ impl ModelTree {
     }
 
     fn again(&self, text: &str) -> Option<Self> {
-        Self::parse(self.name(), text, Format::of_text(text), self.base()).ok()
+        Self::parse_with(
+            self.name(),
+            text,
+            Format::of_text(text),
+            self.files().clone(),
+        )
+        .ok()
     }
 
     fn put(&self, parts: &[Part], value: Option<&TreeValue>) -> Option<String> {

@@ -16,6 +16,7 @@ pub use wanted::{FragilityWanted, IdaWanted};
 use crate::builtin_model;
 pub use crate::choices::{DesignKind, FragilityMethod, Sampling};
 use crate::fault::{Fault, InputError};
+use crate::files::Files;
 use crate::keys::{DESIGNS, SAMPLINGS, Section};
 use crate::model_file;
 use crate::model_tree::ModelTree;
@@ -52,7 +53,10 @@ pub struct StudyFile {
     pub selection: Option<SelectionWanted>,
     /// The folder of the file, from where records are looked for.
     pub folder: PathBuf,
+    /// Files that the study itself names, apart from its model.
+    pub files: Files,
     source: Arc<Source>,
+    root: Node,
 }
 
 /// How cases are made of what varies.
@@ -111,12 +115,21 @@ impl StudyFile {
         let source = Arc::new(Source::new(name, text));
         let root = tree::parse(&source, format)?;
         let mut reader = Reader::new(&source);
-        let read = read_root(&mut reader, &source, &root, folder, base);
+        let files = Files::beside(folder);
+        let read = read_root(&mut reader, &source, &root, &files, base);
         let error = reader.into_error();
         match read {
             Some(study) if error.faults.is_empty() => study,
             _ => Err(error),
         }
+    }
+
+    /// The text of a study file, without reading it as one.
+    ///
+    /// # Errors
+    /// When it cannot be read.
+    pub fn text_of(path: &Path) -> Result<String, InputError> {
+        model_file::read_text(path).map(|(_, text)| text)
     }
 
     /// The text that was read.
@@ -148,6 +161,22 @@ impl StudyFile {
                     .factors
                     .get(factor)
                     .map(|factor| self.source.place(&factor.span)),
+                problem: problem.into(),
+                remedy: None,
+            }],
+            more: 0,
+        }
+    }
+
+    /// A fault at a key of the file, such as `fragility[0].demand`.
+    #[must_use]
+    pub fn fault_at(&self, path: &str, problem: impl Into<String>) -> InputError {
+        let (span, path) = model_file::locate(&self.root, path);
+        InputError {
+            name: self.source.name.clone(),
+            faults: vec![Fault {
+                path,
+                place: (span != (0..0)).then(|| self.source.place(&span)),
                 problem: problem.into(),
                 remedy: None,
             }],
@@ -202,7 +231,7 @@ fn read_root(
     reader: &mut Reader<'_>,
     source: &Arc<Source>,
     root: &Node,
-    folder: &Path,
+    files: &Files,
     base: Option<ModelTree>,
 ) -> Option<Result<StudyFile, InputError>> {
     let field = Field::root(root);
@@ -211,7 +240,8 @@ fn read_root(
         Some(field) => reader.text(&field),
         None => Some("Untitled study".to_owned()),
     };
-    let tree = base_model(reader, source, &view, folder, base);
+    let folder = files.folder();
+    let tree = base_model(reader, source, &view, files, base);
     let implied = tree.as_ref().and_then(|tree| tree.as_ref().ok());
     let implied = implied.and_then(factor::of_records);
     let factors = match (reader.get(&view, "vary"), &implied) {
@@ -264,7 +294,7 @@ fn read_root(
         Some(texts)
     });
     let selection = reader.get(&view, "selection");
-    let selection = selection.and_then(|field| selection::read(reader, &field, folder));
+    let selection = selection.and_then(|field| selection::read(reader, &field, files));
     Some(tree?.map(|tree| StudyFile {
         title: title.unwrap_or_default(),
         base: tree,
@@ -285,7 +315,9 @@ fn read_root(
         roses: roses.unwrap_or_default(),
         selection,
         folder: folder.to_owned(),
+        files: files.clone(),
         source: Arc::clone(source),
+        root: root.clone(),
     }))
 }
 
@@ -294,7 +326,7 @@ fn base_model(
     reader: &mut Reader<'_>,
     source: &Arc<Source>,
     view: &View<'_>,
-    folder: &Path,
+    files: &Files,
     other: Option<ModelTree>,
 ) -> Option<Result<ModelTree, InputError>> {
     let (base, model) = (reader.get(view, "base"), reader.get(view, "model"));
@@ -318,7 +350,7 @@ fn base_model(
         return Some(Ok(ModelTree::new(
             Arc::clone(source),
             model.node.clone(),
-            folder,
+            files.clone(),
         )));
     }
     let Some(base) = base else {
@@ -330,7 +362,7 @@ fn base_model(
         return None;
     };
     let name = reader.text(&base)?;
-    let path = folder.join(&name);
+    let path = files.folder().join(&name);
     if !path.exists() && !builtin_model::model_names().contains(&name.as_str()) {
         let remedy = nearest(&name, builtin_model::model_names().into_iter())
             .map(|name| format!("did you mean the built-in \"{name}\"?"));
@@ -558,6 +590,12 @@ pub(crate) fn keys_asked(
 ) -> std::collections::BTreeSet<(Section, &'static str)> {
     let mut reader = Reader::new(source);
     let source = Arc::new(source.clone());
-    let _ = read_root(&mut reader, &source, root, Path::new(""), None);
+    let _ = read_root(
+        &mut reader,
+        &source,
+        root,
+        &Files::beside(Path::new("")),
+        None,
+    );
     reader.asked
 }

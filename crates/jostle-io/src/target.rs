@@ -7,7 +7,7 @@ use jostle_motion::{
     TargetKind, TargetSpectrum,
 };
 
-use crate::bounded::read_at_most;
+use crate::files::{FileError, Files};
 use crate::quantity::{Dimension, parse_quantity, shorten};
 
 /// Codes that are known.
@@ -232,14 +232,31 @@ fn quantity(
 /// # Errors
 /// [`TargetError::File`] naming the line.
 pub fn read_target_file(path: &Path) -> Result<TargetSpectrum, TargetError> {
-    let name = path.display().to_string();
+    let name = path.to_str().ok_or_else(|| TargetError::File {
+        name: path.display().to_string(),
+        problem: ": the name of the file is not UTF-8".into(),
+    })?;
+    read_target(&Files::beside(Path::new("")), name)
+}
+
+/// The same for a file that a model or a study names.
+///
+/// # Errors
+/// As [`read_target_file`].
+pub(crate) fn read_target(files: &Files, name: &str) -> Result<TargetSpectrum, TargetError> {
+    let path = files.shown(name);
     let fault = |problem: String| TargetError::File {
-        name: name.clone(),
+        name: path.display().to_string(),
         problem,
     };
-    let unreadable = |error: std::io::Error| fault(format!(": cannot be read: {error}"));
-    let bytes = read_at_most(path, LARGEST_FILE).map_err(unreadable)?;
-    let bytes = bytes.ok_or_else(|| fault(": is larger than a spectrum can be (1 MiB)".into()))?;
+    let bytes = files
+        .read(name, LARGEST_FILE)
+        .map_err(|error| match error {
+            FileError::TooLarge { .. } => {
+                fault(": is larger than a spectrum can be (1 MiB)".into())
+            }
+            error => fault(format!(": {error}")),
+        })?;
     let text = String::from_utf8_lossy(&bytes);
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     parse_target(&stem, &text).map_err(fault)

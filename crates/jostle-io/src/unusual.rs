@@ -1,7 +1,7 @@
 //! Usual ranges of quantities: every reader of models warns outside the usual range, and refuses values that only a
-//! wrong unit can explain. This file has all the numbers.
+//! wrong unit can explain. The numbers stand beside the keys.
 
-use crate::keys::Section::{self as S};
+use crate::keys::{Section as S, keys_of};
 use crate::quantity::Dimension::{self as D};
 use crate::quantity::{parse_quantity, show_number, split_number, unit_size};
 use crate::record::GREATEST_ACCELERATION;
@@ -11,21 +11,27 @@ use crate::tree::{Node, Value};
 const REMEDY: &str =
     "accept_unusual = true under [analysis], or --accept-unusual, accepts it as it is";
 
-/// Usual and possible range of a quantity.
+/// Usual and possible range of a quantity, in SI. Ranges are of magnitudes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Range {
-    /// Section of the key.
-    pub(crate) sections: &'static [S],
-    pub(crate) key: &'static str,
     /// Name of the quantity with its article.
     pub(crate) noun: &'static str,
-    pub(crate) dimension: D,
-    /// Outside, there is a warning; in SI.
+    /// Outside, there is a warning.
     pub(crate) usual: [f64; 2],
-    /// Outside, the value is refused; in SI.
+    /// Outside, the value is refused.
     pub(crate) possible: [f64; 2],
-    /// Units that were probably meant, most likely first.
-    units: &'static [&'static str],
+    /// Whether a negative value means something. Such values come from arithmetic, whose rounding is no value of its own.
+    pub(crate) signed: bool,
+}
+
+/// What values of a key are usual.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Usual {
+    /// The key is no quantity.
+    NoQuantity,
+    /// None is unusual, for this reason.
+    Any(&'static str),
+    Within(Range),
 }
 
 /// Result of comparing a value with a range.
@@ -39,128 +45,90 @@ pub(crate) enum Verdict {
 }
 
 const NO_LIMIT: [f64; 2] = [0.0, f64::INFINITY];
-const LENGTHS: &[&str] = &["mm", "cm", "m"];
-const ACCELERATIONS: &[&str] = &["cm/s2", "g", "m/s2"];
-const MOMENTS: &[&str] = &["kN.m", "MN.m"];
+/// Magnitudes of signed quantities that are rounding.
+const ROUNDING: f64 = 1e-12;
 
 /// Peak of a ground motion \[m/s²\].
-pub(crate) const PEAK_ACCELERATION: Range = Range {
-    sections: &[S::Motion, S::Selection],
-    key: "pga",
-    noun: "a peak ground acceleration",
-    dimension: D::Acceleration,
-    usual: [0.01, 50.0],
-    possible: [0.0, GREATEST_ACCELERATION],
-    units: ACCELERATIONS,
-};
+pub(crate) const PEAK_ACCELERATION: Range =
+    Range::new("a peak ground acceleration", 0.01, 50.0).possible(0.0, GREATEST_ACCELERATION);
 
 /// Width of a gap \[m\].
-pub(crate) const GAP: Range = Range {
-    sections: &[S::Gap],
-    key: "width",
-    noun: "a gap",
-    dimension: D::Length,
-    usual: [0.0, 2.0],
-    possible: [0.0, 20.0],
-    units: LENGTHS,
-};
+pub(crate) const GAP: Range = Range::new("a gap", 1e-5, 2.0).possible(0.0, 20.0);
 
 /// First lateral period of a building \[s\].
 pub(crate) const FIRST_PERIOD: [f64; 2] = [0.05, 15.0];
 /// Impact speed at which a contact is compared with a storey \[m/s\].
 pub(crate) const IMPACT_SPEED: f64 = 0.5;
 
-/// Ranges of the keys of a model file.
-#[rustfmt::skip]
-pub(crate) const RANGES: &[Range] = &[
-    PEAK_ACCELERATION,
-    Range { key: "amplitude", noun: "an amplitude", sections: &[S::Motion], ..PEAK_ACCELERATION },
-    of(&[S::Building], "storey_height", "a storey height", D::Length, [1.5, 30.0], [0.01, 1000.0], LENGTHS),
-    of(&[S::Frame, S::PlanFrame], "spans", "a span", D::Length, [0.5, 60.0], [0.01, 1000.0], LENGTHS),
-    of(&[S::Column, S::Beam, S::SpaceBeam], "width", "a section width", D::Length, [0.05, 5.0], [0.005, 10.0], LENGTHS),
-    of(&[S::Column, S::Beam, S::SpaceBeam], "depth", "a section depth", D::Length, [0.05, 5.0], [0.005, 10.0], LENGTHS),
-    of(&[S::Column, S::Beam], "cover", "a concrete cover", D::Length, [0.005, 0.2], [0.0005, 1.0], LENGTHS),
-    of(&[S::Column, S::Beam], "EI", "a flexural rigidity", D::FlexuralRigidity, [1e3, 1e14], NO_LIMIT, &["kN.m2", "MN.m2", "N.m2"]),
-    of(&[S::Column], "mass", "a mass per length of a column", D::LineMass, [1.0, 1e5], [0.0, 1e7], &["t/m", "kN/m", "kg/m"]),
-    of(&[S::Frame, S::PlanFrame, S::SpaceFrame], "elastic_modulus", "a modulus of elasticity", D::Modulus, [1e9, 1e12], [1e6, 1e14], &["GPa", "MPa", "kPa", "Pa"]),
-    of(&[S::Frame, S::PlanFrame, S::SpaceFrame], "stiffness_factor", "a stiffness factor", D::Dimensionless, [0.01, 10.0], [1e-6, 1e6], &["%"]),
-    of(&[S::StiffnessFactor], "column", "a stiffness factor", D::Dimensionless, [0.01, 10.0], [1e-6, 1e6], &["%"]),
-    of(&[S::StiffnessFactor], "beam", "a stiffness factor", D::Dimensionless, [0.01, 10.0], [1e-6, 1e6], &["%"]),
-    of(&[S::Frame, S::PlanFrame], "density", "a density", D::Density, [100.0, 2e4], [0.0, 1e6], &["kN/m3", "t/m3", "kg/m3"]),
-    of(&[S::Frame, S::PlanFrame], "beam_mass", "a beam mass", D::LineMass, [100.0, 1e5], [0.0, 1e6], &["kN/m", "t/m", "kg/m"]),
-    of(&[S::Frame], "floor_mass", "a floor mass", D::Mass, [100.0, 1e8], NO_LIMIT, &["t", "kg"]),
-    of(&[S::Shear], "mass", "a floor mass", D::Mass, [100.0, 1e8], NO_LIMIT, &["t", "kg"]),
-    of(&[S::Shear], "stiffness", "a storey stiffness", D::Stiffness, [1e3, 1e13], NO_LIMIT, &["MN/m", "kN/m", "N/m"]),
-    of(&[S::StoreyHinges, S::StoreyHingesOfAxis], "cracking", "a storey displacement at cracking", D::Length, [1e-6, 1.0], NO_LIMIT, LENGTHS),
-    of(&[S::StoreyHinges, S::StoreyHingesOfAxis], "yield", "a storey displacement at yield", D::Length, [1e-6, 1.0], NO_LIMIT, LENGTHS),
-    of(&[S::Hinge, S::HingeSide], "cracking", "a cracking moment", D::Moment, [1e3, f64::INFINITY], NO_LIMIT, MOMENTS),
-    of(&[S::Hinge, S::HingeSide], "yield", "a yield moment", D::Moment, [1e3, f64::INFINITY], NO_LIMIT, MOMENTS),
-    GAP,
-    of(&[S::Gap, S::Link], "level_tolerance", "a tolerance of levels", D::Length, [0.0, 1.0], [0.0, 20.0], LENGTHS),
-    of(&[S::Gap], "thickness", "a bumper thickness", D::Length, [0.001, 1.0], [0.0, 10.0], LENGTHS),
-    of(&[S::Foundation], "length", "a side of a foundation", D::Length, [1.0, 200.0], [0.0, 2e3], LENGTHS),
-    of(&[S::Foundation], "width", "a side of a foundation", D::Length, [1.0, 200.0], [0.0, 2e3], LENGTHS),
-    of(&[S::Foundation], "embedment", "a depth of a foundation", D::Length, [0.0, 30.0], [0.0, 200.0], LENGTHS),
-    of(&[S::Foundation], "mass", "a mass of a foundation", D::Mass, [100.0, 1e9], NO_LIMIT, &["t", "kg"]),
-    of(&[S::Soil], "shear_wave_velocity", "a shear wave velocity", D::Speed, [50.0, 3000.0], [1.0, 10e3], &["m/s", "km/s"]),
-    of(&[S::Soil], "density", "a density of soil", D::Density, [1000.0, 3000.0], [100.0, 10e3], &["kg/m3", "t/m3"]),
-    of(&[S::Isolation], "mat_mass", "a mass of a mat", D::Mass, [100.0, 1e9], NO_LIMIT, &["t", "kg"]),
-    of(&[S::Isolation], "stiffness", "a stiffness of bearings", D::Stiffness, [1e3, 1e13], NO_LIMIT, &["MN/m", "kN/m", "N/m"]),
-    of(&[S::Isolation], "radius", "a radius of a pendulum", D::Length, [0.1, 20.0], NO_LIMIT, LENGTHS),
-    of(&[S::Isolation], "limit", "a displacement of bearings", D::Length, [0.01, 3.0], NO_LIMIT, LENGTHS),
-    of(&[S::Wall], "stiffness", "a stiffness of a wall", D::Stiffness, [1e3, 1e13], NO_LIMIT, &["MN/m", "kN/m", "N/m"]),
-    of(&[S::Wall], "mass", "a mass of a wall", D::Mass, [10.0, 1e8], NO_LIMIT, &["t", "kg"]),
-    of(&[S::LinkLaw], "stiffness", "a link stiffness", D::Stiffness, [1e3, 1e16], NO_LIMIT, &["MN/m", "kN/m"]),
-    of(&[S::LinkLaw], "damping", "a dashpot coefficient", D::Damping, [1e2, 1e12], NO_LIMIT, &["kN.s/m", "MN.s/m"]),
-];
-
-const fn of(
-    sections: &'static [S],
-    key: &'static str,
-    noun: &'static str,
-    dimension: D,
-    usual: [f64; 2],
-    possible: [f64; 2],
-    units: &'static [&'static str],
-) -> Range {
-    Range {
-        sections,
-        key,
-        noun,
-        dimension,
-        usual,
-        possible,
-        units,
+/// Units of a dimension that are written most, the likeliest first.
+fn usual_units(dimension: D) -> &'static [&'static str] {
+    match dimension {
+        D::Length => &["mm", "cm", "m"],
+        D::Acceleration => &["cm/s2", "g", "m/s2"],
+        D::Moment => &["kN.m", "MN.m"],
+        D::FlexuralRigidity => &["kN.m2", "MN.m2", "N.m2"],
+        D::LineMass => &["kN/m", "t/m", "kg/m"],
+        D::Modulus => &["GPa", "MPa", "kPa", "Pa"],
+        D::Dimensionless => &["%"],
+        D::Density => &["kN/m3", "t/m3", "kg/m3"],
+        D::Mass => &["t", "kg"],
+        D::Stiffness => &["MN/m", "kN/m", "N/m"],
+        D::Force => &["kN", "MN", "N"],
+        D::Speed => &["m/s", "km/s"],
+        D::Damping => &["kN.s/m", "MN.s/m"],
+        D::Time => &["ms", "s"],
+        _ => &[],
     }
 }
 
 /// The range of a key of one of some sections.
 pub(crate) fn range_of(sections: &[S], key: &str) -> Option<&'static Range> {
-    RANGES
-        .iter()
-        .find(|range| range.key == key && range.sections.iter().any(|s| sections.contains(s)))
+    let key = keys_of(sections).find(|known| known.name == key)?;
+    match &key.usual {
+        Usual::Within(range) => Some(range),
+        Usual::NoQuantity | Usual::Any(_) => None,
+    }
 }
 
 impl Range {
+    /// Values from `low` to `high` are usual, and all are possible.
+    pub(crate) const fn new(noun: &'static str, low: f64, high: f64) -> Self {
+        Self {
+            noun,
+            usual: [low, high],
+            possible: NO_LIMIT,
+            signed: false,
+        }
+    }
+
+    /// The same, of which only values from `low` to `high` are possible.
+    pub(crate) const fn possible(self, low: f64, high: f64) -> Self {
+        Self {
+            possible: [low, high],
+            ..self
+        }
+    }
+
     /// Compares a value in SI with the range. Zero means absent and is never unusual; signs are checked elsewhere.
-    pub(crate) fn judge(&self, value: f64, written: Written) -> Verdict {
+    pub(crate) fn judge(&self, value: f64, dimension: D, written: Written) -> Verdict {
         let size = value.abs();
         let within = |[low, high]: [f64; 2]| (low..=high).contains(&size);
-        if size == 0.0 || within(self.usual) {
+        let is_zero = size == 0.0 || self.signed && size < ROUNDING;
+        if is_zero || within(self.usual) {
             return Verdict::Usual;
         }
-        let found = format!("{} of {}", self.noun, self.show(value));
-        let meant = self.meant(written.number);
+        let found = format!("{} of {}", self.noun, show(value, dimension));
+        let meant = self.meant(written.number, dimension);
         if within(self.possible) {
             // A value with an explicit unit is probably intended.
             let meant = meant.filter(|_| written.is_bare);
             let meant = meant.map_or_else(String::new, |meant| format!("; is it {meant}?"));
             return Verdict::Unusual(format!(
-                "{found} is unusual: {}{meant}",
-                self.limits(self.usual)
+                "{found} is unusual: expected {}{meant}",
+                span(self.usual, dimension)
             ));
         }
-        let limits = self.limits(self.possible);
+        let limits = format!("expected {}", span(self.possible, dimension));
         match meant {
             Some(meant) => Verdict::Refused(
                 format!("{found}, {limits}: is it {meant}?"),
@@ -174,43 +142,38 @@ impl Range {
     }
 
     /// The number as written with the unit that makes it usual, well inside the range.
-    fn meant(&self, written: f64) -> Option<String> {
-        let unit = self.likely_units(written).next()?;
+    fn meant(&self, written: f64, dimension: D) -> Option<String> {
+        let unit = self.likely_units(written, dimension).next()?;
         Some(format!("{} {unit}", show_number(written)))
     }
 
     /// Units with which a number would be usual, the likeliest first.
-    fn likely_units(&self, written: f64) -> impl Iterator<Item = &'static str> {
+    fn likely_units(&self, written: f64, dimension: D) -> impl Iterator<Item = &'static str> {
         let [low, high] = self.usual;
         let fits = move |unit: &&&str| {
-            unit_size(unit, unit, self.dimension).is_ok_and(|size| {
+            unit_size(unit, unit, dimension).is_ok_and(|size| {
                 let value = (written * size).abs();
                 2.0 * low <= value && 2.0 * value <= high && value > 0.0
             })
         };
-        self.units.iter().filter(fits).copied()
+        usual_units(dimension).iter().filter(fits).copied()
     }
+}
 
-    fn show(&self, value: f64) -> String {
-        match self.dimension {
-            D::Dimensionless => short(value),
-            _ => format!("{} {}", short(value), self.dimension.si_unit()),
-        }
+fn show(value: f64, dimension: D) -> String {
+    match dimension {
+        D::Dimensionless => short(value),
+        _ => format!("{} {}", short(value), dimension.si_unit()),
     }
+}
 
-    /// The limits in words for a message.
-    fn limits(&self, limits: [f64; 2]) -> String {
-        format!("expected {}", self.span(limits))
-    }
-
-    /// The limits in words.
-    pub(crate) fn span(&self, [low, high]: [f64; 2]) -> String {
-        match (low > 0.0, high.is_finite()) {
-            (true, true) => format!("{} to {}", self.show(low), self.show(high)),
-            (true, false) => format!("at least {}", self.show(low)),
-            (false, true) => format!("at most {}", self.show(high)),
-            (false, false) => "any".to_owned(),
-        }
+/// Limits in words.
+pub(crate) fn span([low, high]: [f64; 2], dimension: D) -> String {
+    match (low > 0.0, high.is_finite()) {
+        (true, true) => format!("{} to {}", show(low, dimension), show(high, dimension)),
+        (true, false) => format!("at least {}", show(low, dimension)),
+        (false, true) => format!("at most {}", show(high, dimension)),
+        (false, false) => "any".to_owned(),
     }
 }
 
@@ -231,7 +194,7 @@ pub fn parse_option(option: &str, text: &str, expected: D) -> Result<f64, String
         &GAP
     };
     let mut spellings: Vec<String> = range
-        .likely_units(value)
+        .likely_units(value, expected)
         .map(|unit| format!("{option} {number}{unit}"))
         .collect();
     if spellings.is_empty() {

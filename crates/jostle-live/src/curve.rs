@@ -1,6 +1,7 @@
 //! Results over the range of one key, or of two, coarse to fine.
 
 use std::ops::ControlFlow;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 #[cfg(not(target_family = "wasm"))]
 use std::sync::mpsc::Sender;
 use std::sync::{Mutex, PoisonError};
@@ -18,6 +19,8 @@ use crate::message::{Axis, Curve, Mark, Point};
 
 /// Most points of a curve, all records together.
 const MOST_POINTS: usize = 2000;
+/// Most records, each of which has two points at least.
+const MOST_RECORDS: usize = MOST_POINTS / 2;
 /// Most values of each key of a map.
 const MOST_SIDE: usize = 48;
 
@@ -35,8 +38,16 @@ pub(crate) struct Cases {
 
 impl Cases {
     /// The cases of a curve over a model.
-    pub(crate) fn new(tree: ModelTree, curve: Curve) -> Self {
+    ///
+    /// # Errors
+    /// In words, if there are too many records for two points of each.
+    pub(crate) fn new(tree: ModelTree, curve: Curve) -> Result<Self, String> {
         let records = curve.records.len().max(1);
+        if records > MOST_RECORDS {
+            return Err(format!(
+                "a curve takes at most {MOST_RECORDS} records, found {records}; a study takes all"
+            ));
+        }
         let (counts, order) = match &curve.across {
             None => {
                 let count = curve.axis.points.clamp(2, MOST_POINTS / records);
@@ -52,13 +63,13 @@ impl Cases {
         let list = order
             .into_iter()
             .flat_map(|(x, z)| (0..records).map(move |record| (record, x, z)));
-        Self {
+        Ok(Self {
             list: list.collect(),
             apart: (0..records * counts[1]).map(|_| Mutex::new(None)).collect(),
             tree,
             curve,
             counts,
-        }
+        })
     }
 
     /// Number of points, all records together.
@@ -86,7 +97,9 @@ impl Cases {
         let widens = axis.is_width();
         let apart = &self.apart[record * self.counts[1] + row];
         let known = widens.then(|| beyond(apart, x)).flatten();
-        let y = known.or_else(|| self.one(engine, record, x, z, stop));
+        // A case on which the program fails is a hole in the curve.
+        let one = || self.one(engine, record, x, z, stop);
+        let y = known.or_else(|| catch_unwind(AssertUnwindSafe(one)).ok().flatten());
         if let Some(y) = y.filter(|y| widens && y[1] == 0.0) {
             keep_apart(apart, x, y);
         }

@@ -1,14 +1,14 @@
 //! From the text of a model to everything that the page shows.
 
 use std::ops::ControlFlow;
-use std::path::{Component, Path, PathBuf};
+use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 #[cfg(not(target_family = "wasm"))]
 use std::time::Instant;
 
 use jostle::stepping::Progress;
 use jostle::{GroundMotion, Model, Outcome, Pounding, RunEnd, Settings, Summary};
-use jostle_io::{Format, InputError, ModelTree, TreeValue};
+use jostle_io::{Files, Format, InputError, ModelTree, TreeValue};
 use jostle_run::{CaseCache, CaseError, Prepared, Results};
 use serde::Serialize;
 
@@ -26,13 +26,12 @@ const RECORD_ENDINGS: [&str; 10] = [
 pub struct Engine {
     name: String,
     text: String,
-    base: PathBuf,
-    /// Folder of the model, without links.
-    folder: PathBuf,
-    /// Files that the opened model names: key, and name as in the model.
-    named: Vec<(String, String)>,
-    /// The same without links.
-    picked: Vec<PathBuf>,
+    /// What models on the page may read: the folder of the model, and what the opened model names.
+    files: Files,
+    /// Files that the opened model names, in its words.
+    named: Vec<String>,
+    /// Those of them that are records of its motion.
+    named_records: Vec<String>,
     case_cache: CaseCache,
     /// The last runs without contact, the most recent at the end.
     apart: Mutex<Vec<Apart>>,
@@ -114,7 +113,7 @@ impl Engine {
     /// # Errors
     /// When the file cannot be read or is not TOML or JSON.
     pub fn open(model: &Path) -> Result<Self, InputError> {
-        Ok(Self::new(ModelTree::find(model)?))
+        Ok(Self::new(&ModelTree::find(model)?))
     }
 
     /// Takes a model from its text. Records are looked for in `base`.
@@ -122,28 +121,32 @@ impl Engine {
     /// # Errors
     /// When the text is not TOML or JSON.
     pub fn from_text(name: &str, text: &str, base: &Path) -> Result<Self, InputError> {
-        let tree = ModelTree::parse(name, text, Format::of_text(text), base)?;
-        Ok(Self::new(tree))
+        Self::with_files(name, text, Files::beside(base))
     }
 
-    fn new(tree: ModelTree) -> Self {
-        let base = tree.base().to_owned();
-        let here = if base.as_os_str().is_empty() {
-            Path::new(".")
-        } else {
-            &base
-        };
-        let folder = here.canonicalize().unwrap_or_else(|_| here.to_owned());
-        let named = files(&tree);
-        let picked = named.iter();
-        let picked = picked.filter_map(|(_, name)| base.join(name).canonicalize().ok());
+    /// Takes a model from its text, and what it may read.
+    ///
+    /// # Errors
+    /// When the text is not TOML or JSON.
+    pub fn with_files(name: &str, text: &str, files: Files) -> Result<Self, InputError> {
+        let tree = ModelTree::parse_with(name, text, Format::of_text(text), files)?;
+        Ok(Self::new(&tree))
+    }
+
+    fn new(tree: &ModelTree) -> Self {
+        let named = tree.named_files();
+        let records = tree.values("motion.record").into_iter();
+        let records = records.flat_map(|value| match value {
+            TreeValue::List(list) => list,
+            one => vec![one],
+        });
+        let records = records.map(|value| value.to_string());
         Self {
             name: tree.name().to_owned(),
             text: tree.text().to_owned(),
-            picked: picked.collect(),
+            files: tree.files().confined(&named),
+            named_records: records.filter(|name| named.contains(name)).collect(),
             named,
-            base,
-            folder,
             case_cache: CaseCache::default(),
             apart: Mutex::default(),
         }
@@ -161,16 +164,16 @@ impl Engine {
         &self.text
     }
 
-    /// Folder of the model.
+    /// What models on the page may read.
     #[cfg(not(target_family = "wasm"))]
-    pub(crate) fn base(&self) -> &Path {
-        &self.base
+    pub(crate) fn files(&self) -> &Files {
+        &self.files
     }
 
     /// Files that the model names, in its words.
     #[cfg(not(target_family = "wasm"))]
-    pub(crate) fn named_files(&self) -> impl Iterator<Item = &str> {
-        self.named.iter().map(|(_, name)| &name[..])
+    pub(crate) fn named_files(&self) -> &[String] {
+        &self.named
     }
 
     /// Names of records to choose from: the built-in ones, and files of the model's folder.
@@ -185,18 +188,10 @@ impl Engine {
                 .to_lowercase();
             RECORD_ENDINGS.contains(&ending.as_str())
         };
-        let entries = std::fs::read_dir(&self.folder)
-            .into_iter()
-            .flatten()
-            .flatten();
-        let mut files: Vec<String> = entries
-            .filter(|entry| ours(&entry.path()))
-            .take(MOST_FILES)
-            .map(|entry| entry.file_name().to_string_lossy().into_owned())
-            .collect();
-        let named = self.named.iter();
-        let records = named.filter(|(path, _)| path == "motion.record");
-        files.extend(records.map(|(_, name)| name.clone()));
+        let beside = self.files.names_beside("").into_iter();
+        let beside = beside.filter(|name| ours(Path::new(name)));
+        let mut files: Vec<String> = beside.take(MOST_FILES).collect();
+        files.extend(self.named_records.iter().cloned());
         files.sort();
         files.dedup();
         names.extend(files);
@@ -217,49 +212,18 @@ impl Engine {
     }
 
     fn parse(&self, text: &str) -> Result<ModelTree, InputError> {
-        ModelTree::parse(&self.name, text, Format::of_text(text), &self.base)
+        let files = self.files.afresh();
+        ModelTree::parse_with(&self.name, text, Format::of_text(text), files)
     }
 
-    /// Reads a tree that names no file out of reach, and plans its run.
+    /// Reads a tree and plans its run.
     pub(crate) fn prepare(&self, tree: &ModelTree, record: usize) -> Result<Prepared, Trouble> {
-        for (path, name) in files(tree) {
-            self.confine(&path, &name)?;
-        }
         let mut tree = tree.clone();
         let several = tree.records().len();
         if several > 1 {
             tree.keep_record(record.min(several - 1));
         }
         Ok(self.case_cache.assemble(tree.input()?)?)
-    }
-
-    /// Refuses a file outside the folder of the model that the opened model does not name.
-    fn confine(&self, path: &str, name: &str) -> Result<(), Trouble> {
-        if cfg!(target_family = "wasm") {
-            // There is no file system: only files that the page holds can be read.
-            return Ok(());
-        }
-        let file = self.base.join(name);
-        let within = match file.canonicalize() {
-            Ok(file) => file.starts_with(&self.folder) || self.picked.contains(&file),
-            // The reader says that there is none; it must not look elsewhere for similar names.
-            Err(_) => Path::new(name)
-                .components()
-                .all(|part| matches!(part, Component::Normal(_) | Component::CurDir)),
-        };
-        if within {
-            return Ok(());
-        }
-        let mut found = fault(
-            path,
-            format!(
-                "\"{name}\" is outside the folder of the model, the only one that a live page reads"
-            ),
-        );
-        found[0].remedy = Some(
-            "copy the file into that folder, or name it in the model file and start jostle live again".into(),
-        );
-        Err(Trouble::Faults(found))
     }
 
     fn solve(
@@ -442,49 +406,6 @@ fn with_closed_gaps(model: &Model) -> Model {
         }
     }
     model
-}
-
-/// Keys of the matrices of a given building that may name a file.
-const MATRICES: [&str; 6] = [
-    "matrices",
-    "matrices.stiffness",
-    "matrices.mass",
-    "matrices.damping",
-    "matrices.influence",
-    "matrices.heights",
-];
-
-/// Files that a model names, each with its key. Built-in records are none.
-fn files(tree: &ModelTree) -> Vec<(String, String)> {
-    let mut paths = vec![
-        "motion.record".to_owned(),
-        "motion.match.spectrum".to_owned(),
-    ];
-    let buildings = (0..).take_while(|i| !tree.values(&format!("building[{i}]")).is_empty());
-    paths.extend(buildings.flat_map(|i| MATRICES.map(|key| format!("building[{i}].{key}"))));
-    let mut found = Vec::new();
-    for path in paths {
-        for value in tree.values(&path) {
-            let texts = match value {
-                TreeValue::List(list) => list,
-                one => vec![one],
-            };
-            for text in texts {
-                if let TreeValue::Text(name) = text {
-                    found.push((path.clone(), name));
-                }
-            }
-        }
-    }
-    let builtin = |name: &str| {
-        jostle_io::builtin_motions()
-            .iter()
-            .any(|(known, _)| *known == name)
-    };
-    found.retain(|(path, name)| {
-        path != "motion.record" || !builtin(name) && jostle_io::builtin_record(name).is_none()
-    });
-    found
 }
 
 /// The numbers of a run that two runs are compared by.
@@ -684,6 +605,96 @@ mod tests {
                 other => panic!("{matrices}: {:?}", other.err()),
             }
         }
+    }
+
+    /// Every table of a model that takes a record takes one of its own folder only, and so do all inside it.
+    #[test]
+    fn no_key_of_a_motion_leads_out_of_the_folder() {
+        let outer = tempfile::tempdir().unwrap_or_else(|error| panic!("{error}"));
+        let inner = outer.path().join("inner");
+        std::fs::create_dir(&inner).unwrap_or_else(|error| panic!("{error}"));
+        let record = "0.0 0.0\n0.1 1.0\n0.2 -1.0\n0.3 0.0\n";
+        let spectrum = "# unit = g\n0.1 1\n1.0 0.5\n";
+        for (name, text) in [("secret.csv", record), ("target.csv", spectrum)] {
+            std::fs::write(outer.path().join(name), text).unwrap_or_else(|error| panic!("{error}"));
+        }
+        let engine = engine(&inner);
+        let motions = ["motion.across", "motion.vertical", "building[0].motion"];
+        let mut tried = Vec::new();
+        for motion in motions {
+            tried.push((format!("{motion}.record"), "../secret.csv".to_owned()));
+            for spectrum in ["../target.csv", "/etc/passwd"] {
+                let table = format!(
+                    "{{ record = \"el-centro-1940-ns\", match = {{ spectrum = \"{spectrum}\", at = \"1 s\" }} }}"
+                );
+                tried.push((motion.to_owned(), table));
+            }
+        }
+        for motion in &motions[..2] {
+            tried.push(((*motion).to_owned(), "../secret.csv".to_owned()));
+            tried.push(((*motion).to_owned(), "/proc/self/environ".to_owned()));
+        }
+        for (path, value) in tried {
+            let run = Run {
+                id: 1,
+                text: engine.text.clone(),
+                edits: vec![(path.clone(), value.clone())],
+                record: 0,
+            };
+            let tree = engine.tree(&run);
+            let prepared = tree.and_then(|tree| engine.prepare(&tree, 0));
+            match prepared {
+                Err(Trouble::Faults(faults)) => assert!(
+                    faults
+                        .iter()
+                        .any(|fault| fault.problem.contains("outside the folder")),
+                    "{path} = {value}: {faults:?}"
+                ),
+                other => panic!("{path} = {value}: {:?}", other.err()),
+            }
+        }
+    }
+
+    /// A page that is exported carries every file that the model names.
+    #[test]
+    fn all_files_of_the_model_are_known() {
+        let folder = tempfile::tempdir().unwrap_or_else(|error| panic!("{error}"));
+        let record = "0.0 0.0\n0.1 1.0\n0.2 -1.0\n0.3 0.0\n";
+        let names = ["a.csv", "b.csv", "c.csv", "d.csv"];
+        for name in names {
+            std::fs::write(folder.path().join(name), record)
+                .unwrap_or_else(|error| panic!("{error}"));
+        }
+        let text = r#"
+[motion]
+record = ["a.csv", "b.csv"]
+unit = "m/s2"
+across = { record = "c.csv", unit = "m/s2" }
+baseline = "as-recorded"
+[[building]]
+name = "A"
+kind = "shear"
+mass = ["40 t"]
+stiffness = ["20 MN/m"]
+plan = ["8 m", "6 m"]
+motion = { record = "d.csv", unit = "m/s2" }
+"#;
+        let engine = Engine::from_text("m.toml", text, folder.path());
+        let engine = engine.unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(engine.named_files(), names);
+        // The same files in memory serve as well, and nothing else does.
+        let files = names.map(|name| (name.to_owned(), record.as_bytes().to_vec()));
+        let held = Engine::with_files("m.toml", text, Files::held(files.into()));
+        let held = held.unwrap_or_else(|error| panic!("{error}"));
+        let run = Run {
+            id: 1,
+            text: text.to_owned(),
+            edits: Vec::new(),
+            record: 1,
+        };
+        let tree = held.tree(&run).unwrap_or_else(|error| panic!("{error:?}"));
+        assert!(held.prepare(&tree, 1).is_ok());
+        assert!(with_record(&held, "/etc/hostname").is_err());
     }
 
     #[test]

@@ -2,12 +2,15 @@
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
+use jostle_io::FileError;
 use maud::{PreEscaped, html};
 
 use crate::engine::Engine;
 use crate::page;
 
 const WORKER: &str = include_str!("../assets/worker.js");
+/// Largest file that goes into a page \[bytes\].
+const LARGEST: usize = 256 << 20;
 /// First bytes of a gzip file.
 const GZIP: [u8; 2] = [0x1f, 0x8b];
 /// First bytes of a WebAssembly module.
@@ -22,12 +25,12 @@ pub enum ExportError {
     )]
     NoModule(&'static str),
     /// A file that the model names cannot be read.
-    #[error("cannot read {name}, which the model names: {error}")]
+    #[error("{name}, which the model names, {error}")]
     File {
         /// Name in the model.
         name: String,
-        /// What the system says.
-        error: std::io::Error,
+        /// The reason.
+        error: FileError,
     },
 }
 
@@ -45,9 +48,9 @@ pub fn export(engine: &Engine, module: &[u8]) -> Result<String, ExportError> {
     }
     let mut files = Vec::new();
     for name in engine.named_files() {
-        let path = engine.base().join(name);
-        let bytes = std::fs::read(path).map_err(|error| ExportError::File {
-            name: name.to_owned(),
+        let bytes = engine.files().read(name, LARGEST);
+        let bytes = bytes.map_err(|error| ExportError::File {
+            name: name.clone(),
             error,
         })?;
         files.push((name, STANDARD.encode(bytes)));

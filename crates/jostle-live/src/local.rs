@@ -125,8 +125,14 @@ impl Local {
             Request::Study(curve) => Some(answer::study(&self.engine, &curve)),
             Request::Curve(curve) => match self.engine.tree(&curve.run) {
                 Ok(tree) => {
-                    self.curve = Some((Cases::new(tree, curve), 0));
-                    None
+                    let id = curve.run.id;
+                    match Cases::new(tree, curve) {
+                        Ok(cases) => {
+                            self.curve = Some((cases, 0));
+                            None
+                        }
+                        Err(problem) => Some(answer::say(&Reply::NoCurve { id, problem })),
+                    }
                 }
                 Err(trouble) => answer::no_curve(curve.run.id, trouble),
             },

@@ -1,9 +1,10 @@
 //! The server: one page and one WebSocket on the loopback address.
 
-use std::io::Write;
+use std::collections::VecDeque;
+use std::io::{Read, Write};
 use std::net::{Ipv4Addr, Shutdown, SocketAddr, TcpListener, TcpStream};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Arc, Condvar, Mutex, PoisonError};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
@@ -15,6 +16,8 @@ use crate::{page, session};
 const MOST_CONNECTIONS: usize = 32;
 /// Most time that a read or a write of a request may wait.
 const PATIENCE: Duration = Duration::from_secs(5);
+/// Most time for the rest of a request that was refused.
+const LINGER: Duration = Duration::from_secs(1);
 /// Bytes of randomness in the token.
 const TOKEN_BYTES: usize = 24;
 
@@ -48,6 +51,8 @@ pub(crate) struct Shared {
     port: u16,
     token: String,
     connections: AtomicUsize,
+    /// Connections that are no open page yet, the oldest first, with their numbers.
+    arriving: Mutex<VecDeque<(u64, TcpStream)>>,
     ending: AtomicBool,
     pages: Mutex<Pages>,
     changed: Condvar,
@@ -76,6 +81,7 @@ impl Server {
             port,
             token: random.iter().map(|byte| format!("{byte:02x}")).collect(),
             connections: AtomicUsize::new(0),
+            arriving: Mutex::default(),
             ending: AtomicBool::new(false),
             pages: Mutex::new(Pages {
                 open: 0,
@@ -133,20 +139,64 @@ impl Shared {
         self.ending.load(Ordering::Relaxed)
     }
 
-    fn count_pages(&self, come: bool) {
-        let mut pages = self.pages.lock().unwrap_or_else(PoisonError::into_inner);
-        if come {
-            pages.open += 1;
-        } else {
-            pages.open -= 1;
-        }
+    fn arriving(&self) -> MutexGuard<'_, VecDeque<(u64, TcpStream)>> {
+        self.arriving.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Ends the oldest connection that is no open page, if there is one, in favour of a new one.
+    fn make_room(&self) -> bool {
+        let oldest = self.arriving().pop_front();
+        oldest.is_some_and(|(_, stream)| stream.shutdown(Shutdown::Both).is_ok())
+    }
+}
+
+/// A connection, counted while it is there, however it ends.
+struct Connection {
+    shared: Arc<Shared>,
+    number: u64,
+}
+
+impl Drop for Connection {
+    fn drop(&mut self) {
+        self.no_longer_arriving();
+        self.shared.connections.fetch_sub(1, Ordering::Relaxed);
+    }
+}
+
+impl Connection {
+    fn no_longer_arriving(&self) {
+        self.shared
+            .arriving()
+            .retain(|(number, _)| *number != self.number);
+    }
+}
+
+/// An open page, counted while it is there, however it ends.
+struct OpenPage<'a>(&'a Shared);
+
+impl<'a> OpenPage<'a> {
+    fn new(shared: &'a Shared) -> Self {
+        let page = Self(shared);
+        page.count(|open| open + 1);
+        page
+    }
+
+    fn count(&self, change: impl Fn(usize) -> usize) {
+        let mut pages = self.0.pages.lock().unwrap_or_else(PoisonError::into_inner);
+        pages.open = change(pages.open);
         pages.gone = (pages.open == 0).then(Instant::now);
-        self.changed.notify_all();
+        self.0.changed.notify_all();
+    }
+}
+
+impl Drop for OpenPage<'_> {
+    fn drop(&mut self) {
+        self.count(|open| open.saturating_sub(1));
     }
 }
 
 fn accept(listener: &TcpListener, shared: &Arc<Shared>) {
-    for stream in listener.incoming() {
+    for (number, stream) in (0..).zip(listener.incoming()) {
         if shared.is_ending() {
             return;
         }
@@ -163,21 +213,29 @@ fn accept(listener: &TcpListener, shared: &Arc<Shared>) {
         if timeouts.iter().any(Result::is_err) {
             continue;
         }
-        if shared.connections.fetch_add(1, Ordering::Relaxed) >= MOST_CONNECTIONS {
+        if shared.connections.load(Ordering::Relaxed) >= MOST_CONNECTIONS && !shared.make_room() {
+            // A few bytes, which always find room in the buffers of a new connection.
             let _ = http::refuse(&mut stream, BUSY);
-            shared.connections.fetch_sub(1, Ordering::Relaxed);
             continue;
         }
-        let shared = Arc::clone(shared);
-        std::thread::spawn(move || {
+        shared.connections.fetch_add(1, Ordering::Relaxed);
+        let connection = Connection {
+            shared: Arc::clone(shared),
+            number,
+        };
+        if let Ok(copy) = stream.try_clone() {
+            shared.arriving().push_back((number, copy));
+        }
+        // Without a thread, say because there are too many, the connection ends here.
+        let _ = std::thread::Builder::new().spawn(move || {
             // A connection that fails is gone; the page connects again.
-            let _ = answer(&mut stream, &shared);
-            shared.connections.fetch_sub(1, Ordering::Relaxed);
+            let _ = answer(&mut stream, &connection);
         });
     }
 }
 
-fn answer(stream: &mut TcpStream, shared: &Shared) -> std::io::Result<()> {
+fn answer(stream: &mut TcpStream, connection: &Connection) -> std::io::Result<()> {
+    let shared = &*connection.shared;
     let judged =
         http::read_head(stream).and_then(|head| http::judge(&head, shared.port, &shared.token));
     match judged {
@@ -187,18 +245,17 @@ fn answer(stream: &mut TcpStream, shared: &Shared) -> std::io::Result<()> {
         }
         Ok(Wanted::Socket { key }) => {
             http::upgrade(stream, &key)?;
-            shared.count_pages(true);
-            let served = session::serve(stream, &shared.engine, &|| shared.is_ending());
-            shared.count_pages(false);
-            return served;
+            connection.no_longer_arriving();
+            let _page = OpenPage::new(shared);
+            return session::serve(stream, &shared.engine, &|| shared.is_ending());
         }
         Err(refusal) => {
             http::refuse(stream, refusal)?;
             // What still comes is read and dropped, so that the answer arrives before the connection is reset.
             stream.shutdown(Shutdown::Write)?;
             stream.set_read_timeout(Some(Duration::from_millis(200)))?;
-            let mut rest = std::io::Read::take(&mut *stream, 1 << 20);
-            let _ = std::io::copy(&mut rest, &mut std::io::sink());
+            let (begun, mut rest) = (Instant::now(), [0; 4096]);
+            while begun.elapsed() < LINGER && stream.read(&mut rest).is_ok_and(|count| count > 0) {}
         }
     }
     stream.flush()

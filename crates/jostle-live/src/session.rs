@@ -2,8 +2,9 @@
 
 use std::cell::Cell;
 use std::io::ErrorKind;
-use std::net::TcpStream;
+use std::net::{Shutdown, TcpStream};
 use std::ops::ControlFlow;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
@@ -35,14 +36,17 @@ enum Job {
 struct Writer(Mutex<WebSocket<TcpStream>>);
 
 impl Writer {
-    /// Sends a message. A page that is gone is noticed by the reading side.
+    /// Sends a message. A page that is gone, or does not read, is noticed by the reading side.
     fn send(&self, answer: Answer) {
         let message = match answer {
             Answer::Text(text) => Message::text(text),
             Answer::Binary(bytes) => Message::binary(bytes),
         };
         let mut socket = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let _ = socket.send(message);
+        if socket.send(message).is_err() {
+            // What could not be sent would be kept and tried again with every message.
+            let _ = socket.get_ref().shutdown(Shutdown::Both);
+        }
     }
 
     fn say(&self, reply: &Reply<'_>) {
@@ -83,7 +87,12 @@ pub(crate) fn serve(
                     Ok(Request::Stop) => runs.cancel(),
                     Ok(Request::Curve(curve)) => curves.put(curve),
                     Ok(Request::StopCurve) => curves.cancel(),
-                    Ok(Request::Study(curve)) => writer.send(answer::study(engine, &curve)),
+                    Ok(Request::Study(curve)) => {
+                        let study =
+                            catch_unwind(AssertUnwindSafe(|| answer::study(engine, &curve)));
+                        let failed = |panic: Box<_>| answer::failed(curve.run.id, &*panic);
+                        writer.send(study.unwrap_or_else(failed));
+                    }
                     // Only a page of another version says something else.
                     Err(_) => break,
                 },
@@ -97,7 +106,7 @@ pub(crate) fn serve(
         runs.close();
         curves.close();
     });
-    stream.shutdown(std::net::Shutdown::Both)
+    stream.shutdown(Shutdown::Both)
 }
 
 fn run_jobs(engine: &Engine, slot: &Slot<Job>, writer: &Writer) {
@@ -117,10 +126,12 @@ fn run_jobs(engine: &Engine, slot: &Slot<Job>, writer: &Writer) {
             }
             ControlFlow::Continue(())
         };
-        let (reply, solved) = match &job {
+        let answered = catch_unwind(AssertUnwindSafe(|| match &job {
             Job::Frame(run) => answer::frame(engine, run, &watch),
             Job::Report(run) => (answer::report(engine, run, &watch), None),
-        };
+        }));
+        let failed = |panic: Box<_>| (answer::failed(run.id, &*panic), None);
+        let (reply, solved) = answered.unwrap_or_else(failed);
         writer.send(reply);
         // The page is drawn while this is computed; a newer change stops it.
         let going_on = |_| match slot.is_stale(number) {
@@ -129,7 +140,10 @@ fn run_jobs(engine: &Engine, slot: &Slot<Job>, writer: &Writer) {
         };
         let later = solved
             .filter(|_| !slot.is_stale(number))
-            .and_then(|solved| answer::accuracy(run.id, solved, &going_on));
+            .and_then(|solved| {
+                let accuracy = || answer::accuracy(run.id, solved, &going_on);
+                catch_unwind(AssertUnwindSafe(accuracy)).ok().flatten()
+            });
         if let Some(later) = later.filter(|_| !slot.is_stale(number)) {
             writer.send(later);
         }
@@ -140,46 +154,58 @@ fn run_curves(engine: &Engine, slot: &Slot<Curve>, writer: &Writer) {
     while let Some((curve, number)) = slot.take() {
         let id = curve.run.id;
         let stop = || slot.is_stale(number);
-        let cases = match engine.tree(&curve.run) {
-            Ok(tree) => Cases::new(tree, curve),
-            Err(trouble) => {
-                if let Some(answer) = answer::no_curve(id, trouble) {
-                    writer.send(answer);
-                }
-                continue;
-            }
-        };
-        let of = cases.count();
-        let (send, points) = mpsc::channel();
-        std::thread::scope(|scope| {
-            let computing = scope.spawn(|| {
-                curve::points(engine, &cases, &send, &stop);
-                drop(send);
-            });
-            let mut waiting = Vec::new();
-            let mut sent = Instant::now();
-            loop {
-                let point = points.recv_timeout(POINTS_EVERY);
-                let last = matches!(point, Err(RecvTimeoutError::Disconnected));
-                waiting.extend(point);
-                let due = last || sent.elapsed() >= POINTS_EVERY;
-                if due && !waiting.is_empty() && !stop() {
-                    let points = std::mem::take(&mut waiting);
-                    writer.say(&Reply::Points { id, points, of });
-                    sent = Instant::now();
-                }
-                if last {
-                    break;
-                }
-            }
-            // Its panic, if any, was printed; the page sees a curve with holes.
-            let _ = computing.join();
-        });
-        if !stop()
-            && let Some(answer) = answer::marks(engine, &cases, &stop)
-            && !stop()
-        {
-            writer.send(answer);
+        let run = || run_curve(engine, curve, &stop, writer);
+        if let Err(panic) = catch_unwind(AssertUnwindSafe(run)) {
+            let problem = answer::failure(&*panic);
+            writer.say(&Reply::NoCurve { id, problem });
         }
+    }
+}
+
+fn run_curve(engine: &Engine, curve: Curve, stop: &(dyn Fn() -> bool + Sync), writer: &Writer) {
+    let id = curve.run.id;
+    let tree = match engine.tree(&curve.run) {
+        Ok(tree) => tree,
+        Err(trouble) => {
+            if let Some(answer) = answer::no_curve(id, trouble) {
+                writer.send(answer);
+            }
+            return;
+        }
+    };
+    let cases = match Cases::new(tree, curve) {
+        Ok(cases) => cases,
+        Err(problem) => return writer.say(&Reply::NoCurve { id, problem }),
+    };
+    let of = cases.count();
+    let (send, points) = mpsc::channel();
+    std::thread::scope(|scope| {
+        let computing = scope.spawn(|| {
+            curve::points(engine, &cases, &send, stop);
+            drop(send);
+        });
+        let mut waiting = Vec::new();
+        let mut sent = Instant::now();
+        loop {
+            let point = points.recv_timeout(POINTS_EVERY);
+            let last = matches!(point, Err(RecvTimeoutError::Disconnected));
+            waiting.extend(point);
+            let due = last || sent.elapsed() >= POINTS_EVERY;
+            if due && !waiting.is_empty() && !stop() {
+                let points = std::mem::take(&mut waiting);
+                writer.say(&Reply::Points { id, points, of });
+                sent = Instant::now();
+            }
+            if last {
+                break;
+            }
+        }
+        let _ = computing.join();
+    });
+    if !stop()
+        && let Some(answer) = answer::marks(engine, &cases, stop)
+        && !stop()
+    {
+        writer.send(answer);
     }
 }

@@ -1,11 +1,11 @@
 //! Ground motions.
 
-use std::path::PathBuf;
+use std::path::Path;
 
 use jostle::{GroundMotion, Wave};
 use jostle_io::{
-    MotionError, MotionSource, MotionSpec, Record, RecordContent, RecordLayout, RecordOptions,
-    Scaling,
+    Files, MotionError, MotionSource, MotionSpec, Record, RecordContent, RecordLayout,
+    RecordOptions, Scaling,
 };
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -111,7 +111,7 @@ impl Motion {
         };
         let source = MotionSource::Record {
             name: name.to_owned(),
-            base: PathBuf::new(),
+            files: Files::beside(Path::new("")),
             options,
         };
         py.detach(|| Self::new(source, None))

@@ -155,6 +155,7 @@ function bind() {
   byId("zoom-out").addEventListener("click", () => view.zoom(2));
   byId("zoom-all").addEventListener("click", () => view.whole());
   byId("zoom-impact").addEventListener("click", () => {
+    if (!groups.length) return;
     const distance = ({ start, end }) => Math.max(start - player.time, player.time - end, 0);
     showImpact(groups.reduce((best, group) => (distance(group) < distance(best) ? group : best)));
   });

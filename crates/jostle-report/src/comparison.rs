@@ -113,7 +113,7 @@ pub fn render_comparison(page: &ComparisonPage) -> String {
                     (files())
                 }
                 footer {
-                    (message::made_by_jostle_version(env!("CARGO_PKG_VERSION")))
+                    (message::made_by_jostle_version(crate::version()))
                 }
                 (theme_script())
             }

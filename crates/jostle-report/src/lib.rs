@@ -4,6 +4,7 @@
 //! numbers come from the core crate as they are, this crate only chooses, thins, encodes and draws them.
 
 mod backbones;
+mod build;
 mod calculation;
 mod checks;
 mod collisions;
@@ -47,6 +48,7 @@ mod verdict;
 mod viewer;
 mod walls;
 
+pub use build::{BUILD, version};
 pub use calculation::Calculation;
 pub use collisions::{CollidedLaw, Collisions, loops_svg, render_collisions};
 pub use comparison::{ComparedHistory, ComparedImpactTimes, ComparisonPage, render_comparison};

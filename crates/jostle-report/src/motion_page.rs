@@ -99,7 +99,7 @@ pub(crate) fn frame(title: &str, kicker: &str, body: &Markup, data: &Value) -> S
                     (theme_button())
                 }
                 main { (body) }
-                footer { (message::made_by_jostle_version(env!("CARGO_PKG_VERSION"))) }
+                footer { (message::made_by_jostle_version(crate::version())) }
                 noscript { p.note { (message::the_charts_need_javascript()) } }
                 script #page-data type="application/json" { (PreEscaped(data)) }
                 (message::for_scripts(&script))

@@ -121,7 +121,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                     (guide(page))
                 }
                 footer {
-                    (message::made_by_jostle_version(&page.summary.jostle))
+                    (message::made_by_jostle_version(crate::version()))
                 }
                 @if recorded {
                     (player(page.summary.gaps.iter().any(|gap| gap.impact_count > 0)))

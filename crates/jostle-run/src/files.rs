@@ -146,10 +146,11 @@ struct Staged {
 
 impl Staged {
     fn new(folder: &Path) -> Result<Self, OutputError> {
+        let prefix = jostle_io::part_prefix();
         let mut builder = tempfile::Builder::new();
         let aside = builder
-            .prefix(".jostle-")
-            .suffix(".part")
+            .prefix(&prefix)
+            .suffix(jostle_io::PART_SUFFIX)
             .tempdir_in(if folder == Path::new("") {
                 Path::new(".")
             } else {

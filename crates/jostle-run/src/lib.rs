@@ -7,6 +7,8 @@
 mod calculation;
 mod case_cache;
 mod checks_text;
+#[cfg(not(target_family = "wasm"))]
+mod claim;
 mod collide;
 mod comparison;
 mod contact_advice;
@@ -35,6 +37,8 @@ mod summary_text;
 
 pub use case_cache::{CaseCache, CaseError};
 pub use checks_text::finding_with_remedy;
+#[cfg(not(target_family = "wasm"))]
+pub use claim::FolderClaim;
 pub use collide::{CollideOptions, collide, collision_json};
 pub use comparison::{
     Comparison, HistoryComparison, ImpactComparison, Measurements, PreparedComparison,
@@ -55,7 +59,7 @@ pub use gap_runs::{GapError, GapPoint};
 pub use modes::{ListedModes, floor_shape, list_modes, modes_json};
 pub use numbers::{counted, counted_grouped, grouped, kn, mm};
 pub use observer::{Observer, Stage, stopped_by};
-pub use opened::{EXAMPLE, Opened, open, read};
+pub use opened::{EXAMPLE, Opened, name_of, open, read};
 pub use pdf::{Paper, find_chromium, print_pdf};
 pub use prepared::Prepared;
 pub use pushover::{checked_drift, chosen_buildings, pushed_buildings, pushover_json};

@@ -48,13 +48,19 @@ pub fn open(
     input
         .apply(overrides)
         .map_err(|error| RunError::Argument(error.to_string()))?;
-    let name = path.file_stem().map_or_else(
-        || EXAMPLE.to_owned(),
-        |stem| stem.to_string_lossy().into_owned(),
-    );
-    let mut opened = Opened::new(input, name)?;
+    let mut opened = Opened::new(input, name_of(path))?;
     opened.other_record = overrides.record.is_some();
     Ok(opened)
+}
+
+/// Name of a file without its ending, as a folder for its results may be called: `..toml` and its like are no folder.
+#[must_use]
+pub fn name_of(path: &Path) -> String {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    match stem.trim_matches('.') {
+        "" => EXAMPLE.to_owned(),
+        _ => stem.into_owned(),
+    }
 }
 
 /// Reads a model file or a built-in example.

@@ -32,6 +32,8 @@ const PLACES: [&str; 7] = [
     "C:\\Program Files (x86)\\Microsoft\\Edge\\Application\\msedge.exe",
     "/snap/bin/chromium",
 ];
+/// Largest report on paper \[bytes\].
+const LARGEST_PDF: usize = 1 << 30;
 /// Longest time that printing may take.
 const PATIENCE: Duration = Duration::from_secs(180);
 /// Time on its own clock that a page has to draw itself \[ms\].
@@ -159,7 +161,7 @@ pub fn print_pdf(chromium: &Path, page: &str, pdf: &Path, paper: Paper) -> Resul
     };
     let mut child = command.spawn().map_err(|error| failed(error.to_string()))?;
     let complaint = wait(&mut child).map_err(failed)?;
-    let bytes = std::fs::read(&printed).unwrap_or_default();
+    let bytes = jostle_io::read_file(&printed, LARGEST_PDF).unwrap_or_default();
     if !bytes.starts_with(b"%PDF-") {
         return Err(failed(complaint));
     }

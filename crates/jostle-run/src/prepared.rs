@@ -130,6 +130,7 @@ impl Prepared {
             without_contact: without_contact.filter(|run| run.end == RunEnd::Completed),
             wall,
         });
+        summary.build = jostle_report::BUILD.map(str::to_owned);
         self.input.add_notes(&mut summary);
         let missing = without_contact.and_then(|run| not_compared(run, self.motion.duration));
         summary.notes.extend(missing);

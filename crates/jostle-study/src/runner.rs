@@ -7,15 +7,15 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use crate::case;
 use crate::dataset::{
-    Claim, Journal, PartFault, cases_of, journal_path, keep_copy, part_path, set_aside, settle,
-    strangers, verify, write_part,
+    Claim, Journal, PartFault, cases_of, journal_path, keep_copy, no_journal, owner_of, part_path,
+    set_aside, settle, strangers, verify, write_part,
 };
 use crate::row::{Row, Status};
-use crate::single::{add_run_without_contact, run_until, write_run};
+use crate::single::{add_run_without_contact, run_case, run_until, write_run};
 use crate::study::{Study, StudyError};
 use jostle_run::CaseCache;
 
@@ -66,6 +66,11 @@ pub struct Done {
 
 /// How often a waiting thread looks up.
 const LOOK_UP: Duration = Duration::from_millis(50);
+/// Time after which it is said who is waited for.
+const WAIT: Duration = Duration::from_secs(5);
+/// Time after which what another process computes, without finishing a case, is computed here as well by threads that have
+/// nothing else to do. Both compute the same rows.
+const STALE: Duration = Duration::from_secs(30);
 
 /// Runs what is not finished yet. `stop` is asked often; what is finished by then stays.
 ///
@@ -89,7 +94,33 @@ pub fn run(
         progress,
         remark,
     };
-    run_with(study, folder, settings, hooks, &compute)
+    let mut done = run_with(study, folder, settings, hooks, &compute)?;
+    if done.complete {
+        done.stopped = !remake_histories(study, folder, stop)?;
+    }
+    Ok(done)
+}
+
+/// Makes the files of single cases that are missing beside finished parts, say because only the parts were copied. `false`
+/// when it was stopped.
+fn remake_histories(
+    study: &Study,
+    folder: &Path,
+    stop: &(dyn Fn() -> bool + Sync),
+) -> Result<bool, StudyError> {
+    for &case in &study.file.histories {
+        let own = run_folder(folder, case);
+        if own.join("summary.json").exists() {
+            continue;
+        }
+        // A case that cannot be run is a row with its reason.
+        match run_case(study, case, &own, stop) {
+            Ok(true) | Err(StudyError::Input(_) | StudyError::Column(_)) => {}
+            Ok(false) => return Ok(false),
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(true)
 }
 
 /// Callbacks of a run for interruption and progress.
@@ -120,6 +151,7 @@ pub(crate) fn run_with(
             parts,
             taken: VecDeque::new(),
             current: None,
+            waiting: None,
         }),
         finished: AtomicU64::new(0),
         computed: AtomicU64::new(0),
@@ -127,6 +159,7 @@ pub(crate) fn run_with(
         cases,
         error: Mutex::new(None),
         halt: AtomicBool::new(false),
+        unlocked: AtomicBool::new(false),
         hooks,
     };
     work.clear_strangers()?;
@@ -171,6 +204,8 @@ struct Work<'a> {
     error: Mutex<Option<StudyError>>,
     /// An error has occurred: no thread begins another case.
     halt: AtomicBool,
+    /// It was said that the file system has no locks.
+    unlocked: AtomicBool,
     hooks: Hooks<'a>,
 }
 
@@ -180,6 +215,8 @@ struct Queue {
     /// Parts that other processes compute.
     taken: VecDeque<u64>,
     current: Option<Arc<Part>>,
+    /// Since when all that is left is computed by others, and whether it was said.
+    waiting: Option<(Instant, bool)>,
 }
 
 /// A part under way.
@@ -258,6 +295,7 @@ impl Work<'_> {
                 }
                 // Others are at work on the rest; if one of them dies, its part is taken over.
                 std::thread::sleep(LOOK_UP);
+                queue.waiting.get_or_insert((Instant::now(), false));
                 let taken = std::mem::take(&mut queue.taken);
                 queue.parts = taken;
                 self.report();
@@ -269,7 +307,14 @@ impl Work<'_> {
                     let count = count(self.study, number);
                     self.finished.fetch_add(count, Ordering::Relaxed);
                 }
-                Ok(Opened::Taken) => queue.taken.push_back(number),
+                Ok(Opened::Taken) => match self.take_over(number, &mut queue.waiting) {
+                    Ok(None) => queue.taken.push_back(number),
+                    Ok(Some(part)) => queue.current = Some(part),
+                    Err(error) => {
+                        self.fail(error);
+                        return None;
+                    }
+                },
                 Err(error) => {
                     self.fail(error);
                     return None;
@@ -282,10 +327,11 @@ impl Work<'_> {
     fn open(&self, number: u64) -> Result<Opened, StudyError> {
         let cases = self.study.part(number);
         let journal_path = journal_path(self.folder, cases.start);
-        let remove = |journal: Journal| {
-            journal
+        let remove = |journal: io::Result<Journal>| match journal {
+            Ok(journal) => journal
                 .remove()
-                .map_err(|error| unwritable(&journal_path, &error))
+                .map_err(|error| unwritable(&journal_path, &error)),
+            Err(_) => Ok(()),
         };
         let first_look = verify(self.study, self.folder, number);
         if first_look.is_ok() && !journal_path.exists() {
@@ -309,6 +355,57 @@ impl Work<'_> {
             }
             Err(fault) => self.clear(number, &fault, "computed again")?,
         }
+        if let Err(error) = &journal
+            && !self.unlocked.swap(true, Ordering::Relaxed)
+        {
+            self.remark(&format!(
+                "{} cannot be locked: {error}. Several processes on this folder would compute the same cases, with the same results.",
+                journal_path.display()
+            ));
+        }
+        self.begin(number, journal.ok(), known).map(Opened::Ours)
+    }
+
+    /// Computes what another process has claimed but does not go on with, if there is nothing else to do; says before who is
+    /// waited for.
+    fn take_over(
+        &self,
+        number: u64,
+        waiting: &mut Option<(Instant, bool)>,
+    ) -> Result<Option<Arc<Part>>, StudyError> {
+        let Some((since, said)) = waiting else {
+            return Ok(None);
+        };
+        if since.elapsed() < WAIT {
+            return Ok(None);
+        }
+        let path = journal_path(self.folder, self.study.part(number).start);
+        let (owner, idle) = owner_of(&path);
+        let ago = idle.map_or_else(String::new, |idle| {
+            format!(", and finished the last case {} s ago", idle.as_secs())
+        });
+        let cases = cases_of(self.study, number);
+        if since.elapsed() > STALE && idle.is_none_or(|idle| idle > STALE) {
+            self.remark(&format!(
+                "{owner} has {cases}{ago}. They are computed here as well."
+            ));
+            let known = Journal::finished(&path, &self.study.fingerprint);
+            return self.begin(number, None, known).map(Some);
+        }
+        if !std::mem::replace(said, true) {
+            self.remark(&format!("waiting for {owner}, which has {cases}{ago}"));
+        }
+        Ok(None)
+    }
+
+    /// Begins with a part of which some rows are known.
+    fn begin(
+        &self,
+        number: u64,
+        journal: Option<Journal>,
+        known: Vec<Row>,
+    ) -> Result<Arc<Part>, StudyError> {
+        let cases = self.study.part(number);
         let mut rows: Vec<Option<Row>> = cases.clone().map(|_| None).collect();
         for row in known {
             let index = row
@@ -331,7 +428,7 @@ impl Work<'_> {
         let part = Arc::new(Part {
             number,
             inner: Mutex::new(Inner {
-                journal: Some(journal),
+                journal,
                 rows,
                 open,
                 missing,
@@ -340,7 +437,7 @@ impl Work<'_> {
         if missing == 0 {
             self.write(&part, &mut lock(&part.inner))?;
         }
-        Ok(Opened::Ours(part))
+        Ok(part)
     }
 
     /// Notes a row, and writes the part when it was the last.
@@ -382,6 +479,16 @@ impl Work<'_> {
     /// Claims the journal of a part; that of another study is kept.
     fn claim(&self, number: u64) -> Result<Claim, StudyError> {
         let path = journal_path(self.folder, self.study.part(number).start);
+        if let Some(fault) = no_journal(&path) {
+            let moved = set_aside(self.folder, &path, "no-journal");
+            if let Some(now) = moved.map_err(|error| unwritable(&path, &error))? {
+                self.remark(&format!(
+                    "{} {fault}. It was moved to {}.",
+                    path.display(),
+                    now.display()
+                ));
+            }
+        }
         let keep = |bytes: &[u8]| {
             let kept = keep_copy(self.folder, &path, "other-study", bytes)?;
             self.remark(&format!(
@@ -392,8 +499,12 @@ impl Work<'_> {
             ));
             Ok(())
         };
-        Journal::claim(&path, &self.study.fingerprint, &keep)
-            .map_err(|error| unwritable(&path, &error))
+        let claim = Journal::claim(&path, &self.study.fingerprint, &keep)
+            .map_err(|error| unwritable(&path, &error))?;
+        if let Claim::Ours(Ok(journal), _) = &claim {
+            journal.name_owner();
+        }
+        Ok(claim)
     }
 
     /// Moves aside the file of a part that is not this part, and reports the reason and the fate of its cases.
@@ -449,7 +560,7 @@ impl Work<'_> {
                     let what_now = "missing: run the share that they belong to once more";
                     self.clear(part, &fault, what_now)?;
                 }
-                if rows.is_empty() {
+                if let (Ok(journal), true) = (journal, rows.is_empty()) {
                     let path = journal.path().to_owned();
                     journal
                         .remove()
@@ -457,7 +568,12 @@ impl Work<'_> {
                 }
             }
         }
-        Ok((0..self.study.parts()).all(there))
+        let complete = (0..self.study.parts()).all(there);
+        if complete {
+            // Nothing is under way; what is there is of another process, which removes it.
+            let _ = std::fs::remove_dir(self.folder.join("under-way"));
+        }
+        Ok(complete)
     }
 
     fn remark(&self, text: &str) {

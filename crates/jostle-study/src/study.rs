@@ -1,12 +1,10 @@
 //! A study ready to be run: file, cases, columns.
 
+use jostle::Settings;
+use jostle_io::{Factor, FactorValues, InputError, ModelTree, PathError, StudyFile};
+use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
-use std::path::Path;
-
-use jostle::Settings;
-use jostle_io::{Factor, FactorValues, InputError, ModelTree, MotionSource, PathError, StudyFile};
-use sha2::{Digest, Sha256};
 
 use crate::design::{CaseDesign, Choice, DesignError, value_of};
 use crate::layout::{Layout, Named};
@@ -29,6 +27,8 @@ pub struct Study {
     pub model_hash: String,
     /// Things the user should know.
     pub warnings: Vec<String>,
+    /// Whether a folder is continued that another build of jostle began.
+    pub any_build: bool,
 }
 
 /// Why a study cannot be run.
@@ -63,6 +63,8 @@ impl From<jostle_io::OutputError> for StudyError {
     }
 }
 
+/// Largest file of a model \[bytes\].
+const LARGEST_FILE: usize = 256 << 20;
 /// Entries of lists that are tried before the study begins.
 const MOST_TRIED: usize = 500;
 /// Combinations of lists that change the columns.
@@ -83,7 +85,7 @@ impl Study {
         let case_cache = CaseCache::default();
         let trial = Trial::new(&file, &case_cache)?;
         let layout = Layout::new(&file, &trial.results);
-        let (fingerprint, model_hash) = hashes(&file, &case_cache);
+        let (fingerprint, model_hash) = hashes(&file);
         let part_cases = design
             .cases
             .div_ceil(PARTS)
@@ -95,6 +97,7 @@ impl Study {
             fingerprint,
             model_hash,
             warnings: trial.warnings,
+            any_build: false,
             file,
         };
         study.check_wishes()?;
@@ -131,7 +134,7 @@ impl Study {
     /// Names in the evaluations of the file that are not columns.
     fn check_wishes(&self) -> Result<(), StudyError> {
         let names = self.layout.names();
-        let missing = |wanted: &str| -> Result<(), StudyError> {
+        let missing = |path: &str, wanted: &str| -> Result<(), StudyError> {
             if names.contains(&wanted) {
                 return Ok(());
             }
@@ -146,39 +149,42 @@ impl Study {
             } else {
                 format!("; similar: {}", near.join(", "))
             };
-            Err(StudyError::Column(format!(
-                "{}: there is no column \"{wanted}\"{hint}; all columns: {}",
-                self.file.name(),
+            let problem = format!(
+                "there is no column \"{wanted}\"{hint}; all columns: {}",
                 names.join(", ")
-            )))
+            );
+            Err(self.file.fault_at(path, problem).into())
         };
-        for wanted in &self.file.fragilities {
-            missing(&wanted.intensity)?;
-            missing(&wanted.demand)?;
+        for (index, wanted) in self.file.fragilities.iter().enumerate() {
+            let path = format!("fragility[{index}]");
+            missing(&format!("{path}.intensity"), &wanted.intensity)?;
+            missing(&format!("{path}.demand"), &wanted.demand)?;
             for name in &wanted.by {
                 self.input_column(name)?;
             }
         }
-        for wanted in &self.file.idas {
-            missing(&wanted.intensity)?;
-            missing(&wanted.demand)?;
+        for (index, wanted) in self.file.idas.iter().enumerate() {
+            let path = format!("ida[{index}]");
+            missing(&format!("{path}.intensity"), &wanted.intensity)?;
+            missing(&format!("{path}.demand"), &wanted.demand)?;
         }
-        self.file
-            .responses
-            .iter()
-            .try_for_each(|name| missing(name))?;
-        self.file.roses.iter().try_for_each(|name| missing(name))?;
+        for name in &self.file.responses {
+            missing("sensitivity.responses", name)?;
+        }
+        for name in &self.file.roses {
+            missing("rose", name)?;
+        }
         if let Some(case) = self
             .file
             .histories
             .iter()
             .find(|case| **case >= self.design.cases)
         {
-            return Err(StudyError::Column(format!(
-                "{}: histories: there is no case {case}; there are {}, counted from 0",
-                self.file.name(),
+            let problem = format!(
+                "there is no case {case}; there are {}, counted from 0",
                 self.design.cases
-            )));
+            );
+            return Err(self.file.fault_at("histories", problem).into());
         }
         Ok(())
     }
@@ -399,37 +405,48 @@ fn columns(
     Ok((list, warnings))
 }
 
-/// Identity of studies, and the hash of the base model.
-fn hashes(file: &StudyFile, _workshop: &CaseCache) -> (String, String) {
+/// Identity of studies, and the hash of the base model. Files belong to it by their contents: those that the reader of
+/// the study and of its model was asked for when every value was tried.
+fn hashes(file: &StudyFile) -> (String, String) {
     let model = hex(&Sha256::digest(file.base.text().as_bytes()));
     let mut all = Sha256::new();
     for text in [env!("CARGO_PKG_VERSION"), file.text(), &model] {
         all.update((text.len() as u64).to_le_bytes());
         all.update(text.as_bytes());
     }
-    let base_record = file.base.input().ok().and_then(|input| input.motion);
-    let named = base_record.and_then(|motion| match motion.source {
-        MotionSource::Record { name, base, .. } => Some(base.join(name)),
-        _ => None,
-    });
-    let varied = file
-        .factors
-        .iter()
-        .filter(|factor| factor.paths.iter().any(|path| path.ends_with("record")));
-    let varied = varied.flat_map(|factor| match &factor.values {
-        FactorValues::Listed(levels) => levels
-            .iter()
-            .map(|level| file.base.base().join(level.value.to_string()))
-            .collect(),
-        FactorValues::Drawn(_) => Vec::new(),
-    });
-    for path in named.into_iter().chain(varied) {
-        // Built-in records belong to the version.
-        if let Ok(bytes) = std::fs::read(Path::new(&path)) {
-            all.update(Sha256::digest(&bytes));
+    ask_for_the_rest(file);
+    for files in [&file.files, file.base.files()] {
+        for name in files.asked() {
+            // A file that is not there is a fault elsewhere.
+            if let Ok(bytes) = files.read(&name, LARGEST_FILE) {
+                all.update(Sha256::digest(&bytes));
+            }
         }
     }
     (hex(&all.finalize()), model)
+}
+
+/// Reads the model with every text of a list that was too long for a trial of all its entries: such a text may name a
+/// file.
+fn ask_for_the_rest(file: &StudyFile) {
+    let usual = usual(file);
+    for (index, factor) in file.factors.iter().enumerate() {
+        let FactorValues::Listed(levels) = &factor.values else {
+            continue;
+        };
+        if levels.len() <= MOST_TRIED {
+            continue;
+        }
+        let named = levels.iter().enumerate();
+        let named = named.filter(|(_, level)| level.number.is_none());
+        for (entry, _) in named {
+            let mut choices = usual.clone();
+            choices[index] = Choice::Listed(entry);
+            // Its faults become rows of the table.
+            let read = tree(file, &choices).ok().and_then(|tree| tree.input().ok());
+            let _ = read.map(|input| input.ground_motion());
+        }
+    }
 }
 
 /// Bytes as lower-case digits.

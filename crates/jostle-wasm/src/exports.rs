@@ -1,9 +1,8 @@
 //! Functions that the page calls.
 
 use std::cell::RefCell;
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 use std::ops::ControlFlow;
-use std::path::Path;
 
 use jostle_live::{Answer, Engine, Local};
 
@@ -20,6 +19,8 @@ struct Kept {
     input: Vec<u8>,
     output: Vec<u8>,
     answers: VecDeque<Answer>,
+    /// Files of the page, by the name that the model has for them.
+    files: BTreeMap<String, Vec<u8>>,
 }
 
 thread_local! {
@@ -43,10 +44,12 @@ pub(crate) extern "C" fn reserve(length: usize) -> usize {
 /// Keeps a file. The input is its path, of this many bytes, and its content.
 #[unsafe(no_mangle)]
 pub(crate) extern "C" fn provide(path_length: usize) {
-    let input = with(|kept| std::mem::take(&mut kept.input));
-    let (path, content) = input.split_at(path_length.min(input.len()));
-    let path = String::from_utf8_lossy(path);
-    jostle_io::provide_file(Path::new(&*path), content.to_vec());
+    with(|kept| {
+        let (path, content) = kept.input.split_at(path_length.min(kept.input.len()));
+        let path = String::from_utf8_lossy(path).into_owned();
+        let content = content.to_vec();
+        kept.files.insert(path, content);
+    });
 }
 
 /// Opens a model. The input is its name, of this many bytes, and its text. 1 when it could be opened; otherwise the
@@ -56,7 +59,8 @@ pub(crate) extern "C" fn open(name_length: usize) -> u32 {
     with(|kept| {
         let (name, text) = kept.input.split_at(name_length.min(kept.input.len()));
         let [name, text] = [name, text].map(String::from_utf8_lossy);
-        match Engine::from_text(&name, &text, Path::new("")) {
+        let files = jostle_io::Files::held(kept.files.clone());
+        match Engine::with_files(&name, &text, files) {
             Ok(engine) => {
                 let local = Local::new(engine);
                 kept.answers.push_back(local.hello());

@@ -63,6 +63,9 @@ pub(crate) struct StudyArgs {
     /// Omit the report and its tables when all cases are finished
     #[arg(long)]
     no_report: bool,
+    /// Go on in a folder that another build of jostle began
+    #[arg(long)]
+    any_build: bool,
     /// Check the study and print the number of cases and the columns; run nothing
     #[arg(long)]
     check: bool,
@@ -81,7 +84,8 @@ fn shard(text: &str) -> Result<(u64, u64), String> {
 }
 
 pub(crate) fn study(args: &StudyArgs) -> Result<(), Failure> {
-    let (study, out) = open(args)?;
+    let (mut study, out) = open(args)?;
+    study.any_build = args.any_build;
     for text in &study.warnings {
         terminal::remark(&warning(text));
     }
@@ -161,14 +165,11 @@ fn open(args: &StudyArgs) -> Result<(Study, PathBuf), Failure> {
         )));
     }
     let incidence = args.incidence(ready)?;
-    let stem = args.model.as_ref().and_then(|model| model.file_stem());
-    let name = match (ready, path.file_stem()) {
-        (Some(name), _) => match stem {
-            Some(model) => format!("{}-{name}", model.to_string_lossy()),
-            None => name.to_owned(),
-        },
-        (None, Some(stem)) => stem.to_string_lossy().into_owned(),
-        (None, None) => "study".to_owned(),
+    let stem = args.model.as_deref().map(jostle_run::name_of);
+    let name = match (ready, stem) {
+        (Some(name), Some(model)) => format!("{model}-{name}"),
+        (Some(name), None) => name.to_owned(),
+        (None, _) => jostle_run::name_of(path),
     };
     let out = args
         .out
@@ -182,7 +183,7 @@ fn open(args: &StudyArgs) -> Result<(Study, PathBuf), Failure> {
     {
         let same = match ready {
             Some(name) => known.file.name() == name,
-            None => std::fs::read_to_string(path).is_ok_and(|text| text == known.file.text()),
+            None => StudyFile::text_of(path).is_ok_and(|text| text == known.file.text()),
         };
         if same {
             return Ok((known, out));

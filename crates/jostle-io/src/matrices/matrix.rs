@@ -28,11 +28,36 @@ impl Matrix {
         }
     }
 
+    /// The number of entries of a matrix of these sizes.
+    ///
+    /// # Errors
+    /// In words, if it is larger than that of a building can be.
+    pub(super) fn possible(rows: usize, columns: usize) -> Result<usize, String> {
+        let most = Given::MOST_DISPLACEMENTS;
+        if rows == 0 || columns == 0 || rows.max(columns) > most {
+            return Err(format!(
+                "has {rows} rows and {columns} columns; 1 to {most} of each are possible: condense the model at fewer displacements"
+            ));
+        }
+        Ok(rows * columns)
+    }
+
     /// Sets an entry; a value given several times is summed.
-    pub(crate) fn add(&mut self, row: usize, column: usize, value: f64) {
+    ///
+    /// # Errors
+    /// In words, if the value is no finite number.
+    pub(crate) fn add(&mut self, row: usize, column: usize, value: f64) -> Result<(), String> {
+        if !value.is_finite() {
+            return Err(format!(
+                "has {value} in row {}, column {}, which is no number",
+                row + 1,
+                column + 1
+            ));
+        }
         if value != 0.0 {
             *self.entries.entry((row, column)).or_default() += value;
         }
+        Ok(())
     }
 
     pub(crate) fn at(&self, row: usize, column: usize) -> f64 {
@@ -67,7 +92,7 @@ impl Matrix {
         let mut found = Self::new(n, n);
         for (i, row) in inverse.into_iter().enumerate() {
             for (j, value) in row.into_iter().enumerate() {
-                found.add(i, j, value);
+                found.add(i, j, value)?;
             }
         }
         Ok(found)

@@ -2,9 +2,6 @@
 
 use super::Matrix;
 
-/// Most rows.
-const MOST_ROWS: usize = 100_000;
-
 /// Parses coordinate and array files of real or integer numbers, general or symmetric.
 ///
 /// # Errors
@@ -51,6 +48,10 @@ pub(super) fn parse(text: &str) -> Result<Matrix, String> {
     });
     let (at, sizes) = lines.next().ok_or("ends before its sizes")?;
     let sizes: Vec<usize> = numbers(at, sizes)?;
+    if let [rows, columns, ..] = sizes[..] {
+        let possible = Matrix::possible(rows, columns);
+        possible.map_err(|problem| format!("line {}: {problem}", at + 1))?;
+    }
     let (rows, columns, count) = match (by_coordinates, &sizes[..]) {
         (true, [rows, columns, count]) => (*rows, *columns, *count),
         (false, [rows, columns]) if symmetric => (*rows, *columns, rows * (rows + 1) / 2),
@@ -62,12 +63,6 @@ pub(super) fn parse(text: &str) -> Result<Matrix, String> {
             ));
         }
     };
-    if rows.max(columns) > MOST_ROWS || rows == 0 || columns == 0 {
-        return Err(format!(
-            "line {}: {rows} rows and {columns} columns are not possible",
-            at + 1
-        ));
-    }
     let mut matrix = Matrix::new(rows, columns);
     let mut place = (0, 0);
     let mut found = 0;
@@ -101,9 +96,13 @@ pub(super) fn parse(text: &str) -> Result<Matrix, String> {
             own
         };
         found += 1;
-        matrix.add(row, column, value);
+        let mut add = |row: usize, column: usize| {
+            let added = matrix.add(row, column, value);
+            added.map_err(|problem| format!("line {}: {problem}", at + 1))
+        };
+        add(row, column)?;
         if symmetric && row != column {
-            matrix.add(column, row, value);
+            add(column, row)?;
         }
     }
     if found == count {
@@ -168,7 +167,7 @@ mod tests {
             ),
             (
                 "%%MatrixMarket matrix coordinate real general\n0 2 0\n",
-                "not possible",
+                "of each are possible",
             ),
         ] {
             let problem = parse(text).expect_err("a fault");

@@ -6,9 +6,7 @@ mod npz;
 
 pub(crate) use matrix::Matrix;
 
-use std::path::Path;
-
-use crate::bounded::read_at_most;
+use crate::files::Files;
 
 /// Largest file \[bytes\].
 const LARGEST: usize = 256 << 20;
@@ -52,24 +50,22 @@ impl Matrices {
 ///
 /// # Errors
 /// The problem in words.
-pub(crate) fn read_archive(path: &Path) -> Result<Matrices, String> {
-    npz::parse(&read(path)?)
+pub(crate) fn read_archive(files: &Files, name: &str) -> Result<Matrices, String> {
+    npz::parse(&read(files, name)?)
 }
 
 /// Reads a Matrix Market file.
 ///
 /// # Errors
 /// The problem in words, with its line.
-pub(crate) fn read_matrix_market(path: &Path) -> Result<Matrix, String> {
-    let bytes = read(path)?;
+pub(crate) fn read_matrix_market(files: &Files, name: &str) -> Result<Matrix, String> {
+    let bytes = read(files, name)?;
     let text = std::str::from_utf8(&bytes).map_err(|_| "is not text".to_owned())?;
     matrix_market::parse(text)
 }
 
-fn read(path: &Path) -> Result<Vec<u8>, String> {
-    let read = read_at_most(path, LARGEST);
-    let bytes = read.map_err(|error| format!("cannot be read: {error}"))?;
-    bytes.ok_or_else(|| format!("is larger than {} MiB", LARGEST >> 20))
+fn read(files: &Files, name: &str) -> Result<Vec<u8>, String> {
+    files.read(name, LARGEST).map_err(|error| error.to_string())
 }
 
 /// An archive of arrays that `numpy.load` opens: name, sizes, and numbers row by row.

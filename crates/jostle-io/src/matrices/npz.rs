@@ -1,6 +1,6 @@
 //! NumPy archives: a zip file of `.npy` arrays (NumPy Enhancement Proposal 1, "A simple file format for NumPy arrays").
 
-use std::io::{Read, Write};
+use std::io::{self, Read, Write};
 
 use flate2::bufread::DeflateDecoder;
 use rawzip::{CompressionMethod, ZipArchive, ZipArchiveWriter};
@@ -9,8 +9,8 @@ use super::{ARRAYS, Matrices, Matrix};
 
 /// First bytes of every array.
 const MAGIC: &[u8] = b"\x93NUMPY";
-/// Most numbers of an array.
-const MOST_NUMBERS: usize = 64 << 20;
+/// Most bytes of the header of an array.
+const LONGEST_HEADER: usize = 64 << 10;
 
 /// Parses an archive as `numpy.savez` and `numpy.savez_compressed` write it.
 ///
@@ -37,30 +37,14 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Matrices, String> {
         let local = archive
             .get_entry(entry.wayfinder())
             .map_err(|e| no_archive(&e))?;
-        let most = 8 * MOST_NUMBERS as u64 + 4096;
-        let mut content = Vec::new();
-        let read = match entry.compression_method() {
-            CompressionMethod::STORE => local
-                .verifying_reader(local.data())
-                .take(most + 1)
-                .read_to_end(&mut content),
-            CompressionMethod::DEFLATE => local
-                .verifying_reader(DeflateDecoder::new(local.data()))
-                .take(most + 1)
-                .read_to_end(&mut content),
-            _ => {
-                return Err(format!(
-                    "array {name} is compressed in a way that NumPy does not use"
-                ));
+        let matrix = match entry.compression_method() {
+            CompressionMethod::STORE => array(&mut local.verifying_reader(local.data())),
+            CompressionMethod::DEFLATE => {
+                array(&mut local.verifying_reader(DeflateDecoder::new(local.data())))
             }
+            _ => Err("is compressed in a way that NumPy does not use".to_owned()),
         };
-        read.map_err(|error| format!("array {name} cannot be read: {error}"))?;
-        if content.len() as u64 > most {
-            return Err(format!(
-                "array {name} is too large; condense the model at fewer displacements"
-            ));
-        }
-        let matrix = array(&content).map_err(|problem| format!("array {name} {problem}"))?;
+        let matrix = matrix.map_err(|problem| format!("array {name} {problem}"))?;
         let known = &mut found.places()[place];
         if known.replace(matrix).is_some() {
             let [one, other] = ARRAYS[place];
@@ -76,89 +60,128 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Matrices, String> {
     Ok(found)
 }
 
-/// An `.npy` array of one or two dimensions.
-fn array(bytes: &[u8]) -> Result<Matrix, String> {
-    let broken = || "is no NumPy array".to_owned();
-    let rest = bytes.strip_prefix(MAGIC).ok_or_else(broken)?;
-    let (start, length) = match rest.first() {
-        Some(1) => {
-            let length = rest.get(2..4).ok_or_else(broken)?;
-            (4, usize::from(u16::from_le_bytes([length[0], length[1]])))
-        }
-        Some(2 | 3) => {
-            let length = rest.get(2..6).ok_or_else(broken)?;
-            let length: [u8; 4] = length.try_into().map_err(|_| broken())?;
-            (6, u32::from_le_bytes(length) as usize)
-        }
-        _ => return Err("is of an unknown version of the format".into()),
-    };
-    let end = start + length;
-    let header = rest.get(start..end).ok_or_else(broken)?;
-    let header = std::str::from_utf8(header).map_err(|_| broken())?;
-    let kind = after(header, "'descr':").ok_or_else(broken)?;
-    let kind = kind.split('\'').nth(1).unwrap_or("an object").to_owned();
-    let by_columns =
-        after(header, "'fortran_order':").is_some_and(|text| text.trim_start().starts_with("True"));
-    let shape = after(header, "'shape':").ok_or_else(broken)?;
-    let shape = shape.split(['(', ')']).nth(1).unwrap_or("");
-    let sizes: Result<Vec<usize>, _> = shape
-        .split(',')
-        .map(str::trim)
-        .filter(|size| !size.is_empty())
-        .map(str::parse)
-        .collect();
-    let (rows, columns) = match sizes.map_err(|_| broken())?[..] {
-        [count] => (1, count),
-        [rows, columns] => (rows, columns),
-        ref other => {
-            return Err(format!(
-                "has {} dimensions; one or two are possible",
-                other.len()
-            ));
-        }
-    };
-    let count = rows
-        .checked_mul(columns)
-        .filter(|count| *count <= MOST_NUMBERS);
-    let count = count.ok_or("is too large; condense the model at fewer displacements")?;
-    let data = &rest[end..];
-    let values = numbers(&kind, data, count)?;
+/// An `.npy` array of one or two dimensions. Its header says how much is read.
+fn array(content: &mut dyn Read) -> Result<Matrix, String> {
+    let header = Header::read(content)?;
+    let (rows, columns) = (header.rows, header.columns);
+    let count = Matrix::possible(rows, columns)?;
+    let (size, decode) = decoder(&header.kind)?;
+    let mut data = vec![0; count * size];
+    content
+        .read_exact(&mut data)
+        .map_err(|error| match error.kind() {
+            io::ErrorKind::UnexpectedEof => format!("ends before its {count} numbers"),
+            _ => unreadable(&error),
+        })?;
+    // The end is where the checksum is compared.
+    match content.read(&mut [0]) {
+        Ok(0) => {}
+        Ok(_) => return Err(format!("has more numbers than the {count} of its header")),
+        Err(error) => return Err(unreadable(&error)),
+    }
     let mut matrix = Matrix::new(rows, columns);
-    for (at, value) in values.into_iter().enumerate() {
-        let (row, column) = if by_columns {
+    for (at, value) in data.chunks_exact(size).map(decode).enumerate() {
+        let (row, column) = if header.by_columns {
             (at % rows, at / rows)
         } else {
             (at / columns, at % columns)
         };
-        matrix.add(row, column, value);
+        matrix.add(row, column, value)?;
     }
     Ok(matrix)
+}
+
+fn unreadable(error: &io::Error) -> String {
+    format!("cannot be read: {error}")
+}
+
+/// What stands before the numbers.
+struct Header {
+    /// Type of a number, such as `<f8`.
+    kind: String,
+    by_columns: bool,
+    rows: usize,
+    columns: usize,
+}
+
+impl Header {
+    fn read(content: &mut dyn Read) -> Result<Self, String> {
+        let broken = || "is no NumPy array".to_owned();
+        let mut part = |length: usize| -> Result<Vec<u8>, String> {
+            let mut bytes = vec![0; length];
+            let read = content.read_exact(&mut bytes);
+            read.map_err(|_| broken()).map(|()| bytes)
+        };
+        if part(MAGIC.len())? != MAGIC {
+            return Err(broken());
+        }
+        let length = match part(2)?[0] {
+            1 => {
+                let length = part(2)?;
+                usize::from(u16::from_le_bytes([length[0], length[1]]))
+            }
+            2 | 3 => {
+                let length: [u8; 4] = part(4)?.try_into().map_err(|_| broken())?;
+                u32::from_le_bytes(length) as usize
+            }
+            _ => return Err("is of an unknown version of the format".into()),
+        };
+        if length > LONGEST_HEADER {
+            return Err(broken());
+        }
+        let header = String::from_utf8(part(length)?).map_err(|_| broken())?;
+        let kind = after(&header, "'descr':").ok_or_else(broken)?;
+        let kind = kind.split('\'').nth(1).unwrap_or("an object").to_owned();
+        let by_columns = after(&header, "'fortran_order':")
+            .is_some_and(|text| text.trim_start().starts_with("True"));
+        let shape = after(&header, "'shape':").ok_or_else(broken)?;
+        let shape = shape.split(['(', ')']).nth(1).unwrap_or("");
+        let sizes: Result<Vec<usize>, _> = shape
+            .split(',')
+            .map(str::trim)
+            .filter(|size| !size.is_empty())
+            .map(str::parse)
+            .collect();
+        let (rows, columns) = match sizes.map_err(|_| broken())?[..] {
+            [count] => (1, count),
+            [rows, columns] => (rows, columns),
+            ref other => {
+                return Err(format!(
+                    "has {} dimensions; one or two are possible",
+                    other.len()
+                ));
+            }
+        };
+        Ok(Self {
+            kind,
+            by_columns,
+            rows,
+            columns,
+        })
+    }
 }
 
 fn after<'a>(text: &'a str, mark: &str) -> Option<&'a str> {
     text.find(mark).map(|at| &text[at + mark.len()..])
 }
 
-/// Numbers of a type such as `<f8`.
-fn numbers(kind: &str, data: &[u8], count: usize) -> Result<Vec<f64>, String> {
-    fn all<const N: usize>(data: &[u8], of: impl Fn([u8; N]) -> f64) -> Vec<f64> {
-        data.as_chunks().0.iter().map(|bytes| of(*bytes)).collect()
+/// The number in some bytes.
+type Decode = fn(&[u8]) -> f64;
+
+/// Size of a number of a type such as `<f8` \[bytes\], and its value.
+fn decoder(kind: &str) -> Result<(usize, Decode), String> {
+    fn exact<const N: usize>(bytes: &[u8]) -> [u8; N] {
+        bytes.try_into().unwrap_or([0; N])
     }
-    let size: usize = kind
-        .get(2..)
-        .and_then(|size| size.parse().ok())
-        .unwrap_or(1);
-    let Some(data) = data.get(..count * size) else {
-        return Err(format!("ends before its {count} numbers"));
-    };
     Ok(match kind {
-        "<f8" => all(data, f64::from_le_bytes),
-        ">f8" => all(data, f64::from_be_bytes),
-        "<f4" => all(data, |b| f64::from(f32::from_le_bytes(b))),
-        ">f4" => all(data, |b| f64::from(f32::from_be_bytes(b))),
-        "<i8" => all(data, |b| i64::from_le_bytes(b) as f64),
-        "<i4" => all(data, |b| f64::from(i32::from_le_bytes(b))),
-        "|b1" | "|u1" | "|i1" => all(data, |b: [u8; 1]| f64::from(b[0])),
+        "<f8" => (8, |b| f64::from_le_bytes(exact(b))),
+        ">f8" => (8, |b| f64::from_be_bytes(exact(b))),
+        "<f4" => (4, |b| f64::from(f32::from_le_bytes(exact(b)))),
+        ">f4" => (4, |b| f64::from(f32::from_be_bytes(exact(b)))),
+        "<i8" => (8, |b| i64::from_le_bytes(exact(b)) as f64),
+        "<i4" => (4, |b| f64::from(i32::from_le_bytes(exact(b)))),
+        "|b1" | "|u1" => (1, |b| f64::from(b[0])),
+        "|i1" => (1, |b| f64::from(i8::from_le_bytes(exact(b)))),
         other => {
             return Err(format!(
                 "holds \"{other}\", not real numbers; write K.astype(float), and dense arrays (K.toarray() of a sparse matrix)"
@@ -243,11 +266,8 @@ mod tests {
         let middle = cut.len() / 3;
         cut[middle] ^= 0xff;
         assert!(parse(&cut).is_err());
-        assert!(array(b"\x93NUMPY\x01\0\xff\xff{}").is_err());
-        assert!(
-            numbers("<c16", &[0; 16], 1)
-                .expect_err("complex")
-                .contains("real numbers")
-        );
+        assert!(array(&mut &b"\x93NUMPY\x01\0\xff\xff{}"[..]).is_err());
+        let complex = decoder("<c16").map(|(size, _)| size);
+        assert!(complex.expect_err("complex").contains("real numbers"));
     }
 }

@@ -3,11 +3,11 @@
 use jostle::model::{FrameHinges, Hinges};
 use jostle::separation::BuildingCodes;
 use jostle::{Base, Building, Damping, Gravity, Model, PlanPoint, ProportionalDamping, Structure};
-use std::path::Path;
 
 use super::damper::{self, Damper};
 use super::reinforced::{self, ReinforcedMember};
 use super::{codes, frame, given, hinges, isolation, plan, shear, shear_failure, soil};
+use crate::files::Files;
 use crate::keys::{BUILDING_KINDS, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
@@ -36,7 +36,7 @@ pub(super) struct Buildings {
 pub(super) fn read_all(
     reader: &mut Reader<'_>,
     field: &Field<'_>,
-    base: &Path,
+    files: &Files,
 ) -> Option<Buildings> {
     let Some(entries) = field.entries() else {
         let found = field.node.describe();
@@ -61,7 +61,7 @@ pub(super) fn read_all(
         .enumerate()
         .map(|(i, entry)| {
             let mut place = None;
-            let building = read(reader, entry, i, base, &mut members, &mut place);
+            let building = read(reader, entry, i, files, &mut members, &mut place);
             at.push(place);
             of_codes.push(read_codes(reader, entry));
             dampers.extend(damper::read_all(reader, entry, i));
@@ -109,7 +109,7 @@ fn read(
     reader: &mut Reader<'_>,
     field: &Field<'_>,
     index: usize,
-    base: &Path,
+    files: &Files,
     members: &mut Vec<ReinforcedMember>,
     at: &mut Option<PlanPoint>,
 ) -> Option<Building> {
@@ -190,7 +190,7 @@ fn read(
         }
         Kind::Frame => Structure::Frame(frame::read(reader, &view)),
         Kind::Given => {
-            let read = given::read(reader, &view, base);
+            let read = given::read(reader, &view, files);
             damped = read.damping;
             Structure::Given(read.given)
         }

@@ -1,12 +1,11 @@
 //! `kind = "given"`: a building by the matrices of another program, or by its modes.
 
-use std::path::{Path, PathBuf};
-
 use jostle::linear::sort_by;
 use jostle::{Damping, Given, Model, Structure};
 
 use super::building::{per_storey, storeys};
 use super::shear::DEFAULT_STOREY_HEIGHT;
+use crate::files::Files;
 use crate::keys::{MATRIX_UNITS, Section};
 use crate::matrices::{ARRAYS, Matrices, Matrix, read_archive, read_matrix_market};
 use crate::quantity::Dimension;
@@ -30,7 +29,7 @@ pub(super) struct Read {
 }
 
 /// Reads the keys of a given building; after a fault, harmless values are used.
-pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, base: &Path) -> Read {
+pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, files: &Files) -> Read {
     let by_modes = view.has("periods") || view.has("shapes");
     let read = if by_modes {
         from_modes(reader, view).map(|given| Read {
@@ -38,7 +37,7 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, base: &Path) -> Rea
             damping: None,
         })
     } else {
-        from_matrices(reader, view, base)
+        from_matrices(reader, view, files)
     };
     read.unwrap_or_else(|| Read {
         given: Given::condensed(vec![1.0], &[vec![1.0]], vec![DEFAULT_STOREY_HEIGHT]),
@@ -46,7 +45,7 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, base: &Path) -> Rea
     })
 }
 
-fn from_matrices(reader: &mut Reader<'_>, view: &View<'_>, base: &Path) -> Option<Read> {
+fn from_matrices(reader: &mut Reader<'_>, view: &View<'_>, files: &Files) -> Option<Read> {
     for key in [
         "mass",
         "remainder_period",
@@ -79,7 +78,7 @@ fn from_matrices(reader: &mut Reader<'_>, view: &View<'_>, base: &Path) -> Optio
         );
         return None;
     };
-    let matrices = read_matrices(reader, &field, base);
+    let matrices = read_matrices(reader, &field, files);
     let ports = match reader.get(view, "ports") {
         Some(ports) => read_ports(reader, &ports),
         None => {
@@ -102,10 +101,9 @@ fn from_matrices(reader: &mut Reader<'_>, view: &View<'_>, base: &Path) -> Optio
 }
 
 /// One file for all matrices, one for each, or lists of numbers.
-fn read_matrices(reader: &mut Reader<'_>, field: &Field<'_>, base: &Path) -> Option<Matrices> {
-    let beside = |name: &str| -> PathBuf { base.join(name) };
+fn read_matrices(reader: &mut Reader<'_>, field: &Field<'_>, files: &Files) -> Option<Matrices> {
     if let Some(name) = field.as_text() {
-        let found = read_archive(&beside(name));
+        let found = read_archive(files, name);
         return match found {
             Ok(matrices) => Some(matrices),
             Err(problem) => {
@@ -132,7 +130,7 @@ fn read_matrices(reader: &mut Reader<'_>, field: &Field<'_>, base: &Path) -> Opt
             sound = false;
             continue;
         };
-        match read_matrix_market(&beside(&name)) {
+        match read_matrix_market(files, &name) {
             Ok(matrix) => *place = Some(matrix),
             Err(problem) => {
                 reader.bad(&field, format!("\"{name}\" {problem}"));
@@ -162,10 +160,8 @@ fn read_lists(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Matrix> {
     let mut sound = true;
     for (row, values) in rows.iter().enumerate() {
         for (column, value) in values.iter().enumerate() {
-            match reader.quantity(value, Dimension::Dimensionless) {
-                Some(value) => matrix.add(row, column, value),
-                None => sound = false,
-            }
+            let read = reader.quantity(value, Dimension::Dimensionless);
+            sound &= read.is_some_and(|value| matrix.add(row, column, value).is_ok());
         }
     }
     sound.then_some(matrix)

@@ -1,12 +1,11 @@
 //! Ground that differs: what `[motion]`, `[building.motion]` and positions say of it.
 
-use std::path::Path;
-
 use jostle::{Model, PlanArea, Structure};
 use jostle_motion::Coherency;
 
 use super::motion;
 use crate::baseline::Baseline;
+use crate::files::Files;
 use crate::keys::Section;
 use crate::motion_spec::{GroundsSpec, MotionSource, MotionSpec, OwnGroundSpec, OwnMotionSpec};
 use crate::quantity::Dimension;
@@ -20,7 +19,7 @@ const GREATEST_SEED: usize = 1 << 53;
 pub(super) fn read_common(
     reader: &mut Reader<'_>,
     view: &View<'_>,
-    base: &Path,
+    files: &Files,
 ) -> Option<Box<GroundsSpec>> {
     let keys = [
         "vertical",
@@ -51,7 +50,7 @@ pub(super) fn read_common(
         wave_angle,
         baseline,
         coherency,
-        vertical: vertical.and_then(|field| read_vertical(reader, &field, base)),
+        vertical: vertical.and_then(|field| read_vertical(reader, &field, files)),
         own: Vec::new(),
     }))
 }
@@ -100,12 +99,12 @@ fn needed<'n>(
 fn read_vertical(
     reader: &mut Reader<'_>,
     field: &Field<'_>,
-    base: &Path,
+    files: &Files,
 ) -> Option<Box<OwnMotionSpec>> {
     if let Some(name) = field.as_text() {
         let source = MotionSource::Record {
             name: name.to_owned(),
-            base: base.to_owned(),
+            files: files.clone(),
             options: RecordOptions::default(),
         };
         return Some(Box::new(OwnMotionSpec {
@@ -116,7 +115,7 @@ fn read_vertical(
     }
     let view = reader.open(field, &[Section::Motion])?;
     refuse_common_keys(reader, &view, &["vertical"]);
-    Some(Box::new(motion::read_own(reader, &view, base)?))
+    Some(Box::new(motion::read_own(reader, &view, files)?))
 }
 
 /// Refuses keys that only `[motion]` may have.
@@ -144,7 +143,7 @@ pub(super) fn read_own(
     root: &View<'_>,
     motion: &mut Option<MotionSpec>,
     model: &Model,
-    base: &Path,
+    files: &Files,
 ) {
     let buildings: Vec<String> = model.buildings.iter().map(|own| own.name.clone()).collect();
     let walls: Vec<String> = model.walls.iter().map(|own| own.name.clone()).collect();
@@ -164,7 +163,7 @@ pub(super) fn read_own(
         if let Some(view) = reader.reopen(field, &[Section::Building]) {
             ground.position = position(reader, &view);
             if let Some(field) = reader.get(&view, "motion") {
-                read_building(reader, &field, &mut ground, base);
+                read_building(reader, &field, &mut ground, files);
                 if !has_motion {
                     *reader.bad(&field, "needs a common motion") = Some(
                         "add [motion] with a record; buildings without their own have that".into(),
@@ -259,7 +258,7 @@ fn read_building(
     reader: &mut Reader<'_>,
     field: &Field<'_>,
     ground: &mut OwnGroundSpec,
-    base: &Path,
+    files: &Files,
 ) {
     let Some(view) = reader.open(field, &[Section::OwnMotion, Section::Motion]) else {
         return;
@@ -283,10 +282,10 @@ fn read_building(
         .iter()
         .chain(motion::RECORD_KEYS);
     if others.iter().chain(of_sources).any(|key| view.has(key)) {
-        ground.motion = motion::read_own(reader, &view, base).map(Box::new);
+        ground.motion = motion::read_own(reader, &view, files).map(Box::new);
     }
     let vertical = reader.get(&view, "vertical");
-    ground.vertical = vertical.and_then(|field| read_vertical(reader, &field, base));
+    ground.vertical = vertical.and_then(|field| read_vertical(reader, &field, files));
 }
 
 /// Positions go with a wave velocity or with coherency, and are then complete.

@@ -238,10 +238,12 @@ fn viscous_damping(reader: &mut Reader<'_>, view: &View<'_>, exponent: Option<f6
     };
     let dimension = |exponent: f64| [1.0 - exponent, 1.0, exponent - 2.0];
     if unit.has_dimension(dimension(exponent)) {
-        let value = number * unit.factor;
-        return check_magnitude(value, Dimension::Damping)
+        let value = check_magnitude(number * unit.factor, Dimension::Damping)
             .map_err(|error| reader.bad(&field, error.to_string()))
-            .ok();
+            .ok()?;
+        return reader
+            .judge(&field, value, Dimension::Damping)
+            .then_some(value);
     }
     // The exponent that the unit would have.
     let other = unit.exponents[2] + 2.0;

@@ -1,17 +1,16 @@
 //! `match` of `[motion]`: the spectrum that a motion is scaled to.
 
-use std::path::Path;
-
 use jostle_motion::{MatchAt, TargetSpectrum};
 
+use crate::files::Files;
 use crate::keys::Section;
 use crate::motion_spec::{MatchSpec, MatchTo};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
-use crate::target::{TargetError, TargetWords, read_target_file};
+use crate::target::{TargetError, TargetWords, read_target};
 use crate::tree::Value;
 
-pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>, base: &Path) -> Option<MatchSpec> {
+pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>, files: &Files) -> Option<MatchSpec> {
     let view = reader.open(field, &[Section::Match])?;
     let damping = match reader.get(&view, "damping") {
         Some(field) => {
@@ -34,7 +33,7 @@ pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>, base: &Path) -> O
                 Some("keep one of both".into());
             None
         }
-        (Some(spectrum), None) => read_spectrum(reader, &spectrum, base).map(MatchTo::Spectrum),
+        (Some(spectrum), None) => read_spectrum(reader, &spectrum, files).map(MatchTo::Spectrum),
         (None, Some(value)) => reader
             .positive(&value, Dimension::Acceleration)
             .map(MatchTo::Value),
@@ -92,10 +91,10 @@ fn place(reader: &mut Reader<'_>, view: &View<'_>) -> Option<MatchAt> {
 pub(crate) fn read_spectrum(
     reader: &mut Reader<'_>,
     field: &Field<'_>,
-    base: &Path,
+    files: &Files,
 ) -> Option<TargetSpectrum> {
     if let Some(name) = field.as_text() {
-        return match read_target_file(&base.join(name)) {
+        return match read_target(files, name) {
             Ok(target) => Some(target),
             Err(error) => {
                 reader.bad(field, error.to_string());
@@ -104,6 +103,19 @@ pub(crate) fn read_spectrum(
         };
     }
     let view = reader.open(field, &[Section::Spectrum])?;
+    let quantities = [
+        ("ag", Dimension::Acceleration),
+        ("sds", Dimension::Acceleration),
+        ("sd1", Dimension::Acceleration),
+        ("tl", Dimension::Time),
+        ("factor", Dimension::Dimensionless),
+    ];
+    for (key, dimension) in quantities {
+        // Warns of what is unusual; the words below say what is wrong.
+        if let Some(field) = reader.get(&view, key) {
+            reader.quietly(|reader| reader.quantity(&field, dimension));
+        }
+    }
     let mut word = |key| {
         reader
             .get(&view, key)

@@ -1,10 +1,9 @@
 //! `[motion]`: a record or an analytic wave, and its scaling.
 
-use std::path::Path;
-
 use jostle_motion::GoverningRule;
 
 use super::{grounds, matching};
+use crate::files::Files;
 use crate::keys::{RECORD_CONTENTS, RECORD_FORMATS, Section, WAVES};
 use crate::motion_spec::{BearingSpec, MotionSource, MotionSpec, OwnMotionSpec, Scaling};
 use crate::quantity::Dimension;
@@ -29,13 +28,17 @@ pub(super) const RECORD_KEYS: &[&str] = &[
 /// Longest analysis \[s\].
 const LONGEST: f64 = 10_000.0;
 
-pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>, base: &Path) -> Option<MotionSpec> {
+pub(super) fn read(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    files: &Files,
+) -> Option<MotionSpec> {
     let view = reader.open(field, &[Section::Motion])?;
     let duration = reader
         .get(&view, "duration")
         .and_then(|field| duration(reader, &field));
     let source = if view.has("record") || view.has("kind") {
-        let source = source(reader, &view, base);
+        let source = source(reader, &view, files);
         if matches!(source, Some(MotionSource::Sine { .. })) && !view.has("duration") {
             reader.missing(
                 &view,
@@ -52,9 +55,9 @@ pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>, base: &Path) -> O
         );
         None
     };
-    let bearing = bearing(reader, &view, base);
-    let grounds = grounds::read_common(reader, &view, base);
-    let scaling = scaling(reader, &view, base);
+    let bearing = bearing(reader, &view, files);
+    let grounds = grounds::read_common(reader, &view, files);
+    let scaling = scaling(reader, &view, files);
     let reverse = reader
         .get(&view, "reverse")
         .and_then(|field| reader.flag(&field));
@@ -72,10 +75,10 @@ pub(super) fn read(reader: &mut Reader<'_>, field: &Field<'_>, base: &Path) -> O
 pub(super) fn read_own(
     reader: &mut Reader<'_>,
     view: &View<'_>,
-    base: &Path,
+    files: &Files,
 ) -> Option<OwnMotionSpec> {
     let source = if view.has("record") || view.has("kind") {
-        let source = source(reader, view, base)?;
+        let source = source(reader, view, files)?;
         if let (MotionSource::Records { .. }, Some(field)) = (&source, reader.get(view, "record")) {
             *reader.bad(&field, "must be one record here") =
                 Some("only [motion] may list several".into());
@@ -87,7 +90,7 @@ pub(super) fn read_own(
         refuse(reader, view, RECORD_KEYS, "the record of [motion]");
         None
     };
-    let scaling = scaling(reader, view, base);
+    let scaling = scaling(reader, view, files);
     let reverse = reader
         .get(view, "reverse")
         .and_then(|field| reader.flag(&field));
@@ -99,7 +102,7 @@ pub(super) fn read_own(
 }
 
 /// The record or wave of a table that has one.
-fn source(reader: &mut Reader<'_>, view: &View<'_>, base: &Path) -> Option<MotionSource> {
+fn source(reader: &mut Reader<'_>, view: &View<'_>, files: &Files) -> Option<MotionSource> {
     let record = reader.get(view, "record");
     let wave = reader.get(view, "kind");
     match (&record, &wave) {
@@ -110,7 +113,7 @@ fn source(reader: &mut Reader<'_>, view: &View<'_>, base: &Path) -> Option<Motio
         }
         (Some(record), None) => {
             refuse(reader, view, &["amplitude", "period", "centre"], "a record");
-            read_record(reader, view, record, base)
+            read_record(reader, view, record, files)
         }
         (None, Some(wave)) => {
             refuse(reader, view, RECORD_KEYS, "an analytic wave");
@@ -129,7 +132,7 @@ pub(super) fn governing(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Go
 }
 
 /// `angle` and `across`, if one of them is there.
-fn bearing(reader: &mut Reader<'_>, view: &View<'_>, base: &Path) -> Option<Box<BearingSpec>> {
+fn bearing(reader: &mut Reader<'_>, view: &View<'_>, files: &Files) -> Option<Box<BearingSpec>> {
     let angle = reader
         .get(view, "angle")
         .and_then(|field| reader.quantity(&field, Dimension::Dimensionless));
@@ -138,13 +141,13 @@ fn bearing(reader: &mut Reader<'_>, view: &View<'_>, base: &Path) -> Option<Box<
         Some(name) => Some(MotionSpec {
             source: MotionSource::Record {
                 name,
-                base: base.to_owned(),
+                files: files.clone(),
                 options: RecordOptions::default(),
             },
             ..MotionSpec::record("")
         }),
         None => {
-            let own = read(reader, &field, base)?;
+            let own = read(reader, &field, files)?;
             if own.bearing.is_some() {
                 *reader.bad(&field, "has an angle or a motion across of its own") =
                     Some("give them under [motion] only".into());
@@ -191,7 +194,7 @@ fn read_record(
     reader: &mut Reader<'_>,
     view: &View<'_>,
     record: &Field<'_>,
-    base: &Path,
+    files: &Files,
 ) -> Option<MotionSource> {
     let mut names = record_names(reader, record)?;
     let mut options = RecordOptions::default();
@@ -239,17 +242,17 @@ fn read_record(
     if let Some(field) = reader.get(view, "read") {
         options.layout = read_layout(reader, &field).unwrap_or_default();
     }
-    let base = base.to_owned();
+    let files = files.clone();
     Some(if names.len() == 1 {
         MotionSource::Record {
             name: names.remove(0),
-            base,
+            files,
             options,
         }
     } else {
         MotionSource::Records {
             names,
-            base,
+            files,
             options,
         }
     })
@@ -390,7 +393,7 @@ fn required<'n>(
     Some((field, value))
 }
 
-fn scaling(reader: &mut Reader<'_>, view: &View<'_>, base: &Path) -> Scaling {
+fn scaling(reader: &mut Reader<'_>, view: &View<'_>, files: &Files) -> Scaling {
     let given = ["pga", "scale", "match"].map(|key| reader.get(view, key));
     let mut first = None;
     for field in given.iter().flatten() {
@@ -417,7 +420,7 @@ fn scaling(reader: &mut Reader<'_>, view: &View<'_>, base: &Path) -> Scaling {
         .and_then(|field| reader.positive(&field, Dimension::Acceleration))
         .map(Scaling::Pga);
     let matched = wanted
-        .and_then(|field| matching::read(reader, &field, base))
+        .and_then(|field| matching::read(reader, &field, files))
         .map(|wanted| Scaling::Match(Box::new(wanted)));
     peak.or(factor).or(matched).unwrap_or_default()
 }

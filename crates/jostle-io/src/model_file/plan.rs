@@ -98,13 +98,16 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, held_by: HeldBy) ->
         .enumerate()
         .map(|(floor, plan)| {
             let area = PlanArea::new(plan);
+            // A plan without an area is a fault of the plan alone.
+            let gyration = Some(area.gyration()).filter(|size| size.is_finite() && *size > 0.0);
+            let centroid = Some(area.centroid).filter(|at| at.iter().all(|x| x.is_finite()));
             let mass = masses.get(floor).copied().unwrap_or(1.0);
             let own = centre.as_ref().and_then(|list| list.get(floor).copied());
-            let centre = own.unwrap_or(area.centroid);
+            let centre = own.or(centroid).unwrap_or_default();
             let polar = polar.as_ref().and_then(|list| list.get(floor).copied());
             Tier {
                 mass,
-                polar_mass: polar.unwrap_or(mass * area.gyration()),
+                polar_mass: polar.unwrap_or(mass * gyration.unwrap_or(1.0)),
                 centre: turned(centre),
                 plan: plan.iter().map(|corner| turned(*corner)).collect(),
             }
@@ -249,6 +252,9 @@ fn read_plans(
     plans.into_iter().collect()
 }
 
+/// Most corners of a plan: edges are compared with each other, and with those of neighbours.
+const MOST_CORNERS: usize = 300;
+
 /// The width along x and the depth across of a rectangle, or a list of corners.
 fn read_plan(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Vec<PlanPoint>> {
     let entries = field.entries().unwrap_or_default();
@@ -256,6 +262,16 @@ fn read_plan(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Vec<PlanPoint
         .first()
         .is_some_and(|entry| entry.entries().is_some())
     {
+        if entries.len() > MOST_CORNERS {
+            *reader.bad(
+                field,
+                format!(
+                    "has {} corners; at most {MOST_CORNERS} are possible",
+                    entries.len()
+                ),
+            ) = Some("leave out corners that hardly change the outline".into());
+            return None;
+        }
         let corners: Vec<_> = entries.iter().map(|entry| pair(reader, entry)).collect();
         return corners.into_iter().collect();
     }

@@ -6,12 +6,15 @@ use std::path::Path;
 use jostle_section::{Reinforcement, Ties};
 
 use super::read_root;
+use crate::files::Files;
 use crate::keys::{KEYS, Kind, Section};
-use crate::quantity::{Dimension, parse_quantity};
+use crate::quantity::{Dimension, parse_quantity, split_number};
 use crate::reader::Reader;
 use crate::record::acceleration_unit;
 use crate::source::Source;
 use crate::tree::{Format, Value, parse};
+use crate::unusual::Usual;
+use crate::{KnobKind, ModelTree, TreeValue};
 
 /// Models that together have every table of a file.
 const ALL_TABLES: [&str; 7] = [
@@ -197,7 +200,7 @@ fn every_key_of_the_table_is_read() {
         let root = parse(&source, Format::Toml).unwrap_or_else(|error| panic!("{error}"));
         let mut reader = Reader::new(&source);
         // Keys that are not in the table make the reader panic here.
-        read_root(&mut reader, &root, Path::new(""));
+        read_root(&mut reader, &root, &Files::beside(Path::new("")));
         asked.extend(reader.asked);
     }
     let source = Source::new("study.toml", STUDY);
@@ -513,4 +516,128 @@ isolation = { kind = "linear", stiffness = 1e7, mat_mass = 1e5, bearings = 4 }"#
     );
     let error = number.expect_err("it is no list");
     assert!(error.contains("expected a list of places"), "{error}");
+}
+
+#[test]
+fn every_quantity_says_which_values_are_usual() {
+    for key in KEYS {
+        let place = format!("{:?}.{}", key.section, key.name);
+        assert_eq!(
+            key.usual != Usual::NoQuantity,
+            key.kind.is_quantity(),
+            "{place}: a quantity says what is usual, or why nothing is; other keys say nothing"
+        );
+        if let Usual::Within(range) = key.usual {
+            let [[low, high], [least, most]] = [range.usual, range.possible];
+            assert!(least <= low && low < high && high <= most, "{place}");
+            assert!(high / low < 1e12, "{place}: a slip of 10^6 can stay inside");
+        }
+    }
+}
+
+/// Models that the project ships: they have nearly every key, with values of real buildings.
+fn shipped_models() -> Vec<(String, ModelTree)> {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples");
+    let entries = std::fs::read_dir(folder).expect("examples").flatten();
+    let mut paths: Vec<_> = entries.map(|entry| entry.path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|end| end == "toml"));
+    paths.sort();
+    let named = paths.iter().filter_map(|path| {
+        let tree = ModelTree::load(path).ok()?;
+        tree.input().ok()?;
+        Some((path.file_stem()?.to_string_lossy().into_owned(), tree))
+    });
+    let mut found: Vec<_> = named.collect();
+    let templates = crate::TEMPLATE_NAMES.iter();
+    found.extend(templates.filter_map(|name| {
+        let text = crate::template(name, "m")?;
+        let tree = ModelTree::parse(name, &text, Format::Toml, Path::new("")).ok()?;
+        tree.input().ok()?;
+        Some(((*name).to_owned(), tree))
+    }));
+    found
+}
+
+/// What reading a model says: its faults, or its warnings with those of its motion and of what is assembled.
+fn said(tree: &ModelTree, all: bool) -> Result<Vec<String>, ()> {
+    let mut input = tree.input().map_err(|_| ())?;
+    if !all {
+        return Ok(input.warnings);
+    }
+    if input.motion.is_some() {
+        let motion = input.ground_motion().map_err(|_| ())?;
+        let unusual = input.unusual_motion(&motion);
+        input.warnings.extend(unusual);
+    }
+    let system = jostle::System::assemble(&input.model).map_err(|_| ())?;
+    input.note_system(&system);
+    Ok(input.warnings)
+}
+
+/// A value of any key that is a million times too large or too small, or has the wrong sign, is warned of or refused.
+#[test]
+fn no_slip_of_a_unit_is_taken_in_silence() {
+    let (mut silent, mut tried) = (Vec::new(), BTreeSet::new());
+    for (name, tree) in shipped_models() {
+        let before = said(&tree, false);
+        let mut knobs = tree.knobs();
+        knobs.retain(|knob| {
+            knob.value.is_some() && !matches!(knob.kind, KnobKind::Count | KnobKind::Flag)
+        });
+        for knob in knobs {
+            let plain: String = strip_indices(&knob.path);
+            let last = plain.rsplit('.').next().unwrap_or_default();
+            let keys = || KEYS.iter().filter(|key| key.name == last);
+            let ranges: Vec<_> = keys()
+                .filter_map(|key| match key.usual {
+                    Usual::Within(range) => Some(range),
+                    _ => None,
+                })
+                .collect();
+            if ranges.is_empty() || !tried.insert((plain.clone(), knob.unit.clone())) {
+                continue;
+            }
+            for factor in [1e-9, 1e-6, 1e6, 1e9, -1.0] {
+                if factor < 0.0 && ranges.iter().any(|range| range.signed) {
+                    continue;
+                }
+                let mut changed = tree.clone();
+                if changed.multiply(&knob.path, factor).is_err()
+                    || all_zero(&tree.values(&knob.path))
+                {
+                    continue;
+                }
+                let quick = said(&changed, false);
+                if quick.is_ok()
+                    && quick == before
+                    && said(&changed, true).is_ok()
+                    && said(&changed, true) == said(&tree, true)
+                {
+                    let value = knob.value.clone().unwrap_or_default();
+                    silent.push(format!("{name}: {} = {value} times {factor}", knob.path));
+                }
+            }
+        }
+    }
+    assert!(tried.len() > 100, "only {} keys were tried", tried.len());
+    assert!(silent.is_empty(), "{}", silent.join("\n"));
+}
+
+/// A path without what stands in brackets.
+fn strip_indices(path: &str) -> String {
+    let pieces = path.split('[');
+    pieces
+        .map(|piece| piece.split_once(']').map_or(piece, |(_, rest)| rest))
+        .collect()
+}
+
+/// Whether all numbers are zero.
+fn all_zero(values: &[TreeValue]) -> bool {
+    values.iter().all(|value| match value {
+        TreeValue::Integer(value) => *value == 0,
+        TreeValue::Number(value) => *value == 0.0,
+        TreeValue::Text(text) => split_number(text).is_some_and(|(number, _)| number == 0.0),
+        TreeValue::List(list) => all_zero(list),
+        _ => false,
+    })
 }

@@ -4,6 +4,7 @@ use jostle::results::summary::Summary;
 use jostle::{GroundMotion, LawKind, Model, System};
 
 use super::Input;
+use crate::quantity::Dimension;
 use crate::unusual::{FIRST_PERIOD, IMPACT_SPEED, PEAK_ACCELERATION, Verdict, Written};
 
 impl Input {
@@ -28,7 +29,7 @@ impl Input {
         if judged || self.accepts(PATH) || self.accepts("motion.pga") {
             return None;
         }
-        match PEAK_ACCELERATION.judge(peak, Written::bare(peak)) {
+        match PEAK_ACCELERATION.judge(peak, Dimension::Acceleration, Written::bare(peak)) {
             Verdict::Usual => None,
             Verdict::Unusual(text) | Verdict::Refused(text, _) => Some(format!("{PATH}: {text}")),
         }

@@ -1,14 +1,15 @@
 //! Errors of records.
 
 use super::formats::RecordFormat;
+use crate::files::FileError;
 
 /// An error of a record. Displays as `:line: problem`, to follow the name of the file.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RecordError {
     /// The file cannot be read.
-    #[error(": cannot be read: {0}")]
-    Io(#[from] std::io::Error),
+    #[error(": {0}")]
+    File(FileError),
     /// More bytes than any record needs.
     #[error(
         ": has more than 64 MiB, the most that a record may have; cut the record, or export one component as columns of text"

@@ -5,7 +5,7 @@
 
 use std::path::Path;
 
-use crate::bounded::read_at_most;
+use crate::files::read_file;
 use crate::nearest::nearest;
 use crate::quantity::{Dimension, shorten};
 use crate::record::{
@@ -242,8 +242,7 @@ impl MeasuredTable {
                 records: Vec::new(),
             });
         }
-        let bytes = read_at_most(path, LARGEST_FILE)?.ok_or(RecordError::TooLarge)?;
-        Self::parse(&bytes)
+        Self::parse(&read_file(path, LARGEST_FILE)?)
     }
 
     /// The same from the bytes of a file.

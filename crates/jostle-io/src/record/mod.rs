@@ -27,7 +27,7 @@ pub use layout::{RecordContent, RecordLayout};
 pub(crate) use lines::{Lines, check_end, number, without_fill};
 pub(crate) use units::{acceleration_unit, time_unit};
 
-use crate::bounded::read_at_most;
+use crate::files::{FileError, Files, read_file};
 use contents::Contents;
 
 /// No earthquake comes near this; larger numbers are a mistaken unit \[m/s²\].
@@ -209,7 +209,33 @@ fn read_bytes(path: &Path) -> Result<Vec<u8>, RecordError> {
             records: records_in(path)?,
         });
     }
-    read_at_most(path, LARGEST_FILE)?.ok_or(RecordError::TooLarge)
+    Ok(read_file(path, LARGEST_FILE)?)
+}
+
+/// Reads a record of a model.
+///
+/// # Errors
+/// As [`read_record`].
+pub(crate) fn read_record_of(
+    files: &Files,
+    name: &str,
+    options: &RecordOptions,
+) -> Result<Record, RecordError> {
+    if let Some(folder) = files.folder_of(name) {
+        return Err(RecordError::Folder {
+            records: records_in(&folder)?,
+        });
+    }
+    parse_record(&files.read(name, LARGEST_FILE)?, options)
+}
+
+impl From<FileError> for RecordError {
+    fn from(error: FileError) -> Self {
+        match error {
+            FileError::TooLarge { .. } => Self::TooLarge,
+            other => Self::File(other),
+        }
+    }
 }
 
 /// Files of a folder looked at for records, and records named in a message.
@@ -218,7 +244,8 @@ const NAMED_RECORDS: usize = 8;
 
 /// Names of files in a folder that can be read as records, in order; one more than are named if there are more.
 fn records_in(folder: &Path) -> Result<Vec<String>, RecordError> {
-    let mut paths: Vec<_> = std::fs::read_dir(folder)?
+    let entries = std::fs::read_dir(folder).map_err(FileError::Io)?;
+    let mut paths: Vec<_> = entries
         .flatten()
         .map(|entry| entry.path())
         .filter(|path| path.is_file())
@@ -226,8 +253,8 @@ fn records_in(folder: &Path) -> Result<Vec<String>, RecordError> {
         .collect();
     paths.sort();
     let readable = |path: &std::path::PathBuf| {
-        let bytes = read_at_most(path, LARGEST_FILE).ok().flatten();
-        bytes.is_some_and(|bytes| parse_info(&bytes, &RecordOptions::default()).is_ok())
+        let bytes = read_file(path, LARGEST_FILE);
+        bytes.is_ok_and(|bytes| parse_info(&bytes, &RecordOptions::default()).is_ok())
     };
     let name = |path: std::path::PathBuf| Some(path.file_name()?.to_string_lossy().into_owned());
     let records = paths.into_iter().take(FOLDER_FILES).filter(readable);

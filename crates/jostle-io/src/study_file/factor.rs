@@ -450,16 +450,24 @@ fn files_of(reader: &mut Reader<'_>, field: &Field<'_>, folder: &Path) -> Option
     Some(names.into_iter().map(level).collect())
 }
 
-/// Whether a name matches a pattern in which `*` matches any text.
+/// Whether a name matches a pattern in which `*` matches any text. What lies between two stars is taken at its first
+/// place: any later one leaves less for the rest.
 fn fits(name: &str, pattern: &str) -> bool {
-    match pattern.split_once('*') {
-        None => name == pattern,
-        Some((before, after)) => name.strip_prefix(before).is_some_and(|rest| {
-            (0..=rest.len())
-                .filter(|at| rest.is_char_boundary(*at))
-                .any(|at| fits(&rest[at..], after))
-        }),
+    let mut pieces = pattern.split('*');
+    let first = pieces.next().unwrap_or("");
+    let Some(mut rest) = name.strip_prefix(first) else {
+        return false;
+    };
+    let Some(last) = pieces.next_back() else {
+        return rest.is_empty();
+    };
+    for piece in pieces {
+        match rest.find(piece) {
+            Some(at) => rest = &rest[at + piece.len()..],
+            None => return false,
+        }
     }
+    rest.ends_with(last)
 }
 
 /// The dimension of the key that a path ends with, where the key has one everywhere.
@@ -518,4 +526,28 @@ fn unit_suffix(
     })
     .map(spell)
     .unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stars_match_any_text_and_take_no_time() {
+        for (name, pattern, expected) in [
+            ("a.at2", "a.at2", true),
+            ("a.at2", "*.at2", true),
+            ("a.at2", "a*", true),
+            ("a.at2", "*", true),
+            ("ab.at2", "a*b*.at2", true),
+            ("a.at2", "a.at2*.at2", false),
+            ("a.at", "*.at2", false),
+            ("aab", "a*ab", true),
+            ("ab", "ab*b", false),
+        ] {
+            assert_eq!(fits(name, pattern), expected, "{name} {pattern}");
+        }
+        assert!(!fits(&"a".repeat(200), &("a*".repeat(100) + "b")));
+        assert!(fits(&"a".repeat(200), &("*".repeat(60_000) + "a")));
+    }
 }

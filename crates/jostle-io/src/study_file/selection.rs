@@ -1,9 +1,8 @@
 //! `[selection]` of a study: the code and the structure for which its records are checked.
 
-use std::path::Path;
-
 use jostle_motion::{MainPeriod, TargetSpectrum};
 
+use crate::files::Files;
 use crate::keys::Section;
 use crate::model_file::read_spectrum;
 use crate::quantity::Dimension;
@@ -38,11 +37,11 @@ pub enum SelectionScaling {
 pub(super) fn read(
     reader: &mut Reader<'_>,
     field: &Field<'_>,
-    folder: &Path,
+    files: &Files,
 ) -> Option<SelectionWanted> {
     let view = reader.open(field, &[Section::Selection])?;
     let target = match reader.get(&view, "spectrum") {
-        Some(field) => read_spectrum(reader, &field, folder),
+        Some(field) => read_spectrum(reader, &field, files),
         None => {
             let remedy = "add spectrum = { code = \"gb50011\", intensity = 7, site = \"II\", group = 1 }, or a file";
             reader.missing(&view, "spectrum", remedy);

@@ -16,6 +16,7 @@ mod layouts;
 mod measured;
 mod motions;
 mod mutate;
+mod plain_files;
 mod plans;
 mod records;
 mod shear_failure;

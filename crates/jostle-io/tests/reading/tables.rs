@@ -86,6 +86,7 @@ fn summary() -> Summary {
     Summary {
         title: "Two".into(),
         jostle: "0.1.0".into(),
+        build: None,
         motion: MotionSummary {
             name: "m".into(),
             points: 0,

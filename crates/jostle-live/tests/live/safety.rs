@@ -464,9 +464,8 @@ fn an_oversized_message_ends_its_connection_only() {
 #[test]
 fn a_crowd_of_connections_is_turned_away_and_the_server_stays() {
     let live = live();
-    let idle: Vec<TcpStream> = (0..40)
-        .map(|_| TcpStream::connect(("127.0.0.1", live.port)).unwrap())
-        .collect();
+    // Open pages do not give way, as connections that say nothing do.
+    let pages: Vec<_> = (0..32).map(|_| connect(&live)).collect();
     let becomes = |wanted: u16| {
         (0..500).any(|_| {
             std::thread::sleep(Duration::from_millis(10));
@@ -474,6 +473,44 @@ fn a_crowd_of_connections_is_turned_away_and_the_server_stays() {
         })
     };
     assert!(becomes(503), "nobody is turned away");
-    drop(idle);
+    drop(pages);
     assert!(becomes(200), "the server stayed busy");
+}
+
+/// Clients that connect and say nothing give way to one that asks, and cost it no time.
+#[test]
+fn silent_clients_cost_others_no_time() {
+    let live = live();
+    let connect = || TcpStream::connect(("127.0.0.1", live.port)).unwrap();
+    let silent: Vec<TcpStream> = (0..100).map(|_| connect()).collect();
+    std::thread::sleep(Duration::from_millis(100));
+    for _ in 0..3 {
+        let asked = std::time::Instant::now();
+        let page = live.page();
+        let waited = asked.elapsed();
+        assert_eq!(status(&page), 200, "{page:.300}");
+        assert!(waited < Duration::from_millis(1000), "{waited:?}");
+    }
+    drop(silent);
+}
+
+/// More records than a curve takes are refused in words, and a request on which a handler fails costs no connection.
+#[test]
+fn a_curve_over_thousands_of_records_is_refused_and_no_connection_is_lost() {
+    let live = live();
+    let records = vec!["\"el-centro-1940-ns\""; 1001].join(",");
+    let curve = format!(
+        "{{\"op\":\"curve\",\"id\":7,\"text\":TEXT,\"edits\":[],\"path\":\"gap[0].width\",\"unit\":\"m\",\"from\":0.01,\"to\":0.1,\"points\":3,\"records\":[{records}]}}"
+    );
+    let text = serde_json::to_string(jostle_io::model_text("paper").unwrap()).unwrap();
+    let curve = curve.replace("TEXT", &text);
+    for _ in 0..40 {
+        let mut socket = connect(&live);
+        socket.send(tungstenite::Message::text(&curve)).unwrap();
+        let answer = socket.read().unwrap();
+        let answer = answer.to_text().unwrap();
+        assert!(answer.contains("\"op\":\"no-curve\""), "{answer:.300}");
+        assert!(answer.contains("at most 1000 records"), "{answer:.300}");
+    }
+    assert_eq!(status(&live.page()), 200);
 }

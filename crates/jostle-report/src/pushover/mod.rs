@@ -61,7 +61,7 @@ pub fn render_pushover(
                     (guide())
                 }
                 footer {
-                    (message::made_by_jostle_version(env!("CARGO_PKG_VERSION")))
+                    (message::made_by_jostle_version(crate::version()))
                 }
                 noscript { p.note { (message::the_deformed_shapes_need_javascript()) } }
                 script #page-data type="application/json" { (PreEscaped(shapes::payload(pushed, &charts))) }

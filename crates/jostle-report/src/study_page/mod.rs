@@ -120,7 +120,7 @@ pub fn render_study(page: &StudyPage) -> String {
                     @if !page.files.is_empty() { (files(page)) }
                 }
                 footer {
-                    (message::made_by_jostle_version(env!("CARGO_PKG_VERSION")))
+                    (message::made_by_jostle_version(crate::version()))
                 }
                 (theme_script())
             }

@@ -101,7 +101,7 @@ pub fn render_suite(page: &SuitePage) -> String {
                     }
                 }
                 footer {
-                    (message::made_by_jostle_version(env!("CARGO_PKG_VERSION")))
+                    (message::made_by_jostle_version(crate::version()))
                 }
                 (theme_script())
             }

@@ -6,6 +6,7 @@
 use std::fs::{File, OpenOptions};
 use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use fs4::{FileExt, TryLockError};
 
@@ -13,8 +14,8 @@ use crate::row::Row;
 
 /// A claim to a part.
 pub(crate) enum Claim {
-    /// It is ours, with the rows that were finished before.
-    Ours(Journal, Vec<Row>),
+    /// It is ours, with the rows that were finished before; without a journal if there are no locks here, for this reason.
+    Ours(Result<Journal, std::io::Error>, Vec<Row>),
     /// Another process computes it.
     Taken,
 }
@@ -23,6 +24,19 @@ pub(crate) enum Claim {
 pub(crate) struct Journal {
     file: File,
     path: PathBuf,
+}
+
+/// Largest journal \[bytes\].
+const LARGEST: u64 = 1 << 30;
+
+/// Why what lies in the place of a journal cannot be one; `None` for a plain file and for nothing.
+pub(crate) fn no_journal(path: &Path) -> Option<String> {
+    let found = std::fs::metadata(path).ok()?;
+    match jostle_io::plain(&found) {
+        Err(error) => Some(error.to_string()),
+        Ok(()) if found.len() > LARGEST => Some("is larger than a journal can be".to_owned()),
+        Ok(()) => None,
+    }
 }
 
 /// Header of a journal: prevents reading that of another study.
@@ -36,6 +50,10 @@ impl Journal {
         fingerprint: &str,
         keep: &dyn Fn(&[u8]) -> std::io::Result<()>,
     ) -> std::io::Result<Claim> {
+        if let Some(folder) = path.parent() {
+            // The process that finished the last part of all has removed it.
+            std::fs::create_dir_all(folder)?;
+        }
         let mut file = OpenOptions::new()
             .read(true)
             .write(true)
@@ -45,10 +63,18 @@ impl Journal {
         match FileExt::try_lock(&file) {
             Ok(()) => {}
             Err(TryLockError::WouldBlock) => return Ok(Claim::Taken),
-            Err(TryLockError::Error(error)) => return Err(error),
+            Err(TryLockError::Error(error)) => {
+                // Two processes cannot share a journal without locks. Rows are the same whoever computes them, and parts
+                // are written whole, so that only work is lost.
+                let rows = Self::finished(path, fingerprint);
+                if file.metadata()?.len() == 0 {
+                    let _ = std::fs::remove_file(path);
+                }
+                return Ok(Claim::Ours(Err(error), rows));
+            }
         }
         let mut bytes = Vec::new();
-        file.read_to_end(&mut bytes)?;
+        (&file).take(LARGEST).read_to_end(&mut bytes)?;
         let (rows, good) = if bytes.get(..HEAD) == Some(fingerprint.as_bytes()) {
             records(&bytes)
         } else {
@@ -67,7 +93,21 @@ impl Journal {
             file,
             path: path.to_owned(),
         };
-        Ok(Claim::Ours(journal, rows))
+        Ok(Claim::Ours(Ok(journal), rows))
+    }
+
+    /// Says in a file beside the journal who has it; nothing depends on it.
+    pub(crate) fn name_owner(&self) {
+        let _ = std::fs::write(owner_path(&self.path), owner());
+    }
+
+    /// The rows that a journal of this study holds, whoever has it.
+    pub(crate) fn finished(path: &Path, fingerprint: &str) -> Vec<Row> {
+        let bytes = jostle_io::read_file(path, LARGEST as usize).unwrap_or_default();
+        match bytes.get(..HEAD) == Some(fingerprint.as_bytes()) {
+            true => records(&bytes).0,
+            false => Vec::new(),
+        }
     }
 
     /// Adds a finished case, in one write.
@@ -82,6 +122,7 @@ impl Journal {
 
     /// Removes the journal of a part that is finished, and gives up the claim.
     pub(crate) fn remove(self) -> std::io::Result<()> {
+        let _ = std::fs::remove_file(owner_path(&self.path));
         match std::fs::remove_file(&self.path) {
             // Another process removed it before this one got the lock.
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(()),
@@ -92,6 +133,27 @@ impl Journal {
     pub(crate) fn path(&self) -> &Path {
         &self.path
     }
+}
+
+/// Where the owner of a journal is named.
+fn owner_path(journal: &Path) -> PathBuf {
+    journal.with_extension("owner")
+}
+
+/// This process in words.
+fn owner() -> String {
+    let hosts = ["HOSTNAME", "COMPUTERNAME"].into_iter();
+    let host = hosts.filter_map(|name| std::env::var(name).ok()).next();
+    let host = host.map_or_else(String::new, |host| format!(" on {host}"));
+    format!("process {}{host}", std::process::id())
+}
+
+/// Who computes a part, in words, and how long ago it finished a case.
+pub(crate) fn owner_of(journal: &Path) -> (String, Option<Duration>) {
+    let owner = jostle_io::read_text_file(&owner_path(journal), 4096);
+    let changed = std::fs::metadata(journal).and_then(|found| found.modified());
+    let idle = changed.ok().and_then(|time| time.elapsed().ok());
+    (owner.unwrap_or_else(|_| "another process".into()), idle)
 }
 
 /// The whole records of a journal and the bytes up to the end of the last of them.
@@ -135,9 +197,9 @@ mod tests {
 
     fn ours(path: &Path) -> (Journal, Vec<Row>) {
         match Journal::claim(path, &"a".repeat(64), &|_| Ok(())) {
-            Ok(Claim::Ours(journal, rows)) => (journal, rows),
+            Ok(Claim::Ours(Ok(journal), rows)) => (journal, rows),
             Ok(Claim::Taken) => panic!("taken"),
-            Err(error) => panic!("{error}"),
+            Ok(Claim::Ours(Err(error), _)) | Err(error) => panic!("{error}"),
         }
     }
 

@@ -1,8 +1,11 @@
 //! The manifest of a folder of results.
 
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
-use jostle_io::{FactorValues, Format, ModelTree, StudyFile, write_atomically};
+use jostle_io::{
+    FactorValues, FileError, Format, ModelTree, StudyFile, read_file, write_atomically,
+};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
@@ -15,6 +18,9 @@ pub(crate) struct Manifest {
     format: u32,
     /// Version of jostle that computes.
     jostle: String,
+    /// Commits of it that have computed, as far as they are known.
+    #[serde(default)]
+    builds: Vec<String>,
     title: String,
     /// Identity of this study.
     study_sha256: String,
@@ -49,6 +55,10 @@ struct Origin {
 }
 
 const FORMAT: u32 = 2;
+/// Age from which a file that was being written is what a killed process left.
+const LEFT: Duration = Duration::from_secs(60);
+/// Largest manifest \[bytes\]: the texts of a study and a model, twice.
+const LARGEST: usize = 128 << 20;
 
 impl Manifest {
     pub(crate) fn new(study: &Study) -> Self {
@@ -69,6 +79,10 @@ impl Manifest {
         Self {
             format: FORMAT,
             jostle: env!("CARGO_PKG_VERSION").to_owned(),
+            builds: jostle_report::BUILD
+                .map(str::to_owned)
+                .into_iter()
+                .collect(),
             title: file.title.clone(),
             study_sha256: study.fingerprint.clone(),
             model_sha256: study.model_hash.clone(),
@@ -95,6 +109,11 @@ impl Manifest {
         }
     }
 
+    fn write(&self, folder: &Path) -> Result<(), StudyError> {
+        let text = serde_json::to_string_pretty(self).unwrap_or_default() + "\n";
+        Ok(write_atomically(&Self::path(folder), text.as_bytes())?)
+    }
+
     fn path(folder: &Path) -> PathBuf {
         folder.join("manifest.json")
     }
@@ -102,10 +121,17 @@ impl Manifest {
     /// The manifest of a folder; `None` without one.
     fn load(folder: &Path) -> Result<Option<Self>, StudyError> {
         let path = Self::path(folder);
-        let bytes = match std::fs::read(&path) {
+        let bytes = match read_file(&path, LARGEST) {
             Ok(bytes) => bytes,
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
-            Err(error) => return Err(StudyError::Output(format!("{}: {error}", path.display()))),
+            Err(FileError::Io(error)) if error.kind() == std::io::ErrorKind::NotFound => {
+                return Ok(None);
+            }
+            Err(error) => {
+                return Err(StudyError::Folder(format!(
+                    "{} {error}; choose another folder with --out",
+                    path.display()
+                )));
+            }
         };
         let manifest = serde_json::from_slice(&bytes).map_err(|error| {
             StudyError::Folder(format!(
@@ -158,6 +184,7 @@ impl Manifest {
     fn is_same(&self, other: &Self) -> bool {
         let other = Self {
             origin: self.origin.clone(),
+            builds: self.builds.clone(),
             ..other.clone()
         };
         *self == other
@@ -202,6 +229,10 @@ pub fn settle(study: &Study, folder: &Path) -> Result<(), StudyError> {
         std::fs::create_dir_all(&path)
             .map_err(|error| StudyError::Output(format!("{}: {error}", path.display())))?;
     }
+    for inner in [folder.to_owned(), folder.join("cases")] {
+        // What another machine is writing is younger.
+        jostle_io::remove_leftovers(&inner, LEFT);
+    }
     let own = Manifest::new(study);
     let mut found = Manifest::load(folder)?;
     if found.is_none() && has_parts(folder) {
@@ -215,13 +246,23 @@ pub fn settle(study: &Study, folder: &Path) -> Result<(), StudyError> {
         }
     }
     match found {
-        Some(known) if known.is_same(&own) => Ok(()),
-        Some(known) => Err(known.refusal(&own, folder)),
-        None => {
-            let text = serde_json::to_string_pretty(&own).unwrap_or_default() + "\n";
-            write_atomically(&Manifest::path(folder), text.as_bytes())?;
-            Ok(())
+        Some(mut known) if known.is_same(&own) => {
+            if own.builds.iter().all(|build| known.builds.contains(build)) {
+                return Ok(());
+            }
+            if !study.any_build {
+                return Err(StudyError::Folder(format!(
+                    "{} was computed by another build of jostle ({}; this is {}), whose results may differ; choose another folder with --out, or add --any-build to go on all the same",
+                    folder.display(),
+                    known.builds.join(", "),
+                    own.builds.join(", ")
+                )));
+            }
+            known.builds.extend(own.builds);
+            known.write(folder)
         }
+        Some(known) => Err(known.refusal(&own, folder)),
+        None => own.write(folder),
     }
 }
 

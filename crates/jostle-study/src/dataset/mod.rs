@@ -8,7 +8,7 @@ mod set_aside;
 
 use std::path::{Path, PathBuf};
 
-pub(crate) use journal::{Claim, Journal};
+pub(crate) use journal::{Claim, Journal, no_journal, owner_of};
 pub use manifest::{of_folder, settle};
 pub(crate) use part::{PartFault, cases_of, verify, write as write_part};
 pub(crate) use reading::read_part;

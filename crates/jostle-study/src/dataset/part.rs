@@ -8,7 +8,7 @@ use std::io;
 use std::path::Path;
 
 use bytes::Bytes;
-use jostle_io::{OutputError, encode_values_parquet, write_atomically};
+use jostle_io::{FileError, OutputError, encode_values_parquet, read_file, write_atomically};
 use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use sha2::{Digest, Sha256};
@@ -18,6 +18,8 @@ use super::{Table, part_path};
 use crate::row::Row;
 use crate::study::{Study, StudyError, hex};
 
+/// Largest part \[bytes\].
+const LARGEST: usize = 1 << 30;
 /// Key of the fingerprint of the study.
 const STUDY: &str = "study_sha256";
 /// Key of the seal.
@@ -116,10 +118,13 @@ pub(crate) fn write(
 /// The file of a part, if it is whole, of this study, and that part.
 pub(crate) fn verify(study: &Study, folder: &Path, part: u64) -> Result<Bytes, PartFault> {
     let path = part_path(folder, study.part(part).start);
-    match std::fs::read(&path) {
+    match read_file(&path, LARGEST) {
         Ok(bytes) => check(study, part, bytes.into()),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Err(PartFault::Absent),
-        Err(error) => Err(PartFault::Unreadable(error)),
+        Err(FileError::Io(error)) if error.kind() == io::ErrorKind::NotFound => {
+            Err(PartFault::Absent)
+        }
+        Err(FileError::Io(error)) => Err(PartFault::Unreadable(error)),
+        Err(other) => Err(PartFault::Damaged(format!("it {other}"))),
     }
 }
 

@@ -267,7 +267,13 @@ fn write_csv(study: &Study, folder: &Path) -> Result<(), StudyError> {
     let unwritable =
         |error: &dyn std::fmt::Display| StudyError::Output(format!("{}: {error}", path.display()));
     let names = study.layout.names();
-    let part = path.with_extension("csv.part");
+    // Several processes that finish a study at the same time write the same table.
+    let part = format!(
+        "{}cases{}",
+        jostle_io::part_prefix(),
+        jostle_io::PART_SUFFIX
+    );
+    let part = folder.join(part);
     let file = std::fs::File::create(&part).map_err(|error| unwritable(&error))?;
     let mut writer = std::io::BufWriter::new(file);
     let quoted: Vec<String> = names.iter().map(|name| csv_field(name)).collect();

@@ -39,7 +39,8 @@ type Trial = (Vec<f64>, Evaluated);
 
 /// The open journal of a search; no other process can use it as long as this lives.
 pub(super) struct Store {
-    journal: Journal,
+    /// `None` on a file system without locks: such a search cannot be continued.
+    journal: Option<Journal>,
     next: u64,
 }
 
@@ -82,6 +83,7 @@ impl Store {
         };
         let next = rows.len() as u64;
         let finished = rows.into_iter().filter_map(read).collect();
+        let journal = journal.ok();
         Ok((Self { journal, next }, finished))
     }
 
@@ -96,8 +98,11 @@ impl Store {
             texts: Vec::new(),
         };
         self.next += 1;
-        let path = self.journal.path().to_owned();
-        self.journal
+        let Some(journal) = &mut self.journal else {
+            return Ok(());
+        };
+        let path = journal.path().to_owned();
+        journal
             .append(&row)
             .map_err(|error| unwritable(&path, &error))
     }

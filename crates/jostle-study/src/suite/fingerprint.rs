@@ -1,9 +1,8 @@
 //! What a finished record belongs to: the model, the motion, the version and what was asked for.
 
-use std::fmt::Write;
 use std::path::Path;
 
-use jostle::Wave;
+use jostle_io::read_text_file;
 use jostle_run::Prepared;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
@@ -13,6 +12,8 @@ use crate::study::hex;
 
 /// Name of the file with the fingerprint of a finished record.
 pub(super) const FINISHED: &str = "finished.json";
+/// Largest file about a finished record \[bytes\].
+const LARGEST: usize = 256 << 20;
 
 /// A text of 64 digits that changes with everything that the files of a record depend on.
 pub(super) fn fingerprint(prepared: &Prepared, options: &SuiteOptions) -> String {
@@ -27,32 +28,17 @@ pub(super) fn fingerprint(prepared: &Prepared, options: &SuiteOptions) -> String
     add(&format!("{:?}", input.model));
     add(&format!("{:?}", input.floor_spectra));
     add(&format!("{:?}", input.warnings));
-    add(&format!(
-        "{} {:?} {:?}",
-        motion.name, motion.scale, motion.duration
-    ));
+    // So is every acceleration of the motion, of that across and of those under single buildings.
+    add(&format!("{motion:?}"));
     add(&format!("{} {}", options.report, options.sensitivity));
-    let mut values = String::new();
-    match &motion.wave {
-        Wave::Sampled { step, acceleration } => {
-            let _ = write!(values, "{:x}", step.to_bits());
-            for a in acceleration {
-                let _ = write!(values, " {:x}", a.to_bits());
-            }
-        }
-        other => {
-            let _ = write!(values, "{other:?}");
-        }
-    }
-    add(&values);
     hex(&hash.finalize())
 }
 
 /// The text of `summary.json` of a record that was finished with this fingerprint.
 pub(super) fn finished(folder: &Path, fingerprint: &str) -> Option<String> {
-    let known = std::fs::read_to_string(folder.join(FINISHED)).ok()?;
-    let known: Value = serde_json::from_str(&known).ok()?;
-    let summary = std::fs::read_to_string(folder.join("summary.json")).ok()?;
+    let read = |name: &str| read_text_file(&folder.join(name), LARGEST).ok();
+    let known: Value = serde_json::from_str(&read(FINISHED)?).ok()?;
+    let summary = read("summary.json")?;
     // A summary that was changed since is computed again.
     let hash = hex(&Sha256::digest(summary.as_bytes()));
     let same = known["fingerprint"] == fingerprint && known["summary_sha256"] == hash;

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use jostle_io::{Format, StudyFile};
-use jostle_study::dataset::{missing_parts, read_columns};
-use jostle_study::{Done, RunSettings, Study, StudyError, run};
+use jostle_study::dataset::{missing_parts, part_path, read_columns};
+use jostle_study::{Done, RunSettings, Study, StudyError, of_folder, run, settle};
 
 const MODEL: &str = r#"
 [model.motion]
@@ -227,4 +227,51 @@ fn parts_of_other_shares_are_verified_before_the_study_counts_as_complete() {
     assert!(files(folder.path().join("cases")) == table);
     let left = files(folder.path().join("under-way"));
     assert!(left.is_empty(), "{:?}", left.keys());
+}
+
+/// A pipe, a folder or a link to a device in the place of a part, a journal or the manifest is never opened.
+#[cfg(unix)]
+#[test]
+fn what_is_no_file_is_set_aside_or_refused() {
+    let odd = |kind: &str, path: &Path| match kind {
+        "pipe" => {
+            let made = std::process::Command::new("mkfifo").arg(path).status();
+            assert!(made.expect("mkfifo").success());
+        }
+        "link" => std::os::unix::fs::symlink("/dev/zero", path).expect("a link"),
+        _ => std::fs::create_dir(path).expect("a folder"),
+    };
+    let study = study(1);
+    let whole = tempfile::tempdir().expect("a folder");
+    go(&study, whole.path(), &shard(0, 1));
+    let expected = files(whole.path().join("cases"));
+    for kind in ["pipe", "link", "folder"] {
+        let folder = tempfile::tempdir().expect("a folder");
+        for inner in ["cases", "under-way"] {
+            std::fs::create_dir(folder.path().join(inner)).expect("a folder");
+        }
+        settle(&study, folder.path()).expect("a manifest");
+        let part = part_path(folder.path(), 0);
+        odd(kind, &part);
+        odd(
+            kind,
+            &folder.path().join("under-way/part-0000000016.journal"),
+        );
+        let (done, remarks) = go(&study, folder.path(), &shard(0, 1));
+        assert!(done.complete, "{kind}");
+        assert_eq!(remarks.len(), 2, "{kind}: {remarks:?}");
+        assert!(
+            remarks.iter().all(|text| text.contains("not a file")),
+            "{remarks:?}"
+        );
+        assert_eq!(files(folder.path().join("cases")), expected, "{kind}");
+
+        let manifest = folder.path().join("manifest.json");
+        std::fs::remove_file(&manifest).expect("gone");
+        odd(kind, &manifest);
+        let error = of_folder(folder.path())
+            .map(|_| ())
+            .expect_err("no manifest");
+        assert!(error.to_string().contains("not a file"), "{kind}: {error}");
+    }
 }

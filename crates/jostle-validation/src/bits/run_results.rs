@@ -34,6 +34,7 @@ pub(super) fn run(input: &Input, solver: Solver) -> Value {
 fn leave_out(tree: &mut Value) {
     if let Some(keys) = tree.as_object_mut() {
         keys.remove("jostle");
+        keys.remove("build");
     }
     if let Some(work) = tree["work"].as_object_mut() {
         work.remove("wall_s");

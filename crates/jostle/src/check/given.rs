@@ -4,8 +4,7 @@ use super::{Faults, each};
 use crate::linear::sparse_cholesky::{NoPivot, Pattern, SparseFactor};
 use crate::model::{Base, Building, Given, MatrixEntry};
 
-/// Most displacements of a building given by matrices.
-const MOST: usize = 2000;
+const MOST: usize = Given::MOST_DISPLACEMENTS;
 
 pub(super) fn check_given(faults: &mut Faults, path: &str, given: &Given, building: &Building) {
     let n = given.len();

@@ -41,6 +41,9 @@ pub struct Given {
 }
 
 impl Given {
+    /// Most displacements of a building given by matrices.
+    pub const MOST_DISPLACEMENTS: usize = 2000;
+
     /// A building whose matrices were condensed at its floors: masses from the ground up, and rows of the stiffness
     /// matrix, of which the lower triangle counts \[kg, N/m, m\].
     #[must_use]

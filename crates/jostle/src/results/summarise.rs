@@ -108,6 +108,7 @@ impl Summary {
         Self {
             title: model.title.clone(),
             jostle: env!("CARGO_PKG_VERSION").to_owned(),
+            build: None,
             motion: MotionSummary {
                 name: motion.name.clone(),
                 points: motion.points(),

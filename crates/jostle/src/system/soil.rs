@@ -209,6 +209,12 @@ fn damping_ratio(equations: &Equations, mode: &Mode) -> f64 {
     damped / (2.0 * mode.circular_frequency * modal_mass)
 }
 
+/// Most pairs of foundations whose influence on each other is integrated.
+const MOST_PAIRS: usize = 200;
+
+/// Two foundations and the clear distance between them \[m\].
+type Pair = ([Rectangle; 2], f64);
+
 /// Stiffness and dashpots of all foundations, from left to right, over displacement and rotation of each; `None` where the
 /// foundations do not act on each other.
 ///
@@ -246,6 +252,7 @@ pub(super) fn matrices(
                 damping[(2 * k, 2 * k)] = springs.sway_damping;
                 damping[(2 * k + 1, 2 * k + 1)] = springs.rocking_damping;
             }
+            let mut known: Vec<(Pair, [f64; 2])> = Vec::new();
             for right in 1..founded.len() {
                 for left in 0..right {
                     let [(a, one), (b, other)] = [&founded[left], &founded[right]];
@@ -254,8 +261,23 @@ pub(super) fn matrices(
                         length: place.foundation.length,
                         width: place.foundation.width,
                     });
-                    let found = influence(half_space, rectangles, distance);
-                    for (k, value) in [found.sway, found.rocking].into_iter().enumerate() {
+                    // Rows of equal foundations have few pairs that differ.
+                    let pair = (rectangles, distance);
+                    let same = known.iter().find(|(known, _)| *known == pair);
+                    let found = match same {
+                        Some((_, found)) => *found,
+                        None if known.len() == MOST_PAIRS => {
+                            return Err(format!(
+                                "has more than {MOST_PAIRS} pairs of foundations that differ in size or distance; give the matrices instead: coupling = {{ stiffness = …, damping = … }}"
+                            ));
+                        }
+                        None => {
+                            let found = influence(half_space, rectangles, distance);
+                            known.push((pair, [found.sway, found.rocking]));
+                            [found.sway, found.rocking]
+                        }
+                    };
+                    for (k, value) in found.into_iter().enumerate() {
                         flexibility[(2 * left + k, 2 * right + k)] = value;
                         flexibility[(2 * right + k, 2 * left + k)] = value;
                     }

@@ -75,6 +75,9 @@ pub struct Summary {
     pub title: String,
     /// Version of jostle.
     pub jostle: String,
+    /// Commit of jostle; `None` where it is not known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub build: Option<String>,
     /// Ground motion.
     pub motion: MotionSummary,
     /// Buildings from left to right.

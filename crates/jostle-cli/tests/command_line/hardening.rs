@@ -1,0 +1,277 @@
+//! The program under attack, and with things missing that it counts on: disks that are full, other processes, kills.
+
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::Duration;
+
+use crate::common::{complained, folder, jostle, printed};
+
+const SMALL: &str = r#"
+title = "small"
+[motion]
+kind = "sine"
+amplitude = "3 m/s2"
+period = "0.4 s"
+duration = "0.8 s"
+[[building]]
+name = "A"
+kind = "shear"
+storey_height = "4 m"
+mass = ["75 t"]
+stiffness = ["2.0562 MN/m"]
+[[building]]
+name = "B"
+kind = "shear"
+storey_height = "4 m"
+mass = ["3000 t"]
+stiffness = ["1315.95 MN/m"]
+[[gap]]
+between = ["A", "B"]
+width = "20 mm"
+law = "linear"
+stiffness = "300 MN/m"
+"#;
+
+const STUDY: &str = r#"
+title = "small"
+base = "m.toml"
+[[vary]]
+path = "gap[0].width"
+range = { from = "1 mm", to = "30 mm", count = 40 }
+"#;
+
+fn write(folder: &Path, name: &str, text: &str) {
+    std::fs::write(folder.join(name), text).expect("a file");
+}
+
+fn program(folder: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_jostle"));
+    command.args(arguments).current_dir(folder);
+    command.stdin(Stdio::null()).stderr(Stdio::piped());
+    command
+}
+
+/// Every command that prints says so when its output is lost, and ends with 1; a reader that goes away is no error.
+#[cfg(target_os = "linux")]
+#[test]
+fn lost_output_is_an_error() {
+    let held = folder();
+    let folder = held.path();
+    write(folder, "m.toml", SMALL);
+    write(folder, "s.toml", STUDY);
+    for arguments in [
+        &["check", "m.toml"][..],
+        &["run", "m.toml", "--json", "--no-report"],
+        &["modes", "m.toml"],
+        &["schema"],
+        &["export", "m.toml", "--to", "openseespy"],
+        &["study", "s.toml", "--check"],
+        &["motion", "list"],
+        &["completions", "bash"],
+        &[
+            "collide", "--law", "hertz", "--m1", "1 t", "--m2", "1 t", "--speed", "1 m/s",
+        ],
+    ] {
+        let full = std::fs::File::options()
+            .write(true)
+            .open("/dev/full")
+            .expect("/dev/full");
+        let output = program(folder, arguments).stdout(full).output();
+        let output = output.expect("the program starts");
+        let shown = complained(&output);
+        assert_eq!(output.status.code(), Some(1), "{arguments:?}: {shown}");
+        assert!(shown.contains("standard output"), "{arguments:?}: {shown}");
+    }
+    let mut gone = program(folder, &["schema"])
+        .stdout(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    drop(gone.stdout.take());
+    assert!(gone.wait().expect("its end").success());
+}
+
+/// Paths of thousands of parts are refused in words wherever one is taken.
+#[test]
+fn long_paths_are_refused() {
+    let held = folder();
+    let folder = held.path();
+    write(folder, "m.toml", SMALL);
+    let path = "a.".repeat(60_000) + "b";
+    write(
+        folder,
+        "s.toml",
+        &format!("base = \"m.toml\"\n[[vary]]\npath = \"{path}\"\nvalues = [1, 2]\n"),
+    );
+    let vary = format!("{}b=1..2", "a.".repeat(30_000));
+    for arguments in [
+        &["study", "s.toml", "--check"][..],
+        &[
+            "size",
+            "m.toml",
+            "--vary",
+            &vary,
+            "--keep",
+            "impact_count == 0",
+            "--minimise",
+            "peak_force_n",
+        ],
+    ] {
+        let output = jostle(folder, arguments);
+        let shown = complained(&output);
+        assert_eq!(output.status.code(), Some(2), "{shown:.300}");
+        assert!(shown.contains("more than 64 parts"), "{shown:.300}");
+    }
+}
+
+/// A folder holds the files of one run: another one at the same time is refused, and what a killed one left is removed.
+#[test]
+fn a_folder_holds_the_files_of_one_run() {
+    let held = folder();
+    let folder = held.path();
+    write(folder, "m.toml", SMALL);
+    let out = folder.join("out");
+    std::fs::create_dir(&out).expect("a folder");
+    let left = out.join(".jostle-4294967295-x.part");
+    std::fs::create_dir(&left).expect("a folder");
+    let claim = jostle_run::FolderClaim::new(&out).expect("free");
+    let output = jostle(folder, &["run", "m.toml", "--out", "out"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(complained(&output).contains("another run is writing into out"));
+    drop(claim);
+    let output = jostle(folder, &["run", "m.toml", "--out", "out"]);
+    assert!(output.status.success(), "{}", complained(&output));
+    let names: Vec<String> = std::fs::read_dir(&out)
+        .expect("results")
+        .flatten()
+        .map(|entry| entry.file_name().to_string_lossy().into_owned())
+        .collect();
+    let hidden = names.iter().filter(|name| name.starts_with('.'));
+    assert_eq!(hidden.count(), 0, "{names:?}");
+}
+
+/// Several processes on one folder all succeed, and their tables are those of one.
+#[test]
+fn processes_share_a_folder() {
+    let held = folder();
+    let folder = held.path();
+    write(folder, "m.toml", SMALL);
+    write(folder, "s.toml", STUDY);
+    let alone = jostle(folder, &["study", "s.toml", "--out", "alone"]);
+    assert!(alone.status.success(), "{}", complained(&alone));
+    let arguments = ["study", "s.toml", "--out", "shared", "--jobs", "1"];
+    let start = |_| {
+        let mut command = program(folder, &arguments);
+        command.stdout(Stdio::null()).spawn().expect("it starts")
+    };
+    let children: Vec<_> = (0..4).map(start).collect();
+    for child in children {
+        let output = child.wait_with_output().expect("its end");
+        assert!(output.status.success(), "{}", complained(&output));
+    }
+    let cases = |name: &str| std::fs::read(folder.join(name).join("cases.csv")).expect("a table");
+    assert_eq!(cases("alone"), cases("shared"));
+    assert!(!folder.join("shared/under-way").exists());
+    // Histories of single cases are made again where only the parts were copied.
+    let kept = STUDY.replace("title = \"small\"", "title = \"small\"\nhistories = [3]");
+    write(folder, "h.toml", &kept);
+    let run = || jostle(folder, &["study", "h.toml", "--out", "kept", "--no-report"]);
+    assert!(run().status.success());
+    let own = folder.join("kept/runs/case-0000000003/summary.json");
+    let before = std::fs::read(&own).expect("a run");
+    std::fs::remove_dir_all(folder.join("kept/runs")).expect("gone");
+    assert!(run().status.success());
+    assert_eq!(std::fs::read(&own).expect("a run"), before);
+}
+
+/// A process that hangs is named, and its part is computed by one that has nothing else to do.
+#[cfg(target_os = "linux")]
+#[test]
+#[ignore = "takes a minute"]
+fn a_hung_process_stops_nobody() {
+    let held = folder();
+    let folder = held.path();
+    let slow = SMALL.replace("0.8 s", "200 s");
+    write(folder, "m.toml", &slow);
+    write(folder, "s.toml", STUDY);
+    let arguments = [
+        "study",
+        "s.toml",
+        "--out",
+        "out",
+        "--jobs",
+        "1",
+        "--no-report",
+    ];
+    let mut hung = program(folder, &arguments)
+        .stdout(Stdio::null())
+        .spawn()
+        .expect("it starts");
+    std::thread::sleep(Duration::from_secs(2));
+    let signal = |name: &str| {
+        let id = hung.id().to_string();
+        let sent = Command::new("kill").args([name, &id]).status();
+        assert!(sent.expect("kill").success());
+    };
+    signal("-STOP");
+    let other = jostle(folder, &arguments);
+    let shown = complained(&other);
+    signal("-CONT");
+    assert!(other.status.success(), "{shown}");
+    assert!(shown.contains("waiting for process"), "{shown}");
+    assert!(hung.wait().expect("its end").success());
+}
+
+/// Plans that have no area are faults of the plan, wherever else they show.
+#[test]
+fn small_mistakes_are_told() {
+    let held = folder();
+    let folder = held.path();
+    let plan = |corners: &str| {
+        SMALL.replacen(
+            "stiffness = [\"2.0562 MN/m\"]",
+            &format!("stiffness = [\"2.0562 MN/m\"]\nplan = {corners}"),
+            1,
+        )
+    };
+    let many: Vec<String> = (0..4000)
+        .map(|at| {
+            let angle = std::f64::consts::TAU * f64::from(at) / 4000.0;
+            format!("[{}, {}]", 10.0 * angle.cos(), 10.0 * angle.sin())
+        })
+        .collect();
+    for (corners, word) in [
+        (
+            "[[0, 0], [10, 8], [10, 0], [0, 8]]".to_owned(),
+            "crosses itself",
+        ),
+        ("[[0, 0], [10, 0]]".to_owned(), "at least three"),
+        (format!("[{}]", many.join(", ")), "at most 300"),
+    ] {
+        write(folder, "m.toml", &plan(&corners));
+        let output = jostle(folder, &["check", "m.toml"]);
+        let shown = complained(&output);
+        assert_eq!(output.status.code(), Some(2), "{shown:.400}");
+        assert!(shown.contains(word), "{word}: {shown:.400}");
+        assert!(!shown.contains("polar_mass"), "{shown:.400}");
+    }
+    // Names of files that are no names of folders.
+    write(folder, "...toml", SMALL);
+    let output = jostle(folder, &["run", "...toml", "--no-report"]);
+    assert!(output.status.success(), "{}", complained(&output));
+    assert!(folder.join("jostle-out/paper/summary.json").exists());
+    // Faults of meaning in a study have lines.
+    write(folder, "m.toml", SMALL);
+    let wrong = format!("{STUDY}\n[[ida]]\nintensity = \"pga_m_s2\"\ndemand = \"nothing\"\n");
+    write(folder, "s.toml", &wrong);
+    let output = jostle(folder, &["study", "s.toml", "--check"]);
+    let shown = complained(&output);
+    let line = 1 + wrong[..wrong.find("\"nothing\"").expect("there")]
+        .matches('\n')
+        .count();
+    assert!(shown.contains(&format!("s.toml:{line}:")), "{shown}");
+    // A model without a motion cannot be run, and the check does not say that it can.
+    let still = &SMALL[SMALL.find("[[building]]").expect("there")..];
+    write(folder, "m.toml", still);
+    let shown = printed(&jostle(folder, &["check", "m.toml"]));
+    assert!(shown.contains("valid, without a ground motion"), "{shown}");
+}
