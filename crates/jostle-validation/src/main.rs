@@ -21,10 +21,10 @@ usage: jostle-validation [--full] [--check] [--reference] [--pairs [FIRST LAST [
   --work-precision  writes docs/work-precision.md and its figure; takes minutes
   --figures     writes the figure of the contact laws
   --harmonic    writes docs/harmonic-pounding.md and its figures; takes minutes
-  --certify N [--seed S] [--only K] [--json FILE]  holds every promised number of N random models against a reference of
+  --certify N [--family NAME] [--seed S] [--only K] [--json FILE]  holds every promised number of N random models against a reference of
                 other means; FILE gets every ratio
   --certify-report FILE …  writes the tables of docs/certify.md and its figure from such files
-  --certify-dump K FOLDER [--seed S]  writes random model K as a model file, with its record if it has one of its own
+  --certify-dump K FOLDER [--family NAME] [--seed S]  writes random model K as a model file, with its record if it has one of its own
   --certify-file FILE [TOLERANCE …]  prints the reference of a model file, and how far both solvers are from it
   --bits [FAMILY …] [--write]  compares the results of many models with those on record, number by number, or records them
   --reference   makes the reference runs of the built-in model anew; takes minutes";
@@ -250,12 +250,24 @@ fn certified(arguments: &[String]) -> ExitCode {
             }
         };
     }
+    let family = match after("--family").map(|name| (name, certify::Family::named(name))) {
+        None => None,
+        Some((_, Some(family))) => Some(family),
+        Some((name, None)) => {
+            let names = certify::FAMILIES.map(|family| family.name).join(", ");
+            say(&format!("there is no family {name}; give one of {names}"));
+            return ExitCode::from(2);
+        }
+    };
     if let Some(model) = number("--certify-dump") {
         let Some(folder) = arguments.get(2) else {
             say(USAGE);
             return ExitCode::from(2);
         };
-        let drawn = certify::draw(seed, model);
+        let drawn = match family {
+            Some(family) => family.model(seed, model),
+            None => certify::draw(seed, model),
+        };
         let text = serde_json::to_string_pretty(&drawn.tree).unwrap_or_default();
         if let (Some(pulse), Some(name)) = (drawn.pulse, drawn.tree["motion"]["record"].as_str()) {
             let record = Path::new(folder).join(name);
@@ -273,10 +285,11 @@ fn certified(arguments: &[String]) -> ExitCode {
         return ExitCode::from(2);
     };
     let all = certify::study(
+        family,
         count,
         seed,
         number("--only"),
-        &certify::every_run(&certify::TOLERANCES),
+        &certify::every_run(family, &certify::TOLERANCES),
     );
     say(&certify::describe(&all));
     let records = [Record::new(seed, &all)];

@@ -23,6 +23,8 @@
 
 mod describe;
 mod eigen;
+mod explicit;
+mod families;
 mod hold;
 mod laws;
 mod linear;
@@ -49,6 +51,7 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 
 pub use describe::describe;
+pub use families::{FAMILIES, Family};
 pub use hold::Held;
 use hold::hold;
 pub use models::{Drawn, draw};
@@ -67,6 +70,8 @@ type C64 = Complex<f64>;
 pub const TOLERANCES: [f64; 3] = [1e-2, 1e-3, 1e-4];
 /// Solvers that are held.
 const SOLVERS: [Solver; 2] = [Solver::Modal, Solver::Riccati];
+/// The same for families with a reference of their own; not every model is accepted by all.
+const SOLVERS_OF_FAMILIES: [Solver; 3] = [Solver::Modal, Solver::Riccati, Solver::Series];
 
 /// One model.
 #[derive(Clone, Debug)]
@@ -140,10 +145,18 @@ fn read_text(tree: &Value, folder: &Path) -> Result<(Input, GroundMotion), Strin
     Ok((input, motion))
 }
 
-/// Holds one model against its reference.
+/// Holds one model against its reference: of a family, or of those that do not yield.
 #[must_use]
-pub fn certify(seed: u64, number: u64, runs: &[(Solver, f64)]) -> Certified {
-    let drawn = draw(seed, number);
+pub fn certify(
+    family: Option<Family>,
+    seed: u64,
+    number: u64,
+    runs: &[(Solver, f64)],
+) -> Certified {
+    let drawn = match family {
+        Some(family) => family.model(seed, number),
+        None => draw(seed, number),
+    };
     let mut certified = Certified::new(number, drawn.kind);
     let held = read(&drawn).and_then(|(input, motion)| fill(&input, &motion, runs, &mut certified));
     if let Err(why) = held {
@@ -203,18 +216,29 @@ fn fill(
     Ok(())
 }
 
-/// Both solvers at each of these tolerances.
+/// Every solver that is held of a family, or of models that do not yield, at each of these tolerances.
 #[must_use]
-pub fn every_run(tolerances: &[f64]) -> Vec<(Solver, f64)> {
-    SOLVERS
-        .into_iter()
+pub fn every_run(family: Option<Family>, tolerances: &[f64]) -> Vec<(Solver, f64)> {
+    let solvers: &[Solver] = match family {
+        Some(_) => &SOLVERS_OF_FAMILIES,
+        None => &SOLVERS,
+    };
+    solvers
+        .iter()
+        .copied()
         .flat_map(|solver| tolerances.iter().map(move |tolerance| (solver, *tolerance)))
         .collect()
 }
 
 /// Certifies models 1 … `count` of a seed, on all processors; `only` picks some.
 #[must_use]
-pub fn study(count: u64, seed: u64, only: Option<u64>, runs: &[(Solver, f64)]) -> Vec<Certified> {
+pub fn study(
+    family: Option<Family>,
+    count: u64,
+    seed: u64,
+    only: Option<u64>,
+    runs: &[(Solver, f64)],
+) -> Vec<Certified> {
     let numbers: Vec<u64> = match only {
         Some(number) => vec![number],
         None => (1..=count).collect(),
@@ -222,6 +246,6 @@ pub fn study(count: u64, seed: u64, only: Option<u64>, runs: &[(Solver, f64)]) -
     numbers
         .par_iter()
         .with_max_len(1)
-        .map(|number| certify(seed, *number, runs))
+        .map(|number| certify(family, seed, *number, runs))
         .collect()
 }

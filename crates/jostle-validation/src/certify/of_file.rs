@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use super::truth::share;
-use super::{Certified, every_run, fill, read_text};
+use super::{Certified, Family, every_run, fill, read_text};
 
 /// The promised numbers of a model file: reference, its change under the perturbation, and both solvers.
 ///
@@ -15,7 +15,7 @@ pub fn of_file(path: &Path, tolerances: &[f64]) -> Result<String, String> {
     let tree = serde_json::from_str(&tree).map_err(|e| e.to_string())?;
     let (input, motion) = read_text(&tree, path.parent().unwrap_or(Path::new("")))?;
     let mut certified = Certified::new(0, "file");
-    let runs = every_run(tolerances);
+    let runs = every_run(Family::named("yielding"), tolerances);
     fill(&input, &motion, &runs, &mut certified)?;
     let mut text = String::new();
     let truth = &certified.truth;

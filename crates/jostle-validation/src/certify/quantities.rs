@@ -1,5 +1,6 @@
 //! The promised numbers of a run, and where they are in a summary.
 
+use jostle::results::in_plan::FloorInPlan;
 use jostle::{Summary, System};
 
 use super::reference::Peaks;
@@ -18,6 +19,61 @@ pub struct Quantity {
     pub value: f64,
     /// The greatest of its kind in that building or gap.
     pub scale: f64,
+}
+
+/// A number that only buildings in plan, on bearings or on soil have.
+#[derive(Clone, Copy, Debug)]
+pub struct More {
+    /// Its kind.
+    pub kind: &'static str,
+    /// Floor; 0 is the mat or the foundation.
+    pub floor: usize,
+    /// The value.
+    pub value: f64,
+}
+
+/// What floors in plan have beside what all floors have.
+pub(super) const PLAN: [(&str, fn(&FloorInPlan) -> f64); 10] = [
+    ("displacement across max", |f| f.displacement_across_max_m),
+    ("displacement across min", |f| f.displacement_across_min_m),
+    ("rotation max", |f| f.rotation_max_rad),
+    ("rotation min", |f| f.rotation_min_rad),
+    ("displacement of corners", |f| f.corner_displacement_peak_m),
+    ("acceleration across", |f| f.total_acceleration_across_peak_m_s2),
+    ("drift across", |f| f.storey_drift_across_peak),
+    ("drift at corners", |f| f.storey_drift_corner_peak),
+    ("storey shear across", |f| f.storey_shear_across_peak_n),
+    ("torque", |f| f.storey_torque_peak_n_m),
+];
+/// What mats on bearings have.
+pub(super) const MAT: [&str; 4] = [
+    "displacement of the mat max",
+    "displacement of the mat min",
+    "acceleration of the mat",
+    "force of bearings",
+];
+/// What foundations on soil have.
+pub(super) const FOUNDATION: [&str; 2] = ["sway of the foundation", "rocking"];
+
+/// The kind by whose greatest value a kind is measured.
+fn measured_by(kind: &str) -> &str {
+    kind.strip_suffix(" max")
+        .or(kind.strip_suffix(" min"))
+        .unwrap_or(kind)
+}
+
+/// First contact of every contact as results list them: points of a face together.
+fn listed(system: &System) -> Vec<usize> {
+    let mut faces = Vec::new();
+    let all = (0..system.contacts.len()).filter(|index| {
+        let face = system.contacts[*index].plan.map(|place| place.face);
+        if face.is_some() && faces.last() == Some(&face) {
+            return false;
+        }
+        faces.push(face);
+        true
+    });
+    all.collect()
 }
 
 pub(super) fn quantities_of(system: &System, peaks: &Peaks) -> Vec<Quantity> {
@@ -49,15 +105,25 @@ pub(super) fn quantities_of(system: &System, peaks: &Peaks) -> Vec<Quantity> {
             value: own.shear,
             scale: own.shear,
         });
+        for more in &own.more {
+            let alike = own.more.iter();
+            let alike = alike.filter(|other| measured_by(other.kind) == measured_by(more.kind));
+            list.push(Quantity {
+                kind: more.kind,
+                name: format!("{name} floor {}", more.floor),
+                value: more.value,
+                scale: alike.fold(0.0, |m: f64, other| m.max(other.value.abs())),
+            });
+        }
     }
+    let contacts: Vec<_> = listed(system).iter().map(|c| &system.contacts[*c]).collect();
     for (kind, values) in [
         ("contact force", &peaks.force),
         ("impulse", &peaks.impulse),
         ("closing", &peaks.closing),
     ] {
-        for (index, contact) in system.contacts.iter().enumerate() {
-            let of_gap = system
-                .contacts
+        for (index, contact) in contacts.iter().enumerate() {
+            let of_gap = contacts
                 .iter()
                 .zip(values)
                 .filter(|(c, _)| c.gap == contact.gap);
@@ -79,8 +145,8 @@ pub(super) fn quantities_of(system: &System, peaks: &Peaks) -> Vec<Quantity> {
             });
         }
     }
-    for (element, value) in system.links.iter().zip(&peaks.link) {
-        let of_link = system.links.iter().zip(&peaks.link);
+    for (element, value) in system.model_links().iter().zip(&peaks.link) {
+        let of_link = system.model_links().iter().zip(&peaks.link);
         let of_link = of_link.filter(|(other, _)| other.link == element.link);
         list.push(Quantity {
             kind: "link force",
@@ -104,11 +170,25 @@ pub(super) fn values_of(summary: &Summary, system: &System) -> Vec<f64> {
         list.extend(floors().map(|f| f.response.storey_shear_peak_n));
         list.extend(floors().map(|f| f.response.overturning_moment_peak_n_m));
         list.push(building.response.base_shear_peak_n);
+        for (_, of) in PLAN {
+            list.extend(floors().filter_map(|f| f.in_plan.as_ref().map(of)));
+        }
+        if let (Some(own), Some(mat)) = (&building.isolation, &building.floors.mat) {
+            list.extend([
+                own.displacement_max_m,
+                own.displacement_min_m,
+                mat.response.total_acceleration_peak_m_s2,
+                own.force_peak_n,
+            ]);
+        }
+        if let Some(own) = &building.foundation {
+            list.extend([own.sway_peak_m, own.rocking_peak_rad]);
+        }
     }
     // Contacts of a summary stand gap by gap, in the order of the system.
     let mut places = vec![0; summary.gaps.len()];
     let mut own = Vec::new();
-    for contact in &system.contacts {
+    for contact in listed(system).into_iter().map(|c| &system.contacts[c]) {
         own.push((contact.gap, places[contact.gap]));
         places[contact.gap] += 1;
     }

@@ -16,7 +16,7 @@ fn held(text: &str, tolerances: &[f64]) -> Certified {
     let tree = serde_json::from_str(text).expect("a tree");
     let (input, motion) = read_text(&tree, Path::new("")).expect("a sound model");
     let mut certified = Certified::new(0, "test");
-    fill(&input, &motion, &every_run(tolerances), &mut certified).expect("a reference");
+    fill(&input, &motion, &every_run(None, tolerances), &mut certified).expect("a reference");
     certified
 }
 
@@ -209,7 +209,7 @@ fn rubber_columns_and_feet_that_rise_meet_the_reference() {
 
 /// A run of a random model, held to the reference at one tolerance.
 fn assert_within(seed: u64, number: u64, solver: Solver, tolerance: f64) {
-    let certified = certify(seed, number, &[(solver, tolerance)]);
+    let certified = certify(None, seed, number, &[(solver, tolerance)]);
     let run = &certified.runs[0];
     let quantities = run.truth.quantities.iter().zip(&run.errors);
     for (quantity, error) in quantities {
@@ -266,7 +266,7 @@ fn accelerations_at_corners_of_forces_meet_the_reference() {
 /// After an impact, accelerations must not oscillate from step to step.
 #[test]
 fn direct_accelerations_after_blows_meet_the_reference() {
-    let certified = certify(57, 20, &[(Solver::Riccati, 1e-2)]);
+    let certified = certify(None, 57, 20, &[(Solver::Riccati, 1e-2)]);
     let run = &certified.runs[0];
     let mut quantities = run.truth.quantities.iter().zip(&run.errors);
     let error = quantities

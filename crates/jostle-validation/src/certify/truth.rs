@@ -3,6 +3,7 @@
 use jostle::{GroundMotion, System};
 
 use super::quantities::{Quantity, quantities_of};
+use super::explicit::{self, Fineness};
 use super::reference::{Accuracy, Peaks, run};
 
 /// Share of a tolerance that the reference itself may be uncertain by.
@@ -47,11 +48,17 @@ pub(super) fn true_peaks(
     system: &System,
     [motion, perturbed]: [&GroundMotion; 2],
 ) -> Result<(Truth, Peaks), String> {
-    let peaks = run(system, motion, Accuracy::FINE)?;
-    let other = if system.contacts.is_empty() {
-        peaks.clone()
+    let (peaks, other) = if explicit::is_needed(system) {
+        let other = explicit::run(system, perturbed, Fineness::OTHER)?;
+        (explicit::run(system, motion, Fineness::FINE)?, other)
     } else {
-        run(system, perturbed, Accuracy::OTHER)?
+        let peaks = run(system, motion, Accuracy::FINE)?;
+        let other = if system.contacts.is_empty() {
+            peaks.clone()
+        } else {
+            run(system, perturbed, Accuracy::OTHER)?
+        };
+        (peaks, other)
     };
     let quantities = quantities_of(system, &peaks);
     let others = quantities_of(system, &other);

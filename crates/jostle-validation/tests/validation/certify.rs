@@ -9,9 +9,9 @@ const MODELS: u64 = 15;
 #[test]
 fn random_models_hold_the_tolerance() {
     // Riccati's recursion at 1e-4 would take most of the time.
-    let mut runs = certify::every_run(&certify::TOLERANCES);
+    let mut runs = certify::every_run(None, &certify::TOLERANCES);
     runs.retain(|run| *run != (Solver::Riccati, 1e-4));
-    let all = certify::study(MODELS, 1, None, &runs);
+    let all = certify::study(None, MODELS, 1, None, &runs);
     let mut shares = Vec::new();
     for (solver, least) in [("modal", 0.997), ("riccati", 0.997)] {
         let runs = all.iter().flat_map(|model| &model.runs);

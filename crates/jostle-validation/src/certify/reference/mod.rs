@@ -21,6 +21,7 @@ use super::linear::{Component, components};
 use super::phi::DEGREE;
 use contact_state::ContactState;
 use level::Level;
+pub(super) use peaks::BuildingPeaks;
 pub use peaks::Peaks;
 use polynomial::{NODES, Poly, ZERO, inverse};
 use watch::Watch;

@@ -2,6 +2,8 @@
 
 use jostle::System;
 
+use crate::certify::quantities::More;
+
 /// Peaks of a building.
 #[derive(Clone, Debug, Default)]
 pub struct BuildingPeaks {
@@ -19,6 +21,8 @@ pub struct BuildingPeaks {
     pub storey_shear: Vec<f64>,
     /// Greatest overturning moment about the base of every storey \[N·m\].
     pub moment: Vec<f64>,
+    /// What only buildings in plan, on bearings or on soil have.
+    pub more: Vec<More>,
 }
 
 /// What a reference run finds.
@@ -55,6 +59,7 @@ impl Peaks {
                 shear: 0.0,
                 storey_shear: none.clone(),
                 moment: none,
+                more: Vec::new(),
             }
         });
         Self {
