@@ -104,7 +104,8 @@ fn damping(random: &mut Random, storeys: usize) -> Value {
     let ratio = random.scaled(0.005, 0.1);
     match random.below(3) {
         0 => json!({"ratio": ratio, "modes": [1]}),
-        1 if storeys >= 3 => json!({"ratio": ratio, "modes": [1, 3]}),
+        // Higher modes may move too little mass to be counted as lateral.
+        1 if storeys >= 5 => json!({"ratio": ratio, "modes": [1, 3]}),
         _ => json!({"ratio": ratio}),
     }
 }

@@ -35,14 +35,14 @@ pub(super) fn draw(random: &mut Random) -> Value {
         };
         tree.insert("plan".into(), json!(plan));
         tree.insert("at".into(), json!(at));
-        let mut along = tree["stiffness"].as_array().cloned().unwrap_or_default();
-        let n = along.len();
+        let along = tree["stiffness"].as_array().cloned().unwrap_or_default();
+        let along: Vec<f64> = along.iter().filter_map(Value::as_f64).collect();
         let damped = damping(random, storeys(&tree));
         tree.insert("damping".into(), damped);
         if random.chance(0.5) {
             let each = along.iter().map(|k| {
-                let k = k.as_f64().unwrap_or(1e8);
-                json!({"x": k, "y": digits(k * random.between(0.7, 1.4))})
+                let y = digits(k * random.between(0.7, 1.4));
+                json!({"x": k, "y": y})
             });
             let each: Vec<Value> = each.collect();
             tree.insert("stiffness".into(), json!(each));
@@ -69,22 +69,15 @@ pub(super) fn draw(random: &mut Random) -> Value {
                 let at = [0, 1].map(|axis: usize| {
                     digits(corner[axis] + place[0] * axes[0][axis] + place[1] * axes[1][axis])
                 });
-                let each: Vec<Value> = along
-                    .iter_mut()
-                    .map(|k| {
-                        let k = k.as_f64().unwrap_or(1e8);
-                        json!({"x": digits(k * share[0]), "y": digits(k * share[1])})
-                    })
-                    .collect();
+                let [x, y] = share.map(|share| digits(along[0] * share));
                 let mut element = Map::new();
                 element.insert("at".into(), json!(at));
-                element.insert("stiffness".into(), json!(each));
+                element.insert("stiffness".into(), json!({"x": x, "y": y}));
                 if yields && random.chance(0.6) {
                     element.insert("hinges".into(), rule.clone());
                 }
                 elements.push(Value::Object(element));
             }
-            let _ = n;
             tree.insert("element".into(), json!(elements));
         }
         buildings.push(Value::Object(tree));
