@@ -23,7 +23,7 @@ usage: jostle-validation [--full] [--check] [--reference] [--pairs [FIRST LAST [
   --harmonic    writes docs/harmonic-pounding.md and its figures; takes minutes
   --certify N [--family NAME] [--seed S] [--only K] [--json FILE]  holds every promised number of N random models against a reference of
                 other means; FILE gets every ratio
-  --certify-report FILE …  writes the tables of docs/certify.md and its figure from such files
+  --certify-report FILE …  writes the tables of docs/certify.md and its figure from such files: those of families, those of others, or both
   --certify-dump K FOLDER [--family NAME] [--seed S]  writes random model K as a model file, with its record if it has one of its own
   --certify-file FILE [TOLERANCE …]  prints the reference of a model file, and how far both solvers are from it
   --bits [FAMILY …] [--write]  compares the results of many models with those on record, number by number, or records them
@@ -330,10 +330,26 @@ fn certify_report(paths: &[String]) -> ExitCode {
     }
     let place = in_crate("../../docs/certify.md");
     let old = std::fs::read_to_string(&place).map_err(|error| error.to_string());
-    match old.and_then(|old| record::page(&old, &records)) {
+    // Each part of the page is written from its own files; the other stays as it is.
+    let (families, others): (Vec<Record>, Vec<Record>) = records
+        .into_iter()
+        .partition(|record| record.family().is_some());
+    let page = old.and_then(|old| {
+        let page = match others.is_empty() {
+            true => old,
+            false => record::page(&old, &others)?,
+        };
+        match families.is_empty() {
+            true => Ok(page),
+            false => certify::families_page(&page, &families),
+        }
+    });
+    match page {
         Ok(page) => {
             let figure = in_crate("../../docs/figures/certify.svg");
-            if written(&figure, &record::figure(&records)) == ExitCode::FAILURE {
+            if !others.is_empty()
+                && written(&figure, &record::figure(&others)) == ExitCode::FAILURE
+            {
                 return ExitCode::FAILURE;
             }
             written(&place, &page)

@@ -52,6 +52,7 @@ pub fn describe(all: &[Certified]) -> String {
     let (mut runs, mut off, mut warned, mut warned_for_nothing) = (0, 0, 0, 0);
     let (mut cut, mut nothing) = (0, 0);
     let mut failures = Vec::new();
+    let mut alarms = String::new();
     for model in all {
         if let Some(why) = &model.failed {
             failures.push(format!("model {}: no reference: {why}", model.number));
@@ -65,6 +66,9 @@ pub fn describe(all: &[Certified]) -> String {
             }
             runs += 1;
             cut += usize::from(run.cut.is_some());
+            if run.false_alarm {
+                let _ = writeln!(alarms, "model {} {way}: false alarm", model.number);
+            }
             nothing += usize::from(run.truth.quantities.is_empty());
             let mut worst: (f64, usize) = (0.0, 0);
             for (k, (quantity, error)) in run.truth.quantities.iter().zip(&run.errors).enumerate() {
@@ -159,6 +163,7 @@ pub fn describe(all: &[Certified]) -> String {
             .entry(format!("{solver}: {}", why.join("…")))
             .or_default() += 1;
     }
+    text.push_str(&alarms);
     for (why, models) in refused {
         let _ = writeln!(text, "{models} models are refused by {why}");
     }

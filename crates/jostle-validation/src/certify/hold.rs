@@ -35,6 +35,8 @@ pub struct Held {
     pub got: Vec<f64>,
     /// Whether the run, cut if it was sensitive, warned that its peaks may be off.
     pub warned: bool,
+    /// Whether the run warned, or called itself sensitive, although all its numbers are certain and within the tolerance.
+    pub false_alarm: bool,
     /// Where the motion was cut, as the run was sensitive from there \[s\].
     pub cut: Option<f64>,
     /// Why it failed, if so.
@@ -128,6 +130,11 @@ pub(super) fn hold(
 ) -> Result<Held, String> {
     let mut run = ran(input, system, motion, solver, tolerance)?;
     let seconds = run.seconds;
+    let alarmed = warns(&run.summary) || run.summary.promise.sensitive_from_s.is_some();
+    let false_alarm = alarmed && run.failed.is_none() && {
+        let all = errors(truth, &values_of(&run.summary, system), tolerance);
+        all.iter().all(|error| error.is_some_and(|error| error <= tolerance))
+    };
     let mut truth = truth.clone();
     let mut cut = None;
     for _ in 0..MOST_CUTS {
@@ -168,6 +175,7 @@ pub(super) fn hold(
         truth,
         got,
         warned: warns(&run.summary),
+        false_alarm,
         cut,
         failed: run.failed,
         seconds,

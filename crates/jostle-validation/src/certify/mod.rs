@@ -25,6 +25,7 @@ mod describe;
 mod eigen;
 mod explicit;
 mod families;
+mod family_record;
 mod hold;
 mod laws;
 mod linear;
@@ -52,6 +53,7 @@ use serde_json::{Value, json};
 
 pub use describe::describe;
 pub use families::{FAMILIES, Family};
+pub use family_record::families_page;
 pub use hold::Held;
 use hold::hold;
 pub use models::{Drawn, draw};

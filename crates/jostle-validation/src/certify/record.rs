@@ -35,6 +35,9 @@ pub struct RunRecord {
     pub tolerance: f64,
     /// Whether the run warned that its peaks may be off.
     pub warned: bool,
+    /// Whether it warned, or called itself sensitive, although all its numbers are within the tolerance.
+    #[serde(default)]
+    pub false_alarm: bool,
     /// Where the motion was cut, as the run was sensitive from there \[s\].
     pub cut_s: Option<f64>,
     /// Promised numbers.
@@ -89,6 +92,7 @@ impl Record {
                     solver: run.solver.to_owned(),
                     tolerance: run.tolerance,
                     warned: run.warned,
+                    false_alarm: run.false_alarm,
                     cut_s: run.cut,
                     numbers: numbers.collect(),
                 });
@@ -127,8 +131,8 @@ pub fn closing_text(records: &[Record]) -> String {
     for (record, run, number, ratio) in &misses {
         let _ = writeln!(
             text,
-            "seed {} model {} {} at {:.0e}: {} {}, {ratio:.2} times",
-            record.seed, run.model, run.solver, run.tolerance, number.kind, number.name
+            "{}, seed {} model {} {} at {:.0e}: {} {}, {ratio:.2} times",
+            run.kind, record.seed, run.model, run.solver, run.tolerance, number.kind, number.name
         );
     }
     let (mut all, mut held, mut cut) = (0_usize, 0_usize, 0_usize);
@@ -149,18 +153,18 @@ pub fn closing_text(records: &[Record]) -> String {
 
 /// Shares of one row of a table.
 #[derive(Default)]
-struct Shares {
-    all: usize,
-    within: usize,
-    within_thrice: usize,
-    warned: usize,
-    silent: usize,
-    uncertain: usize,
-    worst: f64,
+pub(super) struct Shares {
+    pub(super) all: usize,
+    pub(super) within: usize,
+    pub(super) within_thrice: usize,
+    pub(super) warned: usize,
+    pub(super) silent: usize,
+    pub(super) uncertain: usize,
+    pub(super) worst: f64,
 }
 
 impl Shares {
-    fn add(&mut self, run: &RunRecord, ratio: Option<f64>) {
+    pub(super) fn add(&mut self, run: &RunRecord, ratio: Option<f64>) {
         let Some(ratio) = ratio else {
             self.uncertain += 1;
             return;
@@ -174,7 +178,7 @@ impl Shares {
     }
 }
 
-fn table(
+pub(super) fn table(
     text: &mut String,
     heading: &str,
     records: &[Record],
@@ -210,25 +214,34 @@ fn table(
 }
 
 /// Marks between which a page holds what is written here.
-const MARKS: [&str; 2] = [
+const MARKS: Marks = [
     "<!-- Written by `jostle-validation --certify-report`; do not edit up to the end mark. -->\n",
     "<!-- End of what `jostle-validation --certify-report` writes. -->\n",
 ];
+
+/// The first and the last line of a part of a page.
+pub(super) type Marks = [&'static str; 2];
+
+/// A page up to the first mark, and from the last mark on.
+pub(super) fn around<'a>(old: &'a str, marks: &Marks) -> Result<[&'a str; 2], String> {
+    let places = marks.map(|mark| old.find(mark));
+    let [Some(begin), Some(end)] = places else {
+        return Err(format!("the page lacks the marks {marks:?}"));
+    };
+    let from = begin + marks[0].len();
+    if end < from {
+        return Err("the end mark of the page comes before its beginning".to_owned());
+    }
+    Ok([&old[..from], &old[end..]])
+}
 
 /// A page with the tables and the figure of records between its marks.
 ///
 /// # Errors
 /// The page lacks the marks.
 pub fn page(old: &str, records: &[Record]) -> Result<String, String> {
-    let places = MARKS.map(|mark| old.find(mark));
-    let [Some(begin), Some(end)] = places else {
-        return Err(format!("the page lacks the marks {MARKS:?}"));
-    };
-    let from = begin + MARKS[0].len();
-    if end < from {
-        return Err("the end mark of the page comes before its beginning".to_owned());
-    }
-    let mut text = old[..from].to_owned();
+    let [before, after] = around(old, &MARKS)?;
+    let mut text = before.to_owned();
     let _ = writeln!(
         text,
         "\n{}. Errors are in tolerances, relative to the greatest of their kind in the building or gap.\n\n\
@@ -245,13 +258,18 @@ pub fn page(old: &str, records: &[Record]) -> Result<String, String> {
         format!("{}, {}", run.kind, run.solver)
     });
     table(&mut text, "law", records, |run, _| run.laws.clone());
+    close(&mut text, records);
+    text.push_str(after);
+    Ok(text)
+}
+
+/// Silent misses and failures.
+pub(super) fn close(text: &mut String, records: &[Record]) {
     let _ = writeln!(text, "```text\n{}", closing_text(records));
     for failure in records.iter().flat_map(|record| &record.failures) {
         let _ = writeln!(text, "{failure}");
     }
     text.push_str("```\n\n");
-    text.push_str(&old[end..]);
-    Ok(text)
 }
 
 /// Decades of error over tolerance, and of the share beyond, that the figure shows.
@@ -379,6 +397,7 @@ mod tests {
                 solver: "modal".to_owned(),
                 tolerance: 1e-3,
                 warned,
+                false_alarm: false,
                 cut_s: None,
                 numbers: numbers.collect(),
             }],

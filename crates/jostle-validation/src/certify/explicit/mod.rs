@@ -16,6 +16,8 @@ mod course;
 mod events;
 mod forces;
 mod slider;
+#[cfg(test)]
+mod tests;
 mod watch;
 
 use jostle::{GroundMotion, System};
