@@ -347,8 +347,7 @@ fn certify_report(paths: &[String]) -> ExitCode {
     match page {
         Ok(page) => {
             let figure = in_crate("../../docs/figures/certify.svg");
-            if !others.is_empty()
-                && written(&figure, &record::figure(&others)) == ExitCode::FAILURE
+            if !others.is_empty() && written(&figure, &record::figure(&others)) == ExitCode::FAILURE
             {
                 return ExitCode::FAILURE;
             }

@@ -90,9 +90,12 @@ pub fn families_page(old: &str, records: &[Record]) -> Result<String, String> {
         );
     }
     text.push('\n');
-    table(&mut text, "family, solver and tolerance", records, |run, _| {
-        format!("{}, {} at {:.0e}", run.kind, run.solver, run.tolerance)
-    });
+    table(
+        &mut text,
+        "family, solver and tolerance",
+        records,
+        |run, _| format!("{}, {} at {:.0e}", run.kind, run.solver, run.tolerance),
+    );
     table(&mut text, "quantity of families", records, |run, kind| {
         format!("{kind}, {}", run.solver)
     });
@@ -132,7 +135,8 @@ mod tests {
         assert_eq!(record.family(), Some("soil"));
         let old = format!("before\n{}old\n{}after\n", MARKS[0], MARKS[1]);
         let new = families_page(&old, &[record]).expect("a page");
-        let row = "| soil | 1 | 2 | 2 | 100.00 % | 100.00 % | 0 | 0 | 0 | 0.250× | 0 | 1 (50.0 %) |";
+        let row =
+            "| soil | 1 | 2 | 2 | 100.00 % | 100.00 % | 0 | 0 | 0 | 0.250× | 0 | 1 (50.0 %) |";
         assert!(new.contains(row), "{new}");
         assert!(new.starts_with("before\n") && new.ends_with("after\n"));
     }

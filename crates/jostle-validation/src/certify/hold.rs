@@ -133,7 +133,8 @@ pub(super) fn hold(
     let alarmed = warns(&run.summary) || run.summary.promise.sensitive_from_s.is_some();
     let false_alarm = alarmed && run.failed.is_none() && {
         let all = errors(truth, &values_of(&run.summary, system), tolerance);
-        all.iter().all(|error| error.is_some_and(|error| error <= tolerance))
+        all.iter()
+            .all(|error| error.is_some_and(|error| error <= tolerance))
     };
     let mut truth = truth.clone();
     let mut cut = None;

@@ -39,7 +39,9 @@ pub(super) const PLAN: [(&str, fn(&FloorInPlan) -> f64); 10] = [
     ("rotation max", |f| f.rotation_max_rad),
     ("rotation min", |f| f.rotation_min_rad),
     ("displacement of corners", |f| f.corner_displacement_peak_m),
-    ("acceleration across", |f| f.total_acceleration_across_peak_m_s2),
+    ("acceleration across", |f| {
+        f.total_acceleration_across_peak_m_s2
+    }),
     ("drift across", |f| f.storey_drift_across_peak),
     ("drift at corners", |f| f.storey_drift_corner_peak),
     ("storey shear across", |f| f.storey_shear_across_peak_n),
@@ -116,7 +118,10 @@ pub(super) fn quantities_of(system: &System, peaks: &Peaks) -> Vec<Quantity> {
             });
         }
     }
-    let contacts: Vec<_> = listed(system).iter().map(|c| &system.contacts[*c]).collect();
+    let contacts: Vec<_> = listed(system)
+        .iter()
+        .map(|c| &system.contacts[*c])
+        .collect();
     for (kind, values) in [
         ("contact force", &peaks.force),
         ("impulse", &peaks.impulse),

@@ -16,7 +16,13 @@ fn held(text: &str, tolerances: &[f64]) -> Certified {
     let tree = serde_json::from_str(text).expect("a tree");
     let (input, motion) = read_text(&tree, Path::new("")).expect("a sound model");
     let mut certified = Certified::new(0, "test");
-    fill(&input, &motion, &every_run(None, tolerances), &mut certified).expect("a reference");
+    fill(
+        &input,
+        &motion,
+        &every_run(None, tolerances),
+        &mut certified,
+    )
+    .expect("a reference");
     certified
 }
 

@@ -2,8 +2,8 @@
 
 use jostle::{GroundMotion, System};
 
-use super::quantities::{Quantity, quantities_of};
 use super::explicit::{self, Fineness};
+use super::quantities::{Quantity, quantities_of};
 use super::reference::{Accuracy, Peaks, run};
 
 /// Share of a tolerance that the reference itself may be uncertain by.

@@ -36,3 +36,35 @@ fn random_models_hold_the_tolerance() {
         "{shares:?}"
     );
 }
+
+/// Models drawn of every family with a reference of its own.
+const MODELS_OF_FAMILY: u64 = 3;
+
+#[test]
+fn random_models_of_every_family_hold_the_tolerance() {
+    for family in certify::FAMILIES {
+        let runs = certify::every_run(Some(family), &[1e-2, 1e-3]);
+        let all = certify::study(Some(family), MODELS_OF_FAMILY, 1, None, &runs);
+        let mut compared = 0;
+        for model in &all {
+            assert_eq!(model.failed, None, "{} {}", family.name, model.number);
+            assert!(!model.runs.is_empty(), "{} {}", family.name, model.number);
+            for run in &model.runs {
+                assert_eq!(run.failed, None, "{} {}", family.name, model.number);
+                for (quantity, error) in run.truth.quantities.iter().zip(&run.errors) {
+                    let Some(error) = error else { continue };
+                    assert!(
+                        *error <= run.tolerance,
+                        "{} {}, {} at {:.0e}: {quantity:?} is off by {error:e}",
+                        family.name,
+                        model.number,
+                        run.solver,
+                        run.tolerance
+                    );
+                    compared += 1;
+                }
+            }
+        }
+        assert!(compared > 150, "{}: only {compared} numbers", family.name);
+    }
+}

@@ -154,7 +154,10 @@ impl Bodies {
         for (index, building) in system.buildings.iter().enumerate() {
             let (own, offset) = (&building.equations, building.offset);
             if own.mass.iter().any(|mass| *mass <= 0.0) {
-                return Err(format!("\"{}\" has displacements without mass", building.name));
+                return Err(format!(
+                    "\"{}\" has displacements without mass",
+                    building.name
+                ));
             }
             if building.modal_damping.is_some() {
                 return Err("damping in all modes is not part of this".into());
@@ -192,14 +195,20 @@ impl Bodies {
                         rate,
                     }),
                     HysteresisRule::InPlan { .. } | HysteresisRule::Failing(_) => {
-                        return Err("bearings in plan and failing springs are not part of this".into());
+                        return Err(
+                            "bearings in plan and failing springs are not part of this".into()
+                        );
                     }
                     _ => SpringLaw::Rule(spring.hysteresis),
                 };
                 bodies.springs.push(Spring {
                     row,
                     law,
-                    delay: if spring.damped_by_tangent { own.beta } else { 0.0 },
+                    delay: if spring.damped_by_tangent {
+                        own.beta
+                    } else {
+                        0.0
+                    },
                 });
             }
         }

@@ -115,13 +115,7 @@ impl Run<'_> {
                 _ => {}
             }
         }
-        for (index, (link, phase)) in self
-            .bodies
-            .links
-            .iter()
-            .zip(&self.phases.links)
-            .enumerate()
-        {
+        for (index, (link, phase)) in self.bodies.links.iter().zip(&self.phases.links).enumerate() {
             if matches!(link.answer, Answer::Linear { .. }) {
                 continue;
             }
@@ -142,10 +136,19 @@ impl Run<'_> {
                 (Answer::Viscous { exponent, .. }, _) if *exponent != 1.0 => {
                     take(crossing(|s| course.rate(s)), What::Corner);
                 }
-                (Answer::Series { exponent, unknown, .. }, _) if *exponent != 1.0 => {
+                (
+                    Answer::Series {
+                        exponent, unknown, ..
+                    },
+                    _,
+                ) if *exponent != 1.0 => {
                     let force = Course::new(
                         [self.state.z[*unknown], self.forces.rates[*unknown], 0.0],
-                        [self.after.z[*unknown], self.after_forces.rates[*unknown], 0.0],
+                        [
+                            self.after.z[*unknown],
+                            self.after_forces.rates[*unknown],
+                            0.0,
+                        ],
                         h,
                     );
                     take(crossing(|s| force.value(s)), What::Corner);
@@ -186,7 +189,10 @@ impl Run<'_> {
             }
             What::Contact(index, next) => {
                 let contact = &self.bodies.contacts[index];
-                let (x, rate) = (along(&contact.row, u) - contact.width, along(&contact.row, v));
+                let (x, rate) = (
+                    along(&contact.row, u) - contact.width,
+                    along(&contact.row, v),
+                );
                 follow(&mut self.phases.contacts[index], next, x, rate);
             }
             What::Spring(index) => {

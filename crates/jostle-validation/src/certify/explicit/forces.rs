@@ -106,7 +106,12 @@ impl Bodies {
                 (SpringLaw::Rule(rule), SpringPhase::Rule(memory)) => {
                     if spring.delay > 0.0 {
                         let rate = along(&spring.row, v);
-                        let ahead = 1e-9 * rule.backbone().side(jostle::hysteresis::Side::Positive).yielding.deformation;
+                        let ahead = 1e-9
+                            * rule
+                                .backbone()
+                                .side(jostle::hysteresis::Side::Positive)
+                                .yielding
+                                .deformation;
                         let tangent = rule.respond(memory, x + ahead.copysign(rate)).tangent;
                         push(&spring.row, -spring.delay * tangent.max(0.0) * rate, load);
                     }

@@ -25,7 +25,7 @@ use jostle::{GroundMotion, System};
 use super::reference::Peaks;
 use bodies::{Bodies, record_steps};
 use forces::{Forces, Motion, Phases};
-use watch::Watch;
+use watch::{Taken, Watch};
 
 /// How fine.
 #[derive(Clone, Copy, Debug)]
@@ -72,7 +72,11 @@ pub(super) fn is_needed(system: &System) -> bool {
 ///
 /// # Errors
 /// Why there is no reference.
-pub(super) fn run(system: &System, motion: &GroundMotion, fineness: Fineness) -> Result<Peaks, String> {
+pub(super) fn run(
+    system: &System,
+    motion: &GroundMotion,
+    fineness: Fineness,
+) -> Result<Peaks, String> {
     let bodies = Bodies::new(system, fineness.widen)?;
     let mut run = Run::new(system, motion, &bodies, fineness);
     run.go()?;
@@ -196,7 +200,10 @@ impl<'a> Run<'a> {
         while self.time < duration - 1e-12 {
             self.steps += 1;
             if self.steps > MOST_STEPS {
-                return Err(format!("more than {MOST_STEPS} steps by {:.3} s", self.time));
+                return Err(format!(
+                    "more than {MOST_STEPS} steps by {:.3} s",
+                    self.time
+                ));
             }
             self.bodies.forces(
                 self.motion,
@@ -222,7 +229,11 @@ impl<'a> Run<'a> {
             let error = self.step(h);
             if !error.is_finite() || error > 1.0 && h > SHORTEST {
                 let factor = 0.9 * error.powf(-1.0 / 5.0);
-                wanted = h * if factor.is_finite() { factor.clamp(0.1, 0.9) } else { 0.1 };
+                wanted = h * if factor.is_finite() {
+                    factor.clamp(0.1, 0.9)
+                } else {
+                    0.1
+                };
                 if wanted < SHORTEST * 1e-3 {
                     return Err(format!("steps vanish at {:.9} s", self.time));
                 }
@@ -238,17 +249,20 @@ impl<'a> Run<'a> {
             }
             let reach = share * h;
             if reach > 0.0 {
-                self.watch.take_step(
-                    self.bodies,
-                    self.motion,
-                    self.time,
-                    reach,
-                    &self.phases,
-                    [&self.state, &self.after],
-                    [&self.forces, &self.after_forces],
-                );
+                let taken = Taken {
+                    time: self.time,
+                    step: reach,
+                    phases: &self.phases,
+                    states: [&self.state, &self.after],
+                    forces: [&self.forces, &self.after_forces],
+                };
+                self.watch.take_step(self.bodies, self.motion, &taken);
                 std::mem::swap(&mut self.state, &mut self.after);
-                self.time = if event.is_none() && to_end { end } else { self.time + reach };
+                self.time = if event.is_none() && to_end {
+                    end
+                } else {
+                    self.time + reach
+                };
                 self.commit();
             }
             at_once = if reach > 1e-13 { 0 } else { at_once + 1 };
@@ -261,7 +275,11 @@ impl<'a> Run<'a> {
                 let factor = 0.9 * error.max(1e-12).powf(-1.0 / 6.0);
                 let grown = h * factor.clamp(0.3, 4.0);
                 // A step cut short by the record says little about the next.
-                wanted = if to_end { wanted.max(grown.min(4.0 * h)) } else { grown };
+                wanted = if to_end {
+                    wanted.max(grown.min(4.0 * h))
+                } else {
+                    grown
+                };
             }
         }
         Ok(())

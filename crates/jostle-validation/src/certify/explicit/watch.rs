@@ -56,6 +56,17 @@ enum Count {
     Root,
 }
 
+/// A step that was taken.
+pub(super) struct Taken<'a> {
+    /// Instant of its start \[s\].
+    pub(super) time: f64,
+    pub(super) step: f64,
+    pub(super) phases: &'a Phases,
+    /// Motion and forces at both ends.
+    pub(super) states: [&'a Motion; 2],
+    pub(super) forces: [&'a Forces; 2],
+}
+
 pub(super) struct Watch {
     signals: Vec<Signal>,
     most: Vec<f64>,
@@ -144,17 +155,14 @@ impl Watch {
     }
 
     /// Takes a step in.
-    #[allow(clippy::too_many_arguments)]
-    pub(super) fn take_step(
-        &mut self,
-        bodies: &Bodies,
-        motion: &GroundMotion,
-        time: f64,
-        h: f64,
-        phases: &Phases,
-        states: [&Motion; 2],
-        forces: [&Forces; 2],
-    ) {
+    pub(super) fn take_step(&mut self, bodies: &Bodies, motion: &GroundMotion, taken: &Taken<'_>) {
+        let Taken {
+            time,
+            step: h,
+            phases,
+            states,
+            forces,
+        } = *taken;
         let n = bodies.len();
         Self::read(&self.signals, states[0], forces[0], &mut self.buffer[0]);
         Self::read(&self.signals, states[1], forces[1], &mut self.buffer[4]);
@@ -204,8 +212,7 @@ impl Watch {
         }
         for (impulse, place) in self.impulses.iter_mut().zip(&self.forces) {
             let y = self.buffer.each_ref().map(|own| own[*place]);
-            *impulse +=
-                h * (7.0 * (y[0] + y[4]) + 32.0 * (y[1] + y[3]) + 12.0 * y[2]) / 90.0;
+            *impulse += h * (7.0 * (y[0] + y[4]) + 32.0 * (y[1] + y[3]) + 12.0 * y[2]) / 90.0;
         }
     }
 
@@ -335,7 +342,9 @@ fn place(building: &BuildingSystem, signals: &mut Vec<Signal>) -> Place {
         )));
         base = floor.height;
     }
-    let not_soil = forces.iter().filter(|(dof, _)| sway.is_none_or(|own| own[0] != *dof));
+    let not_soil = forces
+        .iter()
+        .filter(|(dof, _)| sway.is_none_or(|own| own[0] != *dof));
     place.base = add(Signal::Restoring(
         not_soil.map(|(dof, _)| (*dof, 1.0)).collect(),
     ));
@@ -403,7 +412,9 @@ fn place_in_plan(building: &BuildingSystem, add: &mut impl FnMut(Signal) -> usiz
         })
     };
     let sum = |which: Direction, base: usize, arm: &dyn Fn(usize) -> f64| -> Row {
-        (base..n).map(|floor| (dof(which, floor), arm(floor))).collect()
+        (base..n)
+            .map(|floor| (dof(which, floor), arm(floor)))
+            .collect()
     };
     let mut place = Place {
         displacement: Vec::new(),
@@ -424,7 +435,9 @@ fn place_in_plan(building: &BuildingSystem, add: &mut impl FnMut(Signal) -> usiz
         place.displacement.push(add(one(x)));
         let [drift, across] = line(floor, [0.0; 2]);
         place.drift.push(add(Signal::Displacement(drift)));
-        place.acceleration.push(add(Signal::Acceleration(x, Some(0))));
+        place
+            .acceleration
+            .push(add(Signal::Acceleration(x, Some(0))));
         let height = |floor: usize| building.floors[floor].height - base;
         let shear = sum(Direction::Along, floor, &|_| 1.0);
         place.shear.push(add(Signal::Restoring(shear)));

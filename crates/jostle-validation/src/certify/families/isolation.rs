@@ -40,7 +40,10 @@ pub(super) fn draw(random: &mut Random) -> Value {
                 json!(fast)
             };
             own.insert("friction".into(), friction);
-            own.insert("slip_displacement".into(), json!(random.scaled(0.0005, 0.003)));
+            own.insert(
+                "slip_displacement".into(),
+                json!(random.scaled(0.0005, 0.003)),
+            );
         }
     }
     if own["kind"] != json!("linear") && random.chance(0.3) {

@@ -31,7 +31,11 @@ pub(super) fn draw(random: &mut Random) -> Value {
                 .filter(|_| random.chance(0.6))
                 .map(|floor| [floor - 1, floor])
                 .collect();
-            let pairs = if pairs.is_empty() { vec![[0, 1]] } else { pairs };
+            let pairs = if pairs.is_empty() {
+                vec![[0, 1]]
+            } else {
+                pairs
+            };
             link.insert("between".into(), json!([name, name]));
             link.insert("floors".into(), json!(pairs));
             inside.push(Value::Object(link));
@@ -50,7 +54,11 @@ pub(super) fn draw(random: &mut Random) -> Value {
         links.push(Value::Object(link));
     }
     let pounds = count == 2 && random.chance(0.5);
-    let gaps = if pounds { gaps(random, count, false) } else { Vec::new() };
+    let gaps = if pounds {
+        gaps(random, count, false)
+    } else {
+        Vec::new()
+    };
     json!({"motion": motion(random, periods[0], 15.0), "building": buildings, "gap": gaps, "link": links})
 }
 

@@ -56,7 +56,8 @@ impl Family {
     #[must_use]
     pub fn model(&self, seed: u64, number: u64) -> Drawn {
         let own = self.name.bytes().fold(0_u64, |sum, byte| {
-            sum.wrapping_mul(0x0100_0000_01b3).wrapping_add(u64::from(byte))
+            sum.wrapping_mul(0x0100_0000_01b3)
+                .wrapping_add(u64::from(byte))
         });
         let mut random = Random::new(seed ^ own, number);
         let mut tree = (self.draw)(&mut random);
