@@ -66,8 +66,8 @@ pub fn describe(all: &[Certified]) -> String {
             }
             runs += 1;
             cut += usize::from(run.cut.is_some());
-            if run.false_alarm {
-                let _ = writeln!(alarms, "model {} {way}: false alarm", model.number);
+            if let Some(why) = &run.false_alarm {
+                let _ = writeln!(alarms, "model {} {way}: false alarm: {why}", model.number);
             }
             nothing += usize::from(run.truth.quantities.is_empty());
             let mut worst: (f64, usize) = (0.0, 0);

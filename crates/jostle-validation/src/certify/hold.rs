@@ -35,8 +35,8 @@ pub struct Held {
     pub got: Vec<f64>,
     /// Whether the run, cut if it was sensitive, warned that its peaks may be off.
     pub warned: bool,
-    /// Whether the run warned, or called itself sensitive, although all its numbers are certain and within the tolerance.
-    pub false_alarm: bool,
+    /// What the run warned of, or that it called itself sensitive, although all its numbers are certain and within the tolerance.
+    pub false_alarm: Option<String>,
     /// Where the motion was cut, as the run was sensitive from there \[s\].
     pub cut: Option<f64>,
     /// Why it failed, if so.
@@ -55,6 +55,17 @@ fn warns(summary: &Summary) -> bool {
     });
     let said = summary.warnings.iter().chain(&summary.notes);
     met == Some(false) || said.into_iter().any(|text| text.contains("sensitive"))
+}
+
+/// What a summary says against its peaks.
+fn alarm(summary: &Summary) -> Option<String> {
+    if let Some(from) = summary.promise.sensitive_from_s {
+        return Some(format!("sensitive from {from:.3} s"));
+    }
+    let said = summary.warnings.iter().chain(&summary.notes);
+    let said = said.filter(|text| text.contains("sensitive") || text.contains("tolerance"));
+    let said: Vec<&str> = said.map(String::as_str).collect();
+    warns(summary).then(|| said.join("; "))
 }
 
 /// One run: its summary, why it failed, and its wall time \[s\].
@@ -130,12 +141,11 @@ pub(super) fn hold(
 ) -> Result<Held, String> {
     let mut run = ran(input, system, motion, solver, tolerance)?;
     let seconds = run.seconds;
-    let alarmed = warns(&run.summary) || run.summary.promise.sensitive_from_s.is_some();
-    let false_alarm = alarmed && run.failed.is_none() && {
+    let false_alarm = alarm(&run.summary).filter(|_| {
         let all = errors(truth, &values_of(&run.summary, system), tolerance);
-        all.iter()
-            .all(|error| error.is_some_and(|error| error <= tolerance))
-    };
+        let mut all = all.iter();
+        run.failed.is_none() && all.all(|error| error.is_some_and(|error| error <= tolerance))
+    });
     let mut truth = truth.clone();
     let mut cut = None;
     for _ in 0..MOST_CUTS {

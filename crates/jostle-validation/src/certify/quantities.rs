@@ -32,8 +32,11 @@ pub struct More {
     pub value: f64,
 }
 
+/// A kind of number of floors in plan, and where a summary has it.
+type OfFloor = (&'static str, fn(&FloorInPlan) -> f64);
+
 /// What floors in plan have beside what all floors have.
-pub(super) const PLAN: [(&str, fn(&FloorInPlan) -> f64); 10] = [
+pub(super) const PLAN: [OfFloor; 10] = [
     ("displacement across max", |f| f.displacement_across_max_m),
     ("displacement across min", |f| f.displacement_across_min_m),
     ("rotation max", |f| f.rotation_max_rad),

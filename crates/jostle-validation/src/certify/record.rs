@@ -67,7 +67,8 @@ impl Record {
         };
         for model in all {
             if let Some(why) = &model.failed {
-                let failure = format!("model {}: no reference: {why}", model.number);
+                let why = why.lines().next().unwrap_or_default();
+                let failure = format!("{} {}: no reference: {why}", model.kind, model.number);
                 record.failures.push(failure);
             }
             for run in &model.runs {
@@ -92,7 +93,7 @@ impl Record {
                     solver: run.solver.to_owned(),
                     tolerance: run.tolerance,
                     warned: run.warned,
-                    false_alarm: run.false_alarm,
+                    false_alarm: run.false_alarm.is_some(),
                     cut_s: run.cut,
                     numbers: numbers.collect(),
                 });

@@ -11,7 +11,8 @@ pub(super) fn draw(random: &mut Random) -> Value {
     let count = if random.chance(0.3) { 1 } else { 2 };
     let yields = random.chance(0.5);
     let (mut buildings, mut first) = (Vec::new(), None);
-    let mut edge = 0.0;
+    // The side of the first that the second meets: its place and its length.
+    let mut side = [0.0; 2];
     for k in 1..=count {
         let (mut tree, period) = shear(random, &format!("B{k}"), height, 4);
         first.get_or_insert(period);
@@ -25,13 +26,23 @@ pub(super) fn draw(random: &mut Random) -> Value {
             let (sin, cos) = f64::sin_cos(angle);
             plan = plan.map(|[x, y]| [digits(cos * x - sin * y), digits(sin * x + cos * y)]);
         }
-        let left = plan.iter().fold(f64::INFINITY, |m, at| m.min(at[0]));
-        let shift = digits(random.between(-3.0, 3.0));
         let at = if k == 1 {
-            edge = width;
+            side = [width, depth];
             [0.0, 0.0]
         } else {
-            [edge + room - left, shift]
+            let mut first = plan[0];
+            for corner in plan {
+                if corner[0] < first[0] {
+                    first = corner;
+                }
+            }
+            let across = if turned {
+                // The corner meets the side somewhere.
+                side[1] * random.between(0.1, 0.9) - first[1]
+            } else {
+                random.between(-3.0, 3.0)
+            };
+            [side[0] + room - first[0], digits(across)]
         };
         tree.insert("plan".into(), json!(plan));
         tree.insert("at".into(), json!(at));
