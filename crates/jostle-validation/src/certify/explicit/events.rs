@@ -231,6 +231,30 @@ impl Run<'_> {
         }
     }
 
+    /// Finds the lines on which springs with dashpots of their present stiffness go on from here.
+    pub(super) fn find_tangents(&mut self) {
+        /// What a spring that turns has gained in speed \[s\].
+        const SOON: f64 = 1e-7;
+        let springs = self.bodies.springs.iter().enumerate();
+        for (index, spring) in springs.filter(|(_, spring)| spring.delay > 0.0) {
+            let (SpringLaw::Rule(rule), SpringPhase::Rule(memory)) =
+                (&spring.law, &self.phases.springs[index])
+            else {
+                continue;
+            };
+            let turns = match self.forces.acceleration.is_empty() {
+                true => 0.0,
+                false => along(&spring.row, &self.forces.acceleration),
+            };
+            let rate = along(&spring.row, &self.state.v) + SOON * turns;
+            let side = Side::from_change(rate);
+            // Corners nearer than this have been passed.
+            let ahead = PASSED * rule.backbone().side(side).yielding.deformation;
+            let place = memory.deformation() + side.sign() * ahead;
+            self.phases.tangents[index] = rule.respond(memory, place).tangent;
+        }
+    }
+
     /// Commits the memories of what was deformed.
     pub(super) fn remember(&mut self) {
         for (spring, phase) in self.bodies.springs.iter().zip(&mut self.phases.springs) {

@@ -27,6 +27,8 @@ pub(super) enum LinkPhase {
 #[derive(Clone)]
 pub(super) struct Phases {
     pub(super) springs: Vec<SpringPhase>,
+    /// Slope of the line that every spring is on until the step ends.
+    pub(super) tangents: Vec<f64>,
     pub(super) links: Vec<LinkPhase>,
     pub(super) contacts: Vec<Option<Closed>>,
 }
@@ -45,6 +47,7 @@ impl Phases {
         });
         Self {
             springs: springs.collect(),
+            tangents: vec![0.0; bodies.springs.len()],
             links: links.collect(),
             contacts: vec![None; bodies.contacts.len()],
         }
@@ -100,20 +103,13 @@ impl Bodies {
                 - self.driven[1][k] * out.ground[1];
         }
         out.springs.clear();
-        for (spring, phase) in self.springs.iter().zip(&phases.springs) {
+        for (index, (spring, phase)) in self.springs.iter().zip(&phases.springs).enumerate() {
             let x = along(&spring.row, u);
             let force = match (&spring.law, phase) {
                 (SpringLaw::Rule(rule), SpringPhase::Rule(memory)) => {
                     if spring.delay > 0.0 {
-                        let rate = along(&spring.row, v);
-                        let ahead = 1e-9
-                            * rule
-                                .backbone()
-                                .side(jostle::hysteresis::Side::Positive)
-                                .yielding
-                                .deformation;
-                        let tangent = rule.respond(memory, x + ahead.copysign(rate)).tangent;
-                        push(&spring.row, -spring.delay * tangent.max(0.0) * rate, load);
+                        let dashpot = spring.delay * phases.tangents[index].max(0.0);
+                        push(&spring.row, -dashpot * along(&spring.row, v), load);
                     }
                     rule.respond(memory, x).force
                 }

@@ -205,6 +205,7 @@ impl<'a> Run<'a> {
                     self.time
                 ));
             }
+            self.find_tangents();
             self.bodies.forces(
                 self.motion,
                 self.time,
