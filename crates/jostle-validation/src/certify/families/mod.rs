@@ -95,6 +95,8 @@ fn shear(random: &mut Random, name: &str, height: f64, most: usize) -> (Map<Stri
     tree.insert("name".into(), json!(name));
     tree.insert("kind".into(), json!("shear"));
     tree.insert("storey_height".into(), json!(height));
+    // Else what yields has P-Delta.
+    tree.insert("p_delta".into(), json!(false));
     tree.insert("mass".into(), json!(masses));
     tree.insert("stiffness".into(), json!(springs));
     (tree, period)
