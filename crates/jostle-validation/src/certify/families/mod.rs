@@ -62,6 +62,8 @@ impl Family {
         let mut random = Random::new(seed ^ own, number);
         let mut tree = (self.draw)(&mut random);
         tree["title"] = json!(format!("{} {number} of seed {seed}", self.name));
+        // Runs go on where storeys drift by more than a tenth.
+        tree["analysis"] = json!({"collapse_drift": 0.25});
         Drawn {
             tree,
             kind: self.name,
