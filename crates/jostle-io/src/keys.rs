@@ -258,6 +258,15 @@ impl Kind {
     }
 
     /// Whether values are quantities, or hold some that no table inside has a key for.
+    /// The range of a key of one of some sections.
+    pub(crate) fn range_of(sections: &[Section], key: &str) -> Option<&'static Range> {
+        let key = keys_of(sections).find(|known| known.name == key)?;
+        match &key.usual {
+            Usual::Within(range) => Some(range),
+            Usual::NoQuantity | Usual::Any(_) => None,
+        }
+    }
+
     #[cfg(test)]
     pub(crate) fn is_quantity(self) -> bool {
         let of_many_units = matches!(

@@ -3,11 +3,10 @@
 use serde::Serialize;
 
 use crate::ModelTree;
-use crate::keys::{Key, Kind, Section, keys_of};
+use crate::keys::{Key, Kind, Section, keys_of, range_of};
 use crate::quantity::{Dimension, split_number};
 use crate::reader::join;
 use crate::tree::{Node, Value};
-use crate::unusual::range_of;
 
 /// One key of a model file.
 #[derive(Clone, Debug, PartialEq, Serialize)]

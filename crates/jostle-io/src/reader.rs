@@ -2,12 +2,12 @@
 
 use crate::fault::{Fault, InputError};
 use crate::grade::{ConcreteGrade, cylinder_strength};
-use crate::keys::{Section, keys_of};
+use crate::keys::{Section, keys_of, range_of};
 use crate::nearest::nearest;
 use crate::quantity::{Dimension, check_magnitude, parse_quantity, shorten};
 use crate::source::{Source, Span};
 use crate::tree::{Node, Table, Value};
-use crate::unusual::{Accepted, Range, Verdict, Written, range_of};
+use crate::unusual::{Accepted, Range, Verdict, Written};
 use jostle::linear::sort_by_key;
 
 /// Faults of a file that are kept; beyond that, they are counted.

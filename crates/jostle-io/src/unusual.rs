@@ -1,7 +1,6 @@
 //! Usual ranges of quantities: every reader of models warns outside the usual range, and refuses values that only a
 //! wrong unit can explain. The numbers stand beside the keys.
 
-use crate::keys::{Section as S, keys_of};
 use crate::quantity::Dimension::{self as D};
 use crate::quantity::{parse_quantity, show_number, split_number, unit_size};
 use crate::record::GREATEST_ACCELERATION;
@@ -78,15 +77,6 @@ fn usual_units(dimension: D) -> &'static [&'static str] {
         D::Damping => &["kN.s/m", "MN.s/m"],
         D::Time => &["ms", "s"],
         _ => &[],
-    }
-}
-
-/// The range of a key of one of some sections.
-pub(crate) fn range_of(sections: &[S], key: &str) -> Option<&'static Range> {
-    let key = keys_of(sections).find(|known| known.name == key)?;
-    match &key.usual {
-        Usual::Within(range) => Some(range),
-        Usual::NoQuantity | Usual::Any(_) => None,
     }
 }
 

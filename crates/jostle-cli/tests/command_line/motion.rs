@@ -339,8 +339,17 @@ fn a_folder_names_the_records_in_it() {
 
 #[cfg(unix)]
 #[test]
-fn endless_files_are_read_to_their_limit_only() {
+fn endless_files_are_refused_and_long_ones_read_to_their_limit_only() {
     let folder = folder();
+    // Holes take no place on the disk.
+    let long = |name: &str, mebibytes: u64| {
+        let file = std::fs::File::create(folder.path().join(name)).expect("created");
+        file.set_len((mebibytes << 20) + 1)
+            .expect("as long as that");
+    };
+    long("record", 64);
+    long("model.toml", 16);
+    long("target.csv", 1);
     let said = |arguments: &[&str]| {
         let output = jostle(folder.path(), arguments);
         assert_eq!(output.status.code(), Some(2), "{}", complained(&output));
@@ -348,16 +357,20 @@ fn endless_files_are_read_to_their_limit_only() {
     };
     assert_eq!(
         said(&["motion", "show", "/dev/zero"]),
-        "error: /dev/zero: has more than 64 MiB, the most that a record may have; cut the record, or export one component as columns of text\n"
+        "error: /dev/zero: is a device, not a file\n"
     );
-    let text = said(&["run", "/dev/zero"]);
+    assert_eq!(
+        said(&["motion", "show", "record"]),
+        "error: record: has more than 64 MiB, the most that a record may have; cut the record, or export one component as columns of text\n"
+    );
+    let text = said(&["run", "model.toml"]);
     assert!(text.contains("more than 16 MiB"), "{text}");
     let text = said(&[
         "motion",
         "synth",
         "spectrum",
         "--target",
-        "/dev/zero",
+        "target.csv",
         "-o",
         "wave.csv",
     ]);

@@ -1101,6 +1101,7 @@ messages! {
     fragility_of(event) = "Fragility: {event}";
     bands_hold(method, percent, fits, left_out) = "{method} Bands hold {percent} % of {fits} resampled fits.{left_out}";
     bands_of_few_records(method, percent, fits, records, left_out) = "{method} Bands hold {percent} % of {fits} resampled fits with {records} distinct record(s): how much other records would differ is not in them, which is usually the greatest part. Take seven records or more.{left_out}";
+    median_outside_of_intensities = "the median lies outside of the intensities computed";
     extrapolated = ", outside of the intensities computed";
     probability_of(event) = "Probability of {event}";
     probability_axis = "probability";

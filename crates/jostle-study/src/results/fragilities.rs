@@ -261,7 +261,7 @@ fn parameters(wanted: &FragilityWanted, fitted: &[Fitted]) -> Vec<(String, Value
                             format!("{} demands of zero or less are left out", one.zeros)
                         }
                         Ok(_) if one.is_extrapolated() => {
-                            "the median lies outside of the intensities computed".to_owned()
+                            message::median_outside_of_intensities().to_owned()
                         }
                         Ok(_) => String::new(),
                     })
