@@ -258,15 +258,6 @@ impl Kind {
     }
 
     /// Whether values are quantities, or hold some that no table inside has a key for.
-    /// The range of a key of one of some sections.
-    pub(crate) fn range_of(sections: &[Section], key: &str) -> Option<&'static Range> {
-        let key = keys_of(sections).find(|known| known.name == key)?;
-        match &key.usual {
-            Usual::Within(range) => Some(range),
-            Usual::NoQuantity | Usual::Any(_) => None,
-        }
-    }
-
     #[cfg(test)]
     pub(crate) fn is_quantity(self) -> bool {
         let of_many_units = matches!(
@@ -1055,4 +1046,13 @@ pub(crate) const KEYS: &[Key] = &[
 /// The keys of some sections, in order.
 pub(crate) fn keys_of(sections: &[Section]) -> impl Iterator<Item = &'static Key> {
     KEYS.iter().filter(|key| sections.contains(&key.section))
+}
+
+/// The range of a key of one of some sections.
+pub(crate) fn range_of(sections: &[Section], key: &str) -> Option<&'static Range> {
+    let key = keys_of(sections).find(|known| known.name == key)?;
+    match &key.usual {
+        Usual::Within(range) => Some(range),
+        Usual::NoQuantity | Usual::Any(_) => None,
+    }
 }
