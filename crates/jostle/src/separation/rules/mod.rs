@@ -485,19 +485,21 @@ mod tests {
             [
                 "UBC-97",
                 "EN 1998-1",
+                "ASCE 7-16",
                 "TBDY 2018",
                 "IS 1893",
                 "NTC 2018",
-                "E.030"
+                "E.030",
+                "Standard 2800"
             ]
         );
         assert_eq!(found.left_out[1].needs, "behaviour_factor of \"Low\"");
-        let full = required_gaps(&pair, &CodeInputs::default());
+        let full = required_gaps(&pair, &moment_frames());
         assert_eq!(full.left_out.len(), 1);
         let with_soil = CodeInputs {
             zone_factor: Some(0.45),
             soil_factor: Some(1.05),
-            ..CodeInputs::default()
+            ..moment_frames()
         };
         // 0.02 · 0.45 · 1.05 · 16 m = 151.2 mm.
         assert_eq!(width(&pair, &with_soil, "E.030-2026"), 151.2);
