@@ -3,7 +3,7 @@
 use jostle::results::summary::{Finding, Grade};
 use maud::{Markup, html};
 
-use crate::{Page, message};
+use crate::{Page, format, message};
 
 /// The section on the first page.
 pub(crate) fn section(page: &Page) -> Markup {
@@ -30,9 +30,9 @@ fn item(finding: &Finding) -> Markup {
         Grade::Warning => message::warning(),
     };
     html! {
-        li.(finding.grade.word()) {
+        li data-grade=(finding.grade.word()) {
             b { (grade) } " " (message::what_was_found(&finding.text, finding.id)) " "
-            span.quiet { (message::what_to_do(finding.remedy)) }
+            span.quiet { (message::what_to_do(format::capital(finding.remedy))) }
         }
     }
 }

@@ -376,11 +376,7 @@ fn title(page: &Page) -> String {
     if !page.summary.walls.is_empty() {
         parts.push(message::walls());
     }
-    let text = parts.join(", ");
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| {
-        first.to_uppercase().chain(letters).collect()
-    })
+    format::capital(&parts.join(", "))
 }
 
 fn sentence(name: &str, isolation: &Isolation, result: &IsolationSummary) -> String {

@@ -192,6 +192,14 @@ pub(crate) fn unit(number: String, unit: &str) -> String {
 
 pub(crate) use jostle::statics::STANDARD_GRAVITY;
 
+/// A text as it begins a sentence.
+pub(crate) fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next();
+    let first = first.into_iter().flat_map(char::to_uppercase);
+    first.chain(letters).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

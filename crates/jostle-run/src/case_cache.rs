@@ -137,10 +137,7 @@ impl CaseCache {
 
 /// Whether two models make the same system: what is said about steps and the title makes no difference.
 fn same(a: &Model, b: &Model) -> bool {
-    a.buildings == b.buildings
-        && a.gaps == b.gaps
-        && a.links == b.links
-        && a.analysis.collapse_drift == b.analysis.collapse_drift
+    a.buildings == b.buildings && a.gaps == b.gaps && a.links == b.links
 }
 
 /// Whether two models differ only in the widths of their gaps and in the differences that [`same`] allows.

@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use jostle::contact::{SlabMaterial, StiffnessRange, advised_range};
+use jostle::judgement::advised_stiffness;
 use jostle::results::contact_sensitivity::{
     BuildingChange, ContactSensitivity, ContactVariant, GapSpread, RangeEnd, VariantResult,
 };
 use jostle::results::summary::{BuildingSummary, FloorSummary};
-use jostle::{Gap, LawKind, Model, Plan, RunEnd, Summary, System};
+use jostle::{LawKind, Model, Plan, RunEnd, Summary, System};
 
 use crate::observer::{Observer, Stage};
 use crate::prepared::Prepared;
@@ -101,7 +101,7 @@ const LEAST_RESTITUTION: f64 = 0.05;
 
 fn change(model: &mut Model, system: &System, variant: ContactVariant) {
     for (index, gap) in model.gaps.iter_mut().enumerate() {
-        let range = range_of(system, index, gap);
+        let range = advised_stiffness(system, index, gap);
         let law = &mut gap.law;
         law.stiffness = match variant.stiffness {
             None => law.stiffness,
@@ -116,15 +116,6 @@ fn change(model: &mut Model, system: &System, variant: ContactVariant) {
             law.restitution = changed.clamp(least, 1.0_f64.max(law.restitution));
         }
     }
-}
-
-/// The advised range of stiffness of a gap, for the pair of floors with the greatest effective mass.
-fn range_of(system: &System, index: usize, gap: &Gap) -> Option<StiffnessRange> {
-    let own = system.contacts.iter().filter(|own| own.gap == index);
-    let heaviest = own.max_by(|a, b| a.effective_mass().total_cmp(&b.effective_mass()))?;
-    let masses = heaviest.struck_masses();
-    let range = advised_range(gap.law.kind, [SlabMaterial::default(); 2], masses)?;
-    (!gap.in_plan.per_length).then_some(range)
 }
 
 fn in_words(variant: ContactVariant) -> String {

@@ -99,6 +99,7 @@ fn run(system: &System, frequency: f64, cycles: [usize; 2]) -> (jostle::Outcome,
         solver: Solver::Riccati,
         vertical: false,
         is_given: true,
+        collapse_drift: jostle::model::COLLAPSE_DRIFT,
     };
     let settings = Settings {
         record_interval: Some(0.0),

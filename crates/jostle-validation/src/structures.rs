@@ -161,6 +161,7 @@ pub(crate) fn uniform(step: f64) -> Plan {
         solver: Solver::Riccati,
         vertical: false,
         is_given: true,
+        collapse_drift: jostle::model::COLLAPSE_DRIFT,
     }
 }
 

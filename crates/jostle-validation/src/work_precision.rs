@@ -56,6 +56,7 @@ fn fixed(step: f64, division: u32) -> Plan {
         solver: Solver::Riccati,
         vertical: false,
         is_given: true,
+        collapse_drift: jostle::model::COLLAPSE_DRIFT,
     }
 }
 

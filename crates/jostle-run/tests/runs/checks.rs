@@ -760,6 +760,8 @@ width = "50 mm"
     ] {
         assert!(checks.contains(word), "{word}");
     }
+    // Nothing remains at the end of a run that has none.
+    assert!(!is_found(&summary.checks, "residual-drift"));
     let terminal = jostle_run::summary_text(&summary, &ran.prepared.input);
     let lines = |word: &str| {
         terminal

@@ -270,16 +270,22 @@ fn accelerations_at_corners_of_forces_meet_the_reference() {
 }
 
 /// Dashpots of the present stiffness jump where a storey comes to another line, near the peak of an acceleration: both sides of the jump
-/// count, and what lies beyond the end of a step does not. The power series meet the reference to 1e-9 there.
+/// count, and what lies beyond the end of a step does not. The power series meet the reference to 1e-9 there. Closings of a gap that
+/// stays open are read between steps, to the tolerance.
 #[test]
 fn dashpots_of_the_present_stiffness_jump_as_the_reference_says() {
     let family = Family::named("yielding");
-    let certified = certify(family, 102, 11, &[(Solver::Series, 1e-5)]);
+    let tolerance = 1e-5;
+    let certified = certify(family, 102, 11, &[(Solver::Series, tolerance)]);
     let run = &certified.runs[0];
     for (quantity, error) in run.truth.quantities.iter().zip(&run.errors) {
         let error = error.expect("a certain reference");
         let name = format!("{} {}", quantity.kind, quantity.name);
-        assert!(error < 1e-6, "{name}: {error:e}");
+        let allowed = match quantity.kind {
+            "closing" => tolerance,
+            _ => 1e-8,
+        };
+        assert!(error < allowed, "{name}: {error:e}");
     }
 }
 

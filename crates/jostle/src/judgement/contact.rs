@@ -1,23 +1,25 @@
 //! A7 and A8: stiffness and restitution of contacts.
 
 use super::{Known, Tally, sides};
-use crate::contact::{LawKind, RestitutionIs, SlabMaterial, advised_range};
+use crate::contact::{LawKind, RestitutionIs, SlabMaterial, StiffnessRange, advised_range};
+use crate::model::Gap;
+use crate::system::System;
 
-/// Contact stiffness over the end of the advised range that it is beyond; 1 within. Of every gap the pair of floors with the
-/// greatest effective mass counts.
+/// Range of the contact stiffness of a gap between bare floors, for its pair of floors with the greatest effective mass; `None` for
+/// laws of bumpers and of velocities, and for stiffnesses per length of a face \[N/m^1.5 or N/m\].
+#[must_use]
+pub fn advised_stiffness(system: &System, index: usize, gap: &Gap) -> Option<StiffnessRange> {
+    let own = system.contacts.iter().filter(|own| own.gap == index);
+    let heaviest = own.max_by(|a, b| a.effective_mass().total_cmp(&b.effective_mass()));
+    let contact = heaviest.filter(|_| !gap.in_plan.per_length)?;
+    let materials = [SlabMaterial::default(); 2];
+    advised_range(gap.law.kind, materials, contact.struck_masses())
+}
+
+/// Contact stiffness over the end of the advised range that it is beyond; 1 within.
 pub(super) fn contact_stiffness(known: &Known<'_>, tally: &mut Tally<'_>) {
     for (index, gap) in known.model.gaps.iter().enumerate() {
-        let own = known.system.contacts.iter();
-        let own = own.filter(|contact| contact.gap == index);
-        let heaviest = own.max_by(|a, b| a.effective_mass().total_cmp(&b.effective_mass()));
-        let Some(contact) = heaviest.filter(|_| !gap.in_plan.per_length) else {
-            continue;
-        };
-        let Some(range) = advised_range(
-            gap.law.kind,
-            [SlabMaterial::default(); 2],
-            contact.struck_masses(),
-        ) else {
+        let Some(range) = advised_stiffness(known.system, index, gap) else {
             continue;
         };
         let stiffness = gap.law.stiffness;

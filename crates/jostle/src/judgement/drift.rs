@@ -1,7 +1,8 @@
 //! B2 and B8: drifts of storeys, at their peak and at the end.
 
+use super::yielding::structure_yields;
 use super::{Known, Tally};
-use crate::model::Structure;
+use crate::results::summary::Summary;
 
 /// Greatest drift of storeys, in space at corners as well.
 pub(super) fn peak(known: &Known<'_>, tally: &mut Tally<'_>) {
@@ -29,14 +30,14 @@ pub(super) fn peak(known: &Known<'_>, tally: &mut Tally<'_>) {
     }
 }
 
-/// Drift at the end of buildings that yield; elastic ones are still swinging.
+/// Drift at the end of buildings that yield; elastic ones are still swinging, and a run that ended early has no end.
 pub(super) fn residual(known: &Known<'_>, tally: &mut Tally<'_>) {
-    let Some((summary, _)) = known.results else {
+    let complete = |(summary, _): &(&Summary, _)| summary.ended_early.is_none();
+    let Some((summary, _)) = known.results.filter(complete) else {
         return;
     };
     for (model, own) in known.model.buildings.iter().zip(&summary.buildings) {
-        let in_plan = matches!(&model.structure, Structure::Tiers(tiers) if tiers.may_yield());
-        if model.hinges.is_none() && !in_plan {
+        if !structure_yields(model) {
             continue;
         }
         for floor in &own.floors {

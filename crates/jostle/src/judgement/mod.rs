@@ -23,6 +23,7 @@ use crate::results::summary::{Finding, Grade, Summary};
 use crate::separation::CodeInputs;
 use crate::system::System;
 
+pub use contact::advised_stiffness;
 pub use mass::floor_masses;
 pub use silence::{named, names};
 pub use table::{CHECKS, JUDGEMENT};

@@ -8,7 +8,7 @@ use crate::model::{Building, Hinges, STANDARD_GRAVITY, Structure};
 const YIELD_DRIFT: f64 = 0.01;
 
 /// Whether storeys or members of a building can yield, not its base alone.
-fn structure_yields(building: &Building) -> bool {
+pub(super) fn structure_yields(building: &Building) -> bool {
     building.hinges.is_some()
         || matches!(&building.structure, Structure::Tiers(tiers) if tiers.may_yield())
 }

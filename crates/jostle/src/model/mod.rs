@@ -582,8 +582,8 @@ pub struct Analysis {
     pub link_motion: bool,
 }
 
-/// Default of [`Analysis::collapse_drift`]. Members keep their strength and equilibrium is that of small drifts: past 10 % neither
-/// holds, and a building that comes so far does not come back in tests or in fuller models \[–\].
+/// Default of [`Analysis::collapse_drift`], by judgement: members keep their strength here, and equilibrium is that of small drifts;
+/// past 10 % neither can be relied on \[–\].
 pub const COLLAPSE_DRIFT: f64 = 0.1;
 
 /// Default bound on the work of a run: some hours of computing \[–\].

@@ -39,6 +39,8 @@ pub struct Plan {
     pub vertical: bool,
     /// Whether steps were given: then they are those of the run, and the tolerance does not refine them.
     pub is_given: bool,
+    /// Storey drift beyond which a building that yields has collapsed \[–\].
+    pub collapse_drift: f64,
 }
 
 /// Number of parts of a free-vibration step while a contact is closed.
@@ -184,6 +186,7 @@ impl Plan {
             solver,
             vertical: motion.is_vertical(),
             is_given: analysis.step.is_some() || analysis.contact_step.is_some(),
+            collapse_drift: analysis.collapse_drift,
         };
         if faults.is_empty() {
             faults.extend(too_long(&plan, system, motion, analysis));

@@ -123,7 +123,6 @@ impl System {
         }
         let mut system = Self::of_buildings(buildings);
         system.walls = walls;
-        system.collapse_drift = model.analysis.collapse_drift;
         system.join(&row, model)?;
         let places = system.buildings.iter().enumerate();
         let places: Vec<_> = places
@@ -161,7 +160,6 @@ impl System {
             soil_links: 0,
             members_followed: Vec::new(),
             links_followed: Vec::new(),
-            collapse_drift: model.analysis.collapse_drift,
             ratings: Vec::new(),
             walls: self.walls.clone(),
             rigid_walls: Vec::new(),

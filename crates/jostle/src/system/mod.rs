@@ -15,7 +15,7 @@ mod weakening;
 use std::ops::Range;
 
 use crate::interface::{Contact, DofRow, EdgeEnd, Friction, LinkElement, Port, PortPair};
-use crate::model::{COLLAPSE_DRIFT, LEVEL_TOLERANCE, WALL};
+use crate::model::{LEVEL_TOLERANCE, WALL};
 
 pub use building::{BuildingSystem, Corner, Direction, Floor, SpringSupport, Track};
 pub(crate) use grounds::{GroundsAt, OverStep, RunGrounds};
@@ -56,8 +56,6 @@ pub struct System {
     pub members_followed: Vec<[usize; 2]>,
     /// Links whose strokes and speeds are recorded over time.
     pub links_followed: Vec<usize>,
-    /// Storey drift beyond which a building that yields has collapsed \[–\].
-    pub collapse_drift: f64,
     /// Members whose demand is compared with their capacity.
     pub ratings: Vec<MemberRating>,
     /// Walls of the model, in its order.
@@ -113,7 +111,6 @@ impl System {
             soil_links: 0,
             members_followed: Vec::new(),
             links_followed: Vec::new(),
-            collapse_drift: COLLAPSE_DRIFT,
             ratings: Vec::new(),
             walls: Vec::new(),
             rigid_walls: Vec::new(),

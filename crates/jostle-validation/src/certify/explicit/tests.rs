@@ -76,7 +76,7 @@ fn a_plastic_mass_under_a_sine_slides_as_far_as_the_closed_form_says() {
         r#"{{"motion": {{"kind": "sine", "amplitude": {amplitude}, "period": {period}, "duration": 0.9}},
         "building": [{{"name": "A", "kind": "shear", "mass": [{mass}], "stiffness": [{stiffness:e}],
         "damping": {{"alpha": 0, "beta": 0}},
-        "hinges": {{"rule": "bilinear", "yield": {yields:e}, "post_yield": 0}}}}]}}"#
+        "p_delta": false, "hinges": {{"rule": "bilinear", "yield": {yields:e}, "post_yield": 0}}}}]}}"#
     );
     let got = peaks(&text).buildings[0].least[0];
     // Elastic until it yields, then free under the ground and the yield force, to the instant of rest.

@@ -529,12 +529,7 @@ impl Stepper for Direct {
         self.recorder.after_step(run.system, &instant, step);
         self.follow_members(run);
         self.record(run, was_closed);
-        check_collapse(
-            run.system,
-            &self.recorder.floors,
-            &self.recorder.drifts,
-            run.time,
-        )
+        check_collapse(run, &self.recorder.floors, &self.recorder.drifts)
     }
 
     fn slip(&self, run: &RunState<'_>, contact: usize) -> [f64; 2] {

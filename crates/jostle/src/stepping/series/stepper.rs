@@ -568,7 +568,7 @@ impl Stepper for SeriesStepper {
         }
         self.audit.look(kinetic, strain);
         self.record(run, was_closed);
-        check_collapse(run.system, &self.peaks.floors, &[], run.time)
+        check_collapse(run, &self.peaks.floors, &[])
     }
 
     fn before_touch(&mut self, run: &RunState<'_>, contact: usize, rate: f64) {

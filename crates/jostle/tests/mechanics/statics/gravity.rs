@@ -63,6 +63,7 @@ fn a_building_with_cracked_hinges_stays_at_rest() {
         integrator: Default::default(),
         vertical: false,
         is_given: true,
+        collapse_drift: jostle::model::COLLAPSE_DRIFT,
     };
     let outcome = simulate(&system, &motion, &plan, Settings::default(), |_| {
         std::ops::ControlFlow::Continue(())

@@ -269,6 +269,7 @@ fn a_run_by_products_repeats_a_run_by_riccati_where_it_may() {
             solver,
             vertical: false,
             is_given: true,
+            collapse_drift: jostle::model::COLLAPSE_DRIFT,
         };
         let outcome = simulate(&system, &motion, &plan, Settings::default(), |_| {
             ControlFlow::Continue(())

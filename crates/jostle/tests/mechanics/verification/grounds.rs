@@ -68,6 +68,7 @@ fn run_for_balance(system: &System, motion: &GroundMotion, solver: Solver) -> Ou
     };
     let plan = Plan {
         is_given: true,
+        collapse_drift: jostle::model::COLLAPSE_DRIFT,
         ..planned(system, motion, &analysis)
     };
     completed(system, motion, &plan, Settings::default().record_interval)

@@ -201,6 +201,7 @@ pub(crate) fn steps(step: f64, division: u32) -> Plan {
         solver: Solver::Riccati,
         vertical: false,
         is_given: true,
+        collapse_drift: jostle::model::COLLAPSE_DRIFT,
     }
 }
 
