@@ -9,7 +9,6 @@ import pickle
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
@@ -523,11 +522,16 @@ def _base_of(model: Model) -> _Base:
     return (str(name), str(text), bool(is_json), str(folder))
 
 
-@lru_cache(maxsize=4)
+#: The study that this process computes parts of, by its bytes.
+_shared: dict[bytes, Study] = {}
+
+
 def _read_study(share: bytes) -> Study:
     """A study from its bytes, read once by every process."""
-    study: Study = pickle.loads(share)
-    return study
+    if share not in _shared:
+        _shared.clear()
+        _shared[share] = pickle.loads(share)
+    return _shared[share]
 
 
 def _compute(share: bytes, folder: str, part: int, parts: int) -> int:
