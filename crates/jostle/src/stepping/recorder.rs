@@ -277,7 +277,7 @@ impl Recorder {
         } = *instant;
         let (u, v) = (&state.displacement, &state.velocity);
         let start = state.time - step;
-        self.parts.set_time(state.time);
+        self.parts.begin(start, state.time);
         self.sharp.begin(state.time);
         let mut floor_of_all = 0;
         let mut before = self.before.iter();
@@ -400,6 +400,7 @@ impl Recorder {
     /// Updates peaks with accelerations that have jumped.
     pub(crate) fn after_jump(&mut self, system: &System, state: &State, grounds: GroundsAt<'_>) {
         self.sharp.forget();
+        self.parts.begin_jump();
         let mut floor_of_all = 0;
         let buildings = system.buildings.iter().zip(&mut self.floors);
         for (index, (building, floors)) in buildings.enumerate() {

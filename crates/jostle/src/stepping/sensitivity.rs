@@ -8,6 +8,7 @@ use super::outcome::{Observer, Outcome, Progress, RunEnd};
 use super::peak_change::{change_of_peaks, impacts};
 use super::plan::Plan;
 use super::simulate::simulate_like;
+use crate::history::FloorPeaks;
 use crate::interface::Contact;
 use crate::model::Solver;
 use crate::motion::GroundMotion;
@@ -94,8 +95,8 @@ fn sensitive_from(
     let contacts = changed.contacts.iter_mut().zip(&outcome.closing);
     for ((contact, closing), near_miss) in contacts.zip(&near_misses) {
         let change = if *near_miss { -narrower } else { wider };
-        let sway = SWAY * greatest_displacement(contact, outcome);
-        contact.width += change * contact.width.max(closing.value).max(sway);
+        let scale = closing_scale(contact, closing.value, &outcome.floors);
+        contact.width += change * contact.width.max(scale);
     }
     let other = simulate_like(outcome, &changed, motion, plan, shapes, observer);
     if other.end != RunEnd::Completed {
@@ -111,13 +112,19 @@ fn sensitive_from(
     earliest.or(doubtful).or(first.min_by(f64::total_cmp))
 }
 
+/// What errors of the closing of a contact are relative to: its greatest closing, or a tenth of the displacement of its
+/// floors if that is more \[m\].
+pub(super) fn closing_scale(contact: &Contact, closing: f64, floors: &[Vec<FloorPeaks>]) -> f64 {
+    closing.max(SWAY * greatest_displacement(contact, floors))
+}
+
 /// Greatest displacement of the floors of a contact, or of their buildings if it lies between floors \[m\].
-fn greatest_displacement(contact: &Contact, outcome: &Outcome) -> f64 {
+fn greatest_displacement(contact: &Contact, floors: &[Vec<FloorPeaks>]) -> f64 {
     let sides = contact.ports.buildings().into_iter();
     let sides = sides.zip(contact.ports.floors());
     sides
         .filter_map(|(building, floor)| {
-            let floors = &outcome.floors[building?];
+            let floors = &floors[building?];
             let met = floor.map_or(&floors[..], |floor| &floors[floor - 1..floor]);
             let sizes = met
                 .iter()

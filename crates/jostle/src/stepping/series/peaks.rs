@@ -143,7 +143,7 @@ impl SeriesPeaks {
         let series = &segment.series;
         let step = series.step;
         let offset = building.offset;
-        self.parts.set_time(start + step);
+        self.parts.begin(start, start + step);
         let [u, v, a, jerk] =
             [0, 1, 2, 3].map(|kind| [&segment.start[kind][..], &segment.end[kind][..]]);
         let shaken = [ground[0], ground[0] + ground[1] * step];
@@ -168,8 +168,7 @@ impl SeriesPeaks {
             let total = accelerates(dof);
             let exact = || acceleration(dof);
             follow(&mut peaks.total_acceleration, total, step, exact);
-            self.parts
-                .take(first_floor + number, total[0].0.abs().max(total[1].0.abs()));
+            self.parts.take(first_floor + number, total[1].0.abs());
             let lower = below.map_or([(0.0, 0.0); 2], moves);
             let drift = [0, 1].map(|side| {
                 let (own, lower): ((f64, f64), (f64, f64)) = (ends[side], lower[side]);
@@ -320,6 +319,7 @@ impl SeriesPeaks {
 
     /// Adds accelerations that have jumped.
     pub(super) fn after_jump(&mut self, system: &System, acceleration: &[f64], ground: f64) {
+        self.parts.begin_jump();
         let floors = self.floors.iter_mut();
         for ((building, floors), first) in
             system.buildings.iter().zip(floors).zip(&self.first_floor)

@@ -25,6 +25,7 @@ use crate::stepping::plan::Plan;
 use crate::stepping::predicted_force::{AHEAD, PredictedForce};
 use crate::stepping::recorder::{Instant, Recorder, greatest_in_step};
 use crate::stepping::runner::{ContactTrial, Jump, RunState, Runner, Stepper};
+use crate::stepping::sensitivity::closing_scale;
 use crate::system::System;
 
 /// Displacements of all buildings, and their motion over the tried step.
@@ -139,8 +140,11 @@ impl SeriesStepper {
     /// Estimated error of peaks: by parabolas of contact forces, relative to the greatest of their gap, and by cubics of closings.
     fn residual(&self, run: &RunState<'_>) -> f64 {
         let closings = self.closing_error.iter().zip(&self.peaks.closing);
-        let relative =
-            closings.map(|(error, closing)| error / closing.value.max(f64::MIN_POSITIVE));
+        let closings = closings.zip(&run.system.contacts);
+        let relative = closings.map(|((error, closing), contact)| {
+            let scale = closing_scale(contact, closing.value, &self.peaks.floors);
+            error / scale.max(f64::MIN_POSITIVE)
+        });
         let forces = self.force_error.iter().zip(&run.strongest);
         let forces = forces.map(|(error, strongest)| error / strongest.max(f64::MIN_POSITIVE));
         relative.chain(forces).fold(0.0, f64::max)
