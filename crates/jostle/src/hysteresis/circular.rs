@@ -15,9 +15,12 @@
 //! only force is what the tangent [a b; b c] has off its diagonal: springs a + b, c + b and −b.
 
 use super::backbone::{Backbone, Corners, Quantity, Side, SpringFault};
-use super::friction::{Rates, SLIPS, Strength};
+use super::friction::{Rates, Strength};
 use super::memory::{HysteresisMemory, Response};
 use super::rule::{Hysteresis, HysteresisRule};
+
+/// Forces within this of the strength slip \[–\].
+const SLIPS: f64 = 1e-9;
 
 /// Which row of a force in plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -131,8 +134,9 @@ impl CircularForce {
         let held = before[0].hypot(before[1]);
         let start = strength.at(first[0].hypot(first[1]))[0];
         let slipped = held >= (1.0 - SLIPS) * start && dot(before, first) > 0.0;
-        let turned = slipped && dot(before, last) < 0.0;
-        let (before, path, start, stiffness) = if turned {
+        let turns = dot(before, first) > 0.0 && dot(before, last) < 0.0;
+        let mut divided = None;
+        if turns {
             let share = dot(before, first) / (dot(before, first) - dot(before, last));
             let step = rates[0].step;
             let until = [0, 1].map(|axis| {
@@ -140,13 +144,20 @@ impl CircularForce {
             });
             let speed = [0, 1].map(|axis| first[axis] + share * (last[axis] - first[axis]));
             let there = strength.at(speed[0].hypot(speed[1]))[0];
-            let force = self.turn(before, until, [start, there]);
+            let elastic = [0, 1].map(|axis| before[axis] + k * until[axis]);
+            let reached = elastic[0].hypot(elastic[1]);
+            let force = if slipped {
+                Some(self.turn(before, until, [start, there]))
+            } else {
+                // The circle comes inwards to a force that held.
+                (reached > there).then(|| elastic.map(|force| force * there / reached))
+            };
             let rest = [0, 1].map(|axis| path[axis] - until[axis]);
             let slope = 1.0 - 0.5 * step * per_deformation * share * share;
-            (force, rest, there, k * slope.max(0.0))
-        } else {
-            (before, path, start, k)
-        };
+            divided = force.map(|force| (force, rest, there, k * slope.max(0.0)));
+        }
+        let turned = divided.is_some();
+        let (before, path, start, stiffness) = divided.unwrap_or((before, path, start, k));
         let speed = last[0].hypot(last[1]);
         let [end, by_speed] = strength.at(speed);
         let trial = [0, 1].map(|axis| before[axis] + k * path[axis]);
