@@ -2,6 +2,7 @@
 
 mod checks;
 mod comparison;
+mod damage;
 mod given;
 mod indentation;
 mod member_capacity;

@@ -520,6 +520,19 @@ impl Hysteresis {
         }
     }
 
+    /// Whether a way through these deformations moves a peak of a spring whose peaks damage moves further.
+    pub(crate) fn is_damaged_on_the_way(&self, memory: &HysteresisMemory, way: &[f64]) -> bool {
+        let HysteresisRule::Pinched(pinching) = &self.rule else {
+            return false;
+        };
+        let end = || {
+            way.iter()
+                .fold(*memory, |memory, to| self.respond(&memory, *to).memory)
+        };
+        let damage = pinching.ductility_damage + pinching.energy_damage;
+        damage > 0.0 && end().peaks != memory.peaks
+    }
+
     /// Slope of the spring after a reversal at the present point \[N·m/rad or N/m\].
     #[must_use]
     pub fn unloading_stiffness(&self, memory: &HysteresisMemory) -> f64 {

@@ -67,10 +67,13 @@ impl SpringLine {
             } else {
                 here + side.sign() * yielding(side)
             };
-            (end, spring.answer(memory, probe, &Rates::default())[1])
+            let tangent = spring.answer(memory, probe, &Rates::default())[1];
+            (end, tangent, probe)
         };
-        let (end, tangent) = ahead(towards);
-        let (other_end, other_tangent) = ahead(towards.opposite());
+        let (end, tangent, on_it) = ahead(towards);
+        let (other_end, other_tangent, on_the_other) = ahead(towards.opposite());
+        // Where the force is zero, each passage leaves its mark on a spring with damage, whatever the slopes.
+        let leaves_marks = spring.is_damaged_on_the_way(memory, &[on_it, on_the_other, on_it]);
         let apart = (tangent - other_tangent).abs();
         let ends = match towards {
             Side::Negative => [end, other_end],
@@ -81,7 +84,8 @@ impl SpringLine {
             force: memory.force(),
             tangent,
             towards,
-            both_ways: apart <= SAME_SLOPE * tangent.abs().max(other_tangent.abs()),
+            both_ways: !leaves_marks
+                && apart <= SAME_SLOPE * tangent.abs().max(other_tangent.abs()),
             ends,
             greatest: [
                 -memory.greatest(Side::Negative),
