@@ -8,7 +8,7 @@ use jostle::results::summary::{BuildingSummary, ContactSummary, GapSummary, Impa
 use maud::{Markup, html};
 
 use crate::message;
-use crate::verdict::place;
+use crate::verdict::{is_outside, place};
 use crate::{Page, format};
 
 /// Most impacts in the table; the strongest are kept.
@@ -142,6 +142,7 @@ fn title(quantity: &Quantity<FloorResponse>, shown: Shown) -> &'static str {
     match quantity.name {
         "displacement_peak_m" => message::displacement(),
         "total_acceleration_peak_m_s2" => message::total_acceleration(),
+        "filtered_acceleration_peak_m_s2" => message::filtered_acceleration(),
         "storey_drift_peak" => message::storey_drift(),
         "storey_shear_peak_n" => message::storey_shear(),
         "overturning_moment_peak_n_m" => message::overturning_moment(),
@@ -152,16 +153,18 @@ fn title(quantity: &Quantity<FloorResponse>, shown: Shown) -> &'static str {
 /// Peaks of every floor and of the storey below it, with and without contact: one folded table for each building.
 pub(crate) fn peaks(page: &Page) -> Markup {
     html! {
-        @for (index, building) in page.summary.buildings.iter().enumerate() {
-            details.peaks {
+        @for building in &page.summary.buildings {
+            details.peaks.muted[is_outside(building)] {
                 summary { (message::peaks_of_in_numbers(&building.name)) }
-                (peaks_of(building, page.filtered.get(index).map(Vec::as_slice)))
+                @if is_outside(building) { p { b { (message::outside_the_model()) } } }
+                (peaks_of(building))
             }
         }
     }
 }
 
-fn peaks_of(building: &BuildingSummary, filtered: Option<&[f64]>) -> Markup {
+fn peaks_of(building: &BuildingSummary) -> Markup {
+    let filtered = building.response.filtered_acceleration_peak_m_s2.is_some();
     let compared = building.floors.iter().any(|f| f.without_contact.is_some());
     html! {
         div.scroll {
@@ -172,9 +175,6 @@ fn peaks_of(building: &BuildingSummary, filtered: Option<&[f64]>) -> Markup {
                         th.number scope="col" rowspan=[compared.then_some("2")] { (message::height()) br; span.unit { "[m]" } }
                         @for (quantity, shown) in peaks_shown() {
                             th.number scope="colgroup" colspan=[compared.then_some("2")] { (title(quantity, shown)) br; span.unit { "[" (shown.unit) "]" } }
-                        }
-                        @if filtered.is_some() {
-                            th.number scope="col" rowspan=[compared.then_some("2")] { (message::filtered_acceleration()) br; span.unit { "[m/s²]" } }
                         }
                     }
                     @if compared {
@@ -192,9 +192,6 @@ fn peaks_of(building: &BuildingSummary, filtered: Option<&[f64]>) -> Markup {
                                     td.number { (peak_cell(quantity, shown, floor.without_contact.as_ref())) }
                                 }
                             }
-                            @if let Some(filtered) = filtered {
-                                td.number { (filtered.get(floor.floor - 1).map_or(format::NOTHING.into(), |peak| format::fixed(*peak, 2))) }
-                            }
                         }
                     }
                 }
@@ -204,7 +201,7 @@ fn peaks_of(building: &BuildingSummary, filtered: Option<&[f64]>) -> Markup {
             (message::greatest_absolute_values())
             @if compared { (message::with_and_without_contact()) }
             (message::drift_and_shear_are_those())
-            @if filtered.is_some() { (message::the_filter_of_floor_spectra()) }
+            @if filtered { (message::the_filter_of_floor_spectra()) }
         }
     }
 }

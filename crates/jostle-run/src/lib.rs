@@ -13,6 +13,8 @@ mod collide;
 mod comparison;
 mod contact_advice;
 mod contact_sensitivity;
+mod isolation_bounds;
+mod variants;
 mod critical_gap;
 mod error;
 mod files;

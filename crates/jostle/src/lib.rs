@@ -111,7 +111,7 @@ pub use contact::{ContactLaw, LawKind, RestitutionIs};
 pub use history::{Column, EnergyTerm, History, Impact};
 pub use interface::{UnmatchedFloors, floor_and_height, sticking_stiffness};
 pub use model::{
-    Analysis, Axial, Base, Building, Damping, FloorPairs, Foundation, FoundationSprings, Frame,
+    Analysis, Axial, Base, BearingBounds, BearingFactors, Building, Damping, FloorPairs, Foundation, FoundationSprings, Frame,
     FrameHinges, Gap, Given, Gravity, HalfSpace, Hinges, Integrator, Isolation, Isolator,
     IsolatorDamping, Joint, JointRequest, Level, Link, LinkLaw, MemberRequest, Model, ModelFault,
     PlanArea, PlanAxis, PlanContact, PlanFrame, PlanPoint, PlanSpring, ProportionalDamping,

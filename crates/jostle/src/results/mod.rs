@@ -3,6 +3,7 @@
 mod capacity;
 pub mod comparison;
 pub mod contact_sensitivity;
+pub mod isolation_bounds;
 mod counted_impact;
 pub mod floor_spectra;
 mod foundation;
