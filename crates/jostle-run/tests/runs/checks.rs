@@ -157,7 +157,7 @@ fn models() -> Vec<(&'static str, String, String)> {
         ),
         ("modal-damping", damped(0.0101), damped(0.0099)),
         ("modal-damping", damped(0.099), damped(0.101)),
-        ("damping-with-hinges", yields_with(0.03), yields_with(0.0301)),
+        ("damping-with-hinges", yields_with(0.0349), yields_with(0.0351)),
         ("rigid-columns", rigid(5, 2.99), rigid(5, 3.01)),
         ("rigid-columns", rigid(10, 1.4), rigid(11, 1.3)),
         (

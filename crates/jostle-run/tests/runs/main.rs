@@ -4,6 +4,8 @@ mod checks;
 mod comparison;
 mod given;
 mod indentation;
+mod isolation_bounds;
+mod tall_frames;
 mod member_capacity;
 mod registry;
 mod shear_failure;

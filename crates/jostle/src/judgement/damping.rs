@@ -56,8 +56,6 @@ pub(super) fn damping_with_hinges(known: &Known<'_>, tally: &mut Tally<'_>) {
         if mode > 1 || !structure_yields(building) {
             return;
         }
-        // Rayleigh coefficients give the stated ratio but for rounding.
-        let ratio = (1e9 * ratio).round() / 1e9;
         tally.add(ratio, || {
             let text = format!(
                 "{} yields with {:.1} % of critical damping in its first mode: what yielding dissipates comes on top",

@@ -101,7 +101,7 @@ pub const CHECKS: &[Check] = &[
         name: "damping-with-hinges",
         quantity: "share of critical damping of the first lateral mode of a building that yields",
         unit: "–",
-        limits: &[above(0.03, Note)],
+        limits: &[above(0.035, Note)],
         sources: &[JUDGEMENT],
         remedy: "write damping = { ratio = 0.03 } or less where hinges dissipate",
         measure: damping::damping_with_hinges,
