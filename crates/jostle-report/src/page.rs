@@ -70,7 +70,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                 }
                 main {
                     @if let Some(why) = &outside { p.outside role="alert" { b { (message::outside_the_model()) } " " (why) } }
-                    p.verdict.muted[outside.is_some()] { (headline) }
+                    p.verdict.muted[outside.is_some()] { @if page.summary.ended_early.is_some() { (message::until_the_run_ended()) " " } (headline) }
                     (tiles(page))
                     (checks::section(page))
                     (bounds::section(page))

@@ -131,9 +131,17 @@ fn restitution_note(page: &Page) -> Markup {
     }
 }
 
-/// Numbers of a floor, and how they are shown.
-fn peaks_shown() -> impl Iterator<Item = (&'static Quantity<FloorResponse>, Shown)> {
-    let quantities = FloorResponse::QUANTITIES.iter();
+/// Numbers of the floors of a building, and how they are shown; without those that no floor has.
+fn peaks_shown(
+    building: &BuildingSummary,
+) -> impl Iterator<Item = (&'static Quantity<FloorResponse>, Shown)> + '_ {
+    let has = |quantity: &Quantity<FloorResponse>| {
+        let mut floors = building.floors.iter();
+        floors.any(|floor| quantity.value(&floor.response).is_some())
+    };
+    let quantities = FloorResponse::QUANTITIES
+        .iter()
+        .filter(move |own| has(own));
     quantities.filter_map(|quantity| Some((quantity, quantity.shown?)))
 }
 
@@ -173,12 +181,12 @@ fn peaks_of(building: &BuildingSummary) -> Markup {
                     tr {
                         th scope="col" rowspan=[compared.then_some("2")] { (message::floor()) }
                         th.number scope="col" rowspan=[compared.then_some("2")] { (message::height()) br; span.unit { "[m]" } }
-                        @for (quantity, shown) in peaks_shown() {
+                        @for (quantity, shown) in peaks_shown(building) {
                             th.number scope="colgroup" colspan=[compared.then_some("2")] { (title(quantity, shown)) br; span.unit { "[" (shown.unit) "]" } }
                         }
                     }
                     @if compared {
-                        tr { @for _ in peaks_shown() { th.number scope="col" { (message::with_word()) } th.number scope="col" { (message::without()) } } }
+                        tr { @for _ in peaks_shown(building) { th.number scope="col" { (message::with_word()) } th.number scope="col" { (message::without()) } } }
                     }
                 }
                 tbody {
@@ -186,7 +194,7 @@ fn peaks_of(building: &BuildingSummary) -> Markup {
                         tr {
                             th scope="row" { (floor.floor) }
                             td.number { (format::fixed(floor.height_m, 2)) }
-                            @for (quantity, shown) in peaks_shown() {
+                            @for (quantity, shown) in peaks_shown(building) {
                                 td.number { (peak_cell(quantity, shown, Some(&floor.response))) }
                                 @if compared {
                                     td.number { (peak_cell(quantity, shown, floor.without_contact.as_ref())) }

@@ -471,6 +471,7 @@ messages! {
     assumptions_and_limits = "Assumptions and limits of this result";
     outside_the_model = "Outside the model: no basis for design.";
     results_are_outside(drifts, limit) = "{drifts}. Beyond {limit} members lose strength that this model keeps, and geometry is no longer that of small drifts. Results in grey say that the building is badly damaged or lost, not how badly.";
+    until_the_run_ended = "Until the run ended:";
     drift_of(name, drift) = "{name} drifts {drift}";
 
     // bounds

@@ -38,7 +38,7 @@ impl BuildingResponse {
     pub const QUANTITIES: &[Quantity<Self>] = &[
         Quantity::<Self>::real("drift_peak", Unit::NONE, "greatest drift ratio of any storey", |b| b.drift_peak).in_study().compared(),
         Quantity::<Self>::real("total_acceleration_peak_m_s2", Unit::M_S2, "greatest total acceleration of any floor", |b| b.total_acceleration_peak_m_s2).in_study().compared(),
-        Quantity::<Self>::optional("filtered_acceleration_peak_m_s2", Unit::M_S2, "the same below 25 Hz, or the corner of floor spectra: what contact stiffness hardly changes; null without histories", |b| b.filtered_acceleration_peak_m_s2),
+        Quantity::<Self>::optional("filtered_acceleration_peak_m_s2", Unit::M_S2, "the same below 25 Hz, or the corner of floor spectra; null without histories", |b| b.filtered_acceleration_peak_m_s2),
         Quantity::<Self>::real("residual_drift_peak", Unit::NONE, "greatest drift ratio of any storey at the end", |b| b.residual_drift_peak).in_study().compared(),
         Quantity::<Self>::real("base_shear_peak_n", Unit::N, "greatest elastic base shear", |b| b.base_shear_peak_n).in_study().compared(),
         Quantity::<Self>::real("residual_roof_displacement_m", Unit::M, "roof displacement at the end", |b| b.residual_roof_displacement_m).in_study().compared(),
@@ -98,7 +98,7 @@ impl FloorResponse {
         Quantity::<Self>::real("displacement_min_at_s", Unit::S, "its instant", |f| f.displacement_min_at_s),
         Quantity::<Self>::real("displacement_peak_m", Unit::M, "greatest displacement, either sign", Self::displacement_peak_m).not_in_summary().compared().shown("displacement", "mm", 1e3, 1),
         Quantity::<Self>::real("total_acceleration_peak_m_s2", Unit::M_S2, "greatest total acceleration", |f| f.total_acceleration_peak_m_s2).in_study().compared().shown("total acceleration", "m/s²", 1.0, 2),
-        Quantity::<Self>::optional("filtered_acceleration_peak_m_s2", Unit::M_S2, "the same below 25 Hz, or the corner of floor spectra: what contact stiffness hardly changes; null without histories", |f| f.filtered_acceleration_peak_m_s2).shown("total acceleration, filtered", "m/s²", 1.0, 2),
+        Quantity::<Self>::optional("filtered_acceleration_peak_m_s2", Unit::M_S2, "the same below 25 Hz, or the corner of floor spectra; null without histories", |f| f.filtered_acceleration_peak_m_s2).shown("total acceleration, filtered", "m/s²", 1.0, 2),
         Quantity::<Self>::real("storey_drift_peak", Unit::NONE, "greatest drift ratio of the storey", |f| f.storey_drift_peak).in_study().compared().shown("storey drift", "%", 100.0, 2),
         Quantity::<Self>::real("storey_shear_peak_n", Unit::N, "greatest shear of the storey: the horizontal restoring forces above its base", |f| f.storey_shear_peak_n).in_study().compared().shown("storey shear", "kN", 1e-3, 1),
         Quantity::<Self>::real("overturning_moment_peak_n_m", Unit::NM, "greatest moment of these forces about the base of the storey", |f| f.overturning_moment_peak_n_m).in_study().compared().shown("overturning moment", "kN·m", 1e-3, 0),
