@@ -200,16 +200,21 @@ fn space_frame(tiers: &Tiers) -> String {
 
 /// Whether the columns of a frame shorten, and why; `None` if it is not known whether the file says so.
 fn axial_of_columns(frame: &Frame, is_stated: Option<bool>) -> String {
-    let (height, width): (f64, f64) = (
-        frame.storey_heights.iter().sum(),
-        frame.spans.iter().sum(),
-    );
+    let (height, width): (f64, f64) = (frame.storey_heights.iter().sum(), frame.spans.iter().sum());
     let what = match frame.axial.columns_flexible {
         true => "columns shorten under axial force",
         false => "columns keep their length",
     };
-    let limit = format!("{} times as high as wide or {} storeys", Frame::SLENDER, Frame::TALL);
-    let why = match (is_stated, frame.axial.columns_flexible, frame.tallness() > 1.0) {
+    let limit = format!(
+        "{} times as high as wide or {} storeys",
+        Frame::SLENDER,
+        Frame::TALL
+    );
+    let why = match (
+        is_stated,
+        frame.axial.columns_flexible,
+        frame.tallness() > 1.0,
+    ) {
         (Some(true), ..) => ", as stated".to_owned(),
         (Some(false), true, _) => format!(", the default above {limit}"),
         (Some(false), false, true) => ": no EA, or a foundation on soil".to_owned(),

@@ -65,8 +65,8 @@ pub(crate) fn run(
         looked = Instant::now();
         // The time of the runs for sensitivity would begin at zero again.
         let observer = observer.as_ref();
-        let observer = observer
-            .filter(|_| matches!(stage, Stage::Pounding | Stage::WithoutContact));
+        let observer =
+            observer.filter(|_| matches!(stage, Stage::Pounding | Stage::WithoutContact));
         match Python::attach(|py| heed(py, observer, progress)) {
             Ok(()) => ControlFlow::Continue(()),
             Err(error) => {

@@ -1,7 +1,8 @@
 //! `[building.isolation]`: bearings under a building, and the mat on them.
 
 use jostle::{
-    BearingBounds, BearingFactors, Isolation, Isolator, IsolatorDamping, PlanPoint, SpeedFriction, Stop,
+    BearingBounds, BearingFactors, Isolation, Isolator, IsolatorDamping, PlanPoint, SpeedFriction,
+    Stop,
 };
 
 use super::plan::pair;
@@ -91,7 +92,11 @@ fn bounds(reader: &mut Reader<'_>, view: &View<'_>, kind: &'static str) -> Optio
     let view = reader.open(&field, &[Section::IsolationBounds])?;
     let [lower, upper] = [("lower", "0.85"), ("upper", "1.3")].map(|(key, example)| {
         let Some(field) = reader.get(&view, key) else {
-            reader.missing(&view, key, format!("add {key} = {example}, or the factor of your supplier or code"));
+            reader.missing(
+                &view,
+                key,
+                format!("add {key} = {example}, or the factor of your supplier or code"),
+            );
             return None;
         };
         factors(reader, &field, kind)
@@ -129,7 +134,9 @@ fn factors(
         if !has(key) {
             *reader.bad(&field, format!("is not a property of kind = \"{kind}\"")) = Some(
                 match key {
-                    "stiffness" => "the stiffness of a pendulum is its weight over its radius; leave it out",
+                    "stiffness" => {
+                        "the stiffness of a pendulum is its weight over its radius; leave it out"
+                    }
                     _ => "linear bearings have no yield force; leave it out",
                 }
                 .into(),

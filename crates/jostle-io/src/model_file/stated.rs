@@ -5,8 +5,8 @@ use jostle::judgement::{StatedBuilding, named, names};
 use jostle_section::StrengthLevel;
 use jostle_section::formula::Member;
 
-use super::reinforced::ReinforcedMember;
 use super::assumptions::{STIFFEST_CONCRETE, as_table, factor, number};
+use super::reinforced::ReinforcedMember;
 use crate::grade::parse_concrete;
 use crate::keys::Section;
 use crate::nearest::nearest;

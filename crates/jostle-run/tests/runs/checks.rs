@@ -157,7 +157,11 @@ fn models() -> Vec<(&'static str, String, String)> {
         ),
         ("modal-damping", damped(0.0101), damped(0.0099)),
         ("modal-damping", damped(0.099), damped(0.101)),
-        ("damping-with-hinges", yields_with(0.0349), yields_with(0.0351)),
+        (
+            "damping-with-hinges",
+            yields_with(0.0349),
+            yields_with(0.0351),
+        ),
         ("rigid-columns", rigid(5, 2.99), rigid(5, 3.01)),
         ("rigid-columns", rigid(10, 1.4), rigid(11, 1.3)),
         (
@@ -497,7 +501,9 @@ fn results() -> Vec<(&'static str, Change, f64, f64)> {
                     weight_n: 1e6,
                     ..IsolationSummary::default()
                 });
-                s.buildings[0].floors[0].response.overturning_moment_peak_n_m = 1e6 * x;
+                s.buildings[0].floors[0]
+                    .response
+                    .overturning_moment_peak_n_m = 1e6 * x;
             },
             0.99,
             1.01,
@@ -600,7 +606,8 @@ fn results_trip_their_checks_and_others_just_do_not() {
         assert!(!check.remedy.is_empty() && !check.limits.is_empty());
         let of_the_authors = |source: &&&str| source.ends_with(JUDGEMENT);
         let published = check.sources.iter().filter(|own| !of_the_authors(own));
-        let agreed = published.clone().count() >= 2 && published.clone().all(|own| *own != FROM_MODEL);
+        let agreed =
+            published.clone().count() >= 2 && published.clone().all(|own| *own != FROM_MODEL);
         let alone = [&[JUDGEMENT][..], &[FROM_MODEL]].contains(&check.sources);
         assert!(agreed || alone, "{}: {:?}", check.name, check.sources);
     }
@@ -642,11 +649,26 @@ fn too_much(name: &str, input: Input) -> Option<String> {
     (found.len() > 1).then(|| format!("{name}:\n  {}", found.join("\n  ")))
 }
 
+/// The same of a model with its own motion, before it runs.
+fn too_much_at_rest(name: &str, input: &Input) -> Option<String> {
+    let opened = opened(input.clone());
+    let own = input.records().is_empty() && input.motion.is_some();
+    let motion = own.then(|| opened.plan().unwrap_or_else(|error| panic!("{error}")).0);
+    let found = opened.findings(motion.as_ref());
+    let found: Vec<String> = found
+        .into_iter()
+        .filter(|own| own.grade >= Grade::Note)
+        .map(|own| format!("{} {}", own.id, own.text))
+        .collect();
+    (found.len() > 1).then(|| format!("{name}, at rest:\n  {}", found.join("\n  ")))
+}
+
 #[test]
 fn templates_and_examples_raise_at_most_one_note() {
     let mut loud = Vec::new();
     for name in TEMPLATE_NAMES {
         let text = jostle_io::template(name, "title").expect("it is there");
+        loud.extend(too_much_at_rest(name, &sound(&text)));
         loud.extend(too_much(name, sound(&text)));
     }
     let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples"));
@@ -661,6 +683,7 @@ fn templates_and_examples_raise_at_most_one_note() {
         let is_model = name.ends_with(".toml") && !name.starts_with("study_");
         if is_model {
             let input = jostle_io::read_model_file(&path).unwrap_or_else(|error| panic!("{error}"));
+            loud.extend(too_much_at_rest(&name, &input));
             loud.extend(too_much(&name, input));
             count += 1;
         }

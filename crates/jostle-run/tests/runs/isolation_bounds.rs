@@ -89,7 +89,11 @@ fn bounds_are_runs_with_properties_multiplied_by_hand() {
             "lower = 0.8, upper = { strength = 1.5 }",
             [pendulum(0.8), pendulum(1.5)],
         ),
-        (linear(1.0), "lower = 0.9, upper = 1.25", [linear(0.9), linear(1.25)]),
+        (
+            linear(1.0),
+            "lower = 0.9, upper = 1.25",
+            [linear(0.9), linear(1.25)],
+        ),
     ];
     for (own, bounds, ends) in cases {
         let summary = run(&model(&format!("{own}, bounds = {{ {bounds} }}"), ""));
@@ -119,14 +123,22 @@ fn bounds_are_runs_with_properties_multiplied_by_hand() {
 /// A stroke that only a bound exceeds is beyond the limit.
 #[test]
 fn the_limit_of_bearings_holds_at_the_bounds_too() {
-    let own = format!("{}, bounds = {{ lower = 0.7, upper = 1.3 }}", lead(1.0, 1.0));
+    let own = format!(
+        "{}, bounds = {{ lower = 0.7, upper = 1.3 }}",
+        lead(1.0, 1.0)
+    );
     let summary = run(&model(&own, ""));
     let stroke = summary.isolation_bounds.expect("run").buildings[0].stroke_m;
     let stroke = stroke.expect("bearings");
     assert!(stroke.envelope > stroke.nominal);
     let at = |limit: f64| run(&model(&own, &format!("limit = {limit}, ")));
     let between = 0.5 * (stroke.nominal + stroke.envelope);
-    let is_found = |summary: &Summary| summary.checks.iter().any(|own| own.name == "bearing-stroke");
+    let is_found = |summary: &Summary| {
+        summary
+            .checks
+            .iter()
+            .any(|own| own.name == "bearing-stroke")
+    };
     assert!(is_found(&at(between)));
     assert!(!is_found(&at(1.01 * stroke.envelope)));
     let nominal_only = run(&model(&lead(1.0, 1.0), &format!("limit = {between}, ")));
@@ -135,13 +147,39 @@ fn the_limit_of_bearings_holds_at_the_bounds_too() {
 
 #[test]
 fn bounds_that_mean_nothing_are_refused() {
-    let with = |kind: String, bounds: &str| refusal(&model(&format!("{kind}, bounds = {bounds}"), ""));
+    let with =
+        |kind: String, bounds: &str| refusal(&model(&format!("{kind}, bounds = {bounds}"), ""));
     for (kind, bounds, place, remedy) in [
-        (lead(1.0, 1.0), "{ lower = 1.1, upper = 1.3 }", "bounds.lower", "at most 1"),
-        (lead(1.0, 1.0), "{ lower = 0.9, upper = 0.95 }", "bounds.upper", "at least 1"),
-        (lead(1.0, 1.0), "{ lower = 0.9 }", "bounds.upper", "add upper = 1.3"),
-        (lead(1.0, 1.0), "{ lower = 0, upper = 1.3 }", "bounds.lower", "greater than zero"),
-        (pendulum(1.0), "{ lower = 0.9, upper = { stiffness = 1.2 } }", "upper.stiffness", "leave it out"),
+        (
+            lead(1.0, 1.0),
+            "{ lower = 1.1, upper = 1.3 }",
+            "bounds.lower",
+            "at most 1",
+        ),
+        (
+            lead(1.0, 1.0),
+            "{ lower = 0.9, upper = 0.95 }",
+            "bounds.upper",
+            "at least 1",
+        ),
+        (
+            lead(1.0, 1.0),
+            "{ lower = 0.9 }",
+            "bounds.upper",
+            "add upper = 1.3",
+        ),
+        (
+            lead(1.0, 1.0),
+            "{ lower = 0, upper = 1.3 }",
+            "bounds.lower",
+            "greater than zero",
+        ),
+        (
+            pendulum(1.0),
+            "{ lower = 0.9, upper = { stiffness = 1.2 } }",
+            "upper.stiffness",
+            "leave it out",
+        ),
         (
             "kind = \"linear\", stiffness = 4e6".to_owned(),
             "{ lower = { strength = 0.9 }, upper = 1.2 }",
@@ -150,7 +188,10 @@ fn bounds_that_mean_nothing_are_refused() {
         ),
     ] {
         let text = with(kind, bounds);
-        assert!(text.contains(place) && text.contains(remedy), "{bounds}: {text}");
+        assert!(
+            text.contains(place) && text.contains(remedy),
+            "{bounds}: {text}"
+        );
         // The file, the line.
         assert!(text.contains(":10"), "{bounds}: {text}");
     }

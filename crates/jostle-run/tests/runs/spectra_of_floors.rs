@@ -270,7 +270,10 @@ fn every_run_with_histories_reports_filtered_accelerations() {
     let floors = || summary.buildings.iter().flat_map(|own| own.floors.iter());
     let mut less = 0;
     for floor in floors() {
-        let filtered = floor.response.filtered_acceleration_peak_m_s2.expect("histories");
+        let filtered = floor
+            .response
+            .filtered_acceleration_peak_m_s2
+            .expect("histories");
         let raw = floor.response.total_acceleration_peak_m_s2;
         assert!(filtered > 0.0 && filtered < 1.02 * raw, "{filtered} {raw}");
         less += usize::from(filtered < 0.8 * raw);

@@ -5,7 +5,8 @@ use jostle::{Axial, Frame};
 use jostle_run::Opened;
 use jostle_testkit::files::sound;
 
-const SECTIONS: &str = "column = { width = 0.5, depth = 0.5 }\nbeam = { width = 0.3, depth = 0.6 }\n";
+const SECTIONS: &str =
+    "column = { width = 0.5, depth = 0.5 }\nbeam = { width = 0.3, depth = 0.6 }\n";
 
 fn model(storeys: usize, width: f64, own: &str) -> String {
     format!(
@@ -34,8 +35,7 @@ fn columns_shorten_above_three_widths_or_ten_storeys_unless_the_file_says_otherw
     let own = |own: &str| format!("{SECTIONS}{own}");
     let by_rigidity =
         "column = { EI = \"150 MN.m2\", mass = 600 }\nbeam = { EI = \"160 MN.m2\" }\n";
-    let with_area =
-        "column = { EI = \"150 MN.m2\", EA = \"7 GN\", mass = 600 }\nbeam = { EI = \"160 MN.m2\" }\n";
+    let with_area = "column = { EI = \"150 MN.m2\", EA = \"7 GN\", mass = 600 }\nbeam = { EI = \"160 MN.m2\" }\n";
     for (storeys, width, own, due) in [
         (10, 11.0, own(""), RIGID),
         (11, 12.0, own(""), COLUMNS),
@@ -92,5 +92,8 @@ fn the_period_with_columns_that_shorten_has_the_part_of_a_cantilever() {
     let cantilever = std::f64::consts::TAU / omega;
     let sum = rigid.hypot(cantilever);
     assert!(default > 1.1 * rigid, "{default} {rigid}");
-    assert!((default / sum - 1.0).abs() < 0.03, "{default} {sum} {rigid} {cantilever}");
+    assert!(
+        (default / sum - 1.0).abs() < 0.03,
+        "{default} {sum} {rigid} {cantilever}"
+    );
 }

@@ -171,7 +171,11 @@ pub(super) fn building(
         tree.insert("column_segments".into(), json!(columns));
         tree.insert("beam_segments".into(), json!(beams));
         // Stated, because the default depends on the height, and both should occur at any.
-        let axial = if random.chance(0.15) { "flexible" } else { "rigid" };
+        let axial = if random.chance(0.15) {
+            "flexible"
+        } else {
+            "rigid"
+        };
         tree.insert("axial".into(), json!(axial));
         if random.chance(0.15) {
             tree.insert(

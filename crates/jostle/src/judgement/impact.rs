@@ -80,7 +80,8 @@ pub(super) fn pressure(known: &Known<'_>, tally: &mut Tally<'_>) {
                 Some(plan) => plan.overlap_m,
                 None => {
                     let floors = sides.into_iter().zip(contact.floors);
-                    let widths = floors.filter_map(|(side, floor)| slab_width(known, side?, floor?));
+                    let widths =
+                        floors.filter_map(|(side, floor)| slab_width(known, side?, floor?));
                     widths.fold(f64::INFINITY, f64::min)
                 }
             };

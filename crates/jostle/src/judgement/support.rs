@@ -69,8 +69,7 @@ pub(super) fn bearing_uplift(known: &Known<'_>, tally: &mut Tally<'_>) {
             Structure::Frame(_) | Structure::Shear(_) | Structure::Given(_) => &[],
         };
         let arm = core(bearings).or_else(|| Some(length(model)? / 6.0));
-        let (Some(isolation), Some(arm), Some(lowest)) =
-            (&own.isolation, arm, own.floors.first())
+        let (Some(isolation), Some(arm), Some(lowest)) = (&own.isolation, arm, own.floors.first())
         else {
             continue;
         };

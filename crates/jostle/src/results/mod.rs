@@ -3,7 +3,6 @@
 mod capacity;
 pub mod comparison;
 pub mod contact_sensitivity;
-pub mod isolation_bounds;
 mod counted_impact;
 pub mod floor_spectra;
 mod foundation;
@@ -11,6 +10,7 @@ mod friction;
 mod ground;
 pub mod in_plan;
 mod isolation;
+pub mod isolation_bounds;
 mod members;
 pub mod registry;
 mod required;

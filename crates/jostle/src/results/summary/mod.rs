@@ -39,8 +39,8 @@ use serde::Serialize;
 
 use crate::quantity::{Quantity, Unit};
 use crate::results::contact_sensitivity::ContactSensitivity;
-use crate::results::isolation_bounds::IsolationBounds;
 use crate::results::floor_spectra::FloorSpectra;
+use crate::results::isolation_bounds::IsolationBounds;
 
 /// Results of a run without histories.
 ///
