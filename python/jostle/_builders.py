@@ -97,11 +97,14 @@ class Frame(Part):
         floor_mass: additional mass of a whole floor: one, or a list from the ground up.
         column_segments: segments of a column in one storey, 4 by default.
         beam_segments: segments of the beams, 4 by default: one count, or one per span.
-        axial: ``"rigid"`` (default) or ``"flexible"``, or ``{"columns": …, "beams": …}``.
+        axial: ``"rigid"`` or ``"flexible"`` columns, or ``{"columns": …, "beams": …}``; by default columns with ``EA`` are flexible
+            in frames above 3 times as high as wide or ten storeys, except on a foundation.
         joint: elastic hinges at the beam ends, ``{"rotational_stiffness": "2e8 N.m/rad"}``.
-        damping: ``{"ratio": 0.05, "modes": [1, 3]}`` or ``{"alpha": …, "beta": …}``; 5 % by default.
+        damping: ``{"ratio": 0.05, "modes": [1, 3]}`` or ``{"alpha": …, "beta": …}``; 5 % by default, 3 % or less is usual with
+            hinges.
         base: springs and dashpots under every column: ``"fixed"`` (default) or ``{"rotational_stiffness": …}``.
-        isolation: bearings and a mat under the building, such as ``{"kind": "lead-rubber", "mat_mass": "150 t", …}``.
+        isolation: bearings and a mat under the building, such as ``{"kind": "lead-rubber", "mat_mass": "150 t", …}``; with
+            ``"bounds": {"lower": 0.85, "upper": 1.3}`` a run also makes those at both bounds of the bearings.
         foundation: rigid foundation on the ``soil`` of the model, ``{"length": "12 m", "width": "12 m", "mass": "120 t"}``.
         hinges: plastic hinges at the member ends; without them the frame is elastic:
             ``{"rule": "peak-oriented", "from": "section"}`` or
@@ -211,9 +214,11 @@ class Shear(Part):
         stiffness: storey stiffnesses from the ground up, or one for all; with a plan also ``{"x": …, "y": …, "torsion": …}``.
         storeys: number of storeys, 1 to 200; not needed with a list per storey.
         storey_height: one length, or a list from the ground up; 3 m by default.
-        damping: ``{"ratio": 0.05, "modes": [1, 3]}`` or ``{"alpha": …, "beta": …}``; 5 % by default.
+        damping: ``{"ratio": 0.05, "modes": [1, 3]}`` or ``{"alpha": …, "beta": …}``; 5 % by default, 3 % or less is usual with
+            hinges.
         base: springs and dashpots under the building: ``"fixed"`` (default) or ``{"horizontal_stiffness": …}``.
-        isolation: bearings and a mat under the building, such as ``{"kind": "lead-rubber", "mat_mass": "150 t", …}``.
+        isolation: bearings and a mat under the building, such as ``{"kind": "lead-rubber", "mat_mass": "150 t", …}``; with
+            ``"bounds": {"lower": 0.85, "upper": 1.3}`` a run also makes those at both bounds of the bearings.
         foundation: rigid foundation on the ``soil`` of the model, ``{"length": "12 m", "width": "12 m", "mass": "120 t"}``.
         hinges: cracking and yield of the storeys; without it they are elastic: ``{"rule": "bilinear", "yield": "20 mm",
             "post_yield": 0.05}``; timber and masonry: ``{"rule": "pinched", "pinching": {"deformation": 0.8, "force": 0.2}, …}``.
@@ -342,8 +347,10 @@ class SpaceFrame(Part):
         eccentricity: centre of ``stiffness`` from the centre of mass; 0 by default.
         element: walls at points of the plan, beside the frame:
             ``[{"at": ["1 m", "1 m"], "stiffness": {"x": "10 MN/m", "y": "12 MN/m"}}]``.
-        damping: ``{"ratio": 0.05, "modes": [1, 3]}`` or ``{"alpha": …, "beta": …}``; 5 % by default.
-        isolation: bearings and a mat under the building, such as ``{"kind": "lead-rubber", "mat_mass": "150 t", …}``.
+        damping: ``{"ratio": 0.05, "modes": [1, 3]}`` or ``{"alpha": …, "beta": …}``; 5 % by default, 3 % or less is usual with
+            hinges.
+        isolation: bearings and a mat under the building, such as ``{"kind": "lead-rubber", "mat_mass": "150 t", …}``; with
+            ``"bounds": {"lower": 0.85, "upper": 1.3}`` a run also makes those at both bounds of the bearings.
         p_delta: whether P-Delta from the weight above is included; ``False`` by default.
         position: place along the row, for ``apparent_velocity`` and ``coherency`` of the motion.
         motion: the ground under this building, if it differs: ``{"arrival": "30 ms"}``, ``{"record": …, "scale": …}``.

@@ -462,3 +462,31 @@ def test_buildings_stand_on_soil() -> None:
     matrix = np.diag([1e9, 5e10])
     one = Model(towers[:1], soil=jostle.Soil(coupling={"stiffness": matrix, "damping": matrix / 100}))
     assert one.description
+
+
+def test_tall_frames_bounds_of_bearings_and_filtered_accelerations() -> None:
+    tall = {"storeys": 12, "storey_height": 3, "spans": [12], "concrete": "C30", "beam_mass": 5000}
+    sections = {"column": {"width": 0.5, "depth": 0.5}, "beam": {"width": 0.3, "depth": 0.6}}
+    frames = [jostle.Frame("a", **tall, **sections, axial=own) for own in (None, "flexible", "rigid")]
+    default, flexible, rigid = (jostle.modes(Model([own]))["a"].periods[0] for own in frames)
+    assert default == flexible > rigid
+
+    bearings = {"kind": "linear", "mat_mass": "60 t", "stiffness": "2 MN/m"}
+
+    def run(factor: float, bounds: dict[str, float] | None) -> jostle.Result:
+        own = {**bearings, "stiffness": 2e6 * factor}
+        own |= {"bounds": bounds} if bounds else {}
+        building = Shear("b", mass=[4e4, 4e4], stiffness=[9e7, 9e7], storey_height=3, isolation=own)
+        return jostle.run(Model([building], motion=jostle.Motion.el_centro().lasting("6 s")))
+
+    found = run(1, {"lower": 0.8, "upper": 1.25})
+    stroke = found.summary["isolation_bounds"]["buildings"][0]["stroke_m"]
+    by_hand = [run(factor, None).summary["buildings"][0]["isolation"] for factor in (1, 0.8, 1.25)]
+    strokes = [max(own["displacement_max_m"], -own["displacement_min_m"]) for own in by_hand]
+    assert [stroke["nominal"], stroke["lower"], stroke["upper"]] == pytest.approx(strokes, rel=1e-9)
+    assert stroke["envelope"] == max(strokes)
+
+    # Nothing strikes: the filter below 25 Hz leaves the peak.
+    for building in found.summary["buildings"]:
+        filtered, raw = building["filtered_acceleration_peak_m_s2"], building["total_acceleration_peak_m_s2"]
+        assert filtered == pytest.approx(raw, rel=0.02)

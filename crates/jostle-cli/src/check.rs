@@ -9,9 +9,10 @@ use std::path::Path;
 
 use jostle::eigen::Mode;
 use jostle::hysteresis::Side;
+use jostle::judgement::Stated;
 use jostle::model::{Damping, Structure, Tiers, usual_damping_modes};
 use jostle::system::BuildingSystem;
-use jostle::{Building, LinkLaw, Model, SpaceMember, SpacePlace, System};
+use jostle::{Building, Frame, LinkLaw, Model, SpaceMember, SpacePlace, System};
 
 use crate::args::CheckArgs;
 use crate::failure::Failure;
@@ -34,7 +35,12 @@ pub(crate) fn check(args: &CheckArgs) -> Result<(), Failure> {
     let site = site_file(args, &opened)?;
     let mut text = String::new();
     // Writing to a string cannot fail.
-    let _ = describe(&mut text, &opened.input.model, &opened.system);
+    let _ = describe(
+        &mut text,
+        &opened.input.model,
+        &opened.system,
+        &opened.input.stated,
+    );
     let mut of_system = jostle::results::foundation_warnings(&opened.system);
     of_system.extend(jostle::results::friction_warnings(
         &opened.input.model,
@@ -192,7 +198,38 @@ fn space_frame(tiers: &Tiers) -> String {
     )
 }
 
-fn describe(text: &mut String, model: &Model, system: &System) -> std::fmt::Result {
+/// Whether the columns of a frame shorten, and why; `None` if it is not known whether the file says so.
+fn axial_of_columns(frame: &Frame, is_stated: Option<bool>) -> String {
+    let (height, width): (f64, f64) = (frame.storey_heights.iter().sum(), frame.spans.iter().sum());
+    let what = match frame.axial.columns_flexible {
+        true => "columns shorten under axial force",
+        false => "columns keep their length",
+    };
+    let limit = format!(
+        "{} times as high as wide or {} storeys",
+        Frame::SLENDER,
+        Frame::TALL
+    );
+    let why = match (
+        is_stated,
+        frame.axial.columns_flexible,
+        frame.tallness() > 1.0,
+    ) {
+        (Some(true), ..) => ", as stated".to_owned(),
+        (Some(false), true, _) => format!(", the default above {limit}"),
+        (Some(false), false, true) => ": no EA, or a foundation on soil".to_owned(),
+        (Some(false), false, false) => format!(", the default up to {limit}"),
+        (None, ..) => String::new(),
+    };
+    format!("{what}{why}; {:.1} times as high as wide", height / width)
+}
+
+fn describe(
+    text: &mut String,
+    model: &Model,
+    system: &System,
+    stated: &Stated,
+) -> std::fmt::Result {
     writeln!(text, "{}\n", styled(BOLD, &model.title))?;
     for (index, building) in system.structures().iter().enumerate() {
         let kind = match &model.buildings[index].structure {
@@ -224,6 +261,26 @@ fn describe(text: &mut String, model: &Model, system: &System) -> std::fmt::Resu
         };
         let damping = &model.buildings[index].damping;
         describe_building(text, building, damping, &kind)?;
+        match &model.buildings[index].structure {
+            Structure::Frame(frame) => {
+                let own = stated.buildings.get(index);
+                let is_stated = own.is_some_and(|own| own.axial);
+                writeln!(text, "  {}", axial_of_columns(frame, Some(is_stated)))?;
+            }
+            Structure::Tiers(tiers) => {
+                // Frames of one plan are as high; the file says it of each.
+                let mut lines: Vec<String> = tiers
+                    .frames
+                    .iter()
+                    .map(|own| axial_of_columns(&own.frame, None))
+                    .collect();
+                lines.dedup();
+                for line in lines {
+                    writeln!(text, "  {line}")?;
+                }
+            }
+            Structure::Shear(_) | Structure::Given(_) => {}
+        }
         for line in special(&model.buildings[index]) {
             writeln!(text, "  {line}")?;
         }

@@ -72,6 +72,7 @@ impl StageBar {
                 Stage::Sensitivity => "sensitivity    ",
                 Stage::WithoutContact => "without contact",
                 Stage::ContactSensitivity => "other contacts",
+                Stage::IsolationBounds => "bearing bounds ",
             };
             self.0 = Some((stage, TimeBar::new(prefix)));
         }

@@ -115,11 +115,14 @@ fn analyse(
     }
     if args.sensitivity {
         ran.run_other_contacts(&mut observer);
+    }
+    ran.run_isolation_bounds(&mut observer);
+    if ran.has_variants() {
         summary = ran.summary();
     }
     drop(observer);
     bar.finish();
-    if let Some(out) = out.filter(|_| args.no_report && args.sensitivity) {
+    if let Some(out) = out.filter(|_| args.no_report && ran.has_variants()) {
         ran.results(&summary).write(out, Content::TABLES)?;
     }
     if let Some(out) = out.filter(|_| !args.no_report) {
@@ -147,9 +150,12 @@ fn analyse(
         ))?;
     }
     ending(&ran.outcome.end, out)?;
-    let sensitivity = ran.contact_sensitivity.as_ref();
-    if stop.load(Ordering::Relaxed) && sensitivity.is_some_and(Result::is_err) {
-        terminal::remark("stopped in the runs with other contacts; the run itself is complete");
+    let failed = ran.contact_sensitivity.as_ref().is_some_and(Result::is_err)
+        || ran.isolation_bounds.as_ref().is_some_and(Result::is_err);
+    if stop.load(Ordering::Relaxed) && failed {
+        terminal::remark(
+            "stopped in the runs with other contacts or bearings; the run itself is complete",
+        );
         return Err(Failure::Stopped);
     }
     match ran.without_contact.map(|run| run.end) {

@@ -24,8 +24,8 @@ To silence a check, name it in the model file; the report then lists it. An iden
 silence = [\"A12\", \"residual-drift\"]
 ```
 
-Limits with the source \"judgement\" are those of an experienced engineer; no publication gives them. They mark where to look, not
-what is allowed.
+Sources: at least two publications agree on a limit; otherwise it says \"judgement\", that of the authors. \"The model file\" means that
+the file states the limit, or names the rule that gives it. Limits mark where to look, not what is allowed.
 ";
 
 /// All checks as a page of Markdown.
@@ -49,7 +49,7 @@ pub fn check_reference() -> String {
                 check.name,
                 check.quantity,
                 limits(check),
-                check.source,
+                check.source(),
                 check.remedy
             );
         }
@@ -90,7 +90,7 @@ pub fn check_list() -> String {
             "quantity": check.quantity,
             "unit": check.unit,
             "limits": limits.collect::<Vec<Value>>(),
-            "source": check.source,
+            "sources": check.sources,
             "remedy": check.remedy,
         })
     };

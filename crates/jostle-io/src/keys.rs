@@ -68,6 +68,10 @@ pub(crate) enum Section {
     Isolation,
     /// Friction of bearings that changes with speed.
     IsolationFriction,
+    /// Range of the properties of bearings.
+    IsolationBounds,
+    /// Factors on their stiffness and strength.
+    BearingFactors,
     /// Stops of a mat.
     IsolationStop,
     /// The stop of one side.
@@ -537,7 +541,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Building, "storeys", Count, "Number of storeys; not needed with a list per storey."),
     optional(S::Building, "floors", Count, "The same as storeys."),
     optional(S::Building, "storey_height", PerStorey(D::Length), "Storey height; required for frames, 3 m by default for shear buildings.").usual("a storey height", 1.5, 30.0).possible(0.01, 1000.0),
-    default(S::Building, "damping", Kind::Table(S::Damping), "5 % in lateral modes 1 and 3", "Viscous damping, such as `{ ratio = 0.05, modes = [1, 3] }` or `{ alpha = 0.5, beta = \"1 ms\" }`."),
+    default(S::Building, "damping", Kind::Table(S::Damping), "5 % in lateral modes 1 and 3", "Viscous damping, such as `{ ratio = 0.05, modes = [1, 3] }` or `{ alpha = 0.5, beta = \"1 ms\" }`. With hinges 3 % or less is usual: they dissipate as well."),
     optional(S::Building, "damper", Tables(&[S::Damper, S::LinkLaw]), "Dampers and other links between two of its floors; a short form of link. They follow the links in results."),
     optional(S::Building, "position", Quantity(D::Length), "Place along the row, for apparent_velocity and coherency of [motion]; buildings with a plan have that of the centre of their plan.").usual("a position along the row", 1e-3, 1e5).signed(),
     optional(S::Building, "motion", Kind::TableOf(&[S::OwnMotion, S::Motion]), "The ground under this building, if it differs: arrival, a motion of its own, or a scale of the common one. A motion without an amplitude or a scaling of its own has the factor of the common one."),
@@ -559,7 +563,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Frame, "floor_mass", PerStorey(D::Mass), "0", "Additional mass of a whole floor, shared by its joints. A weight is converted.").usual("a floor mass", 100.0, 1e8),
     default(S::Frame, "column_segments", Count, "4", "Segments of a column in one storey; k segments have k − 1 lumped masses between them."),
     default(S::Frame, "beam_segments", CountPerSpan, "4", "Segments of the beams: one value, or one per span."),
-    default(S::Frame, "axial", ChoiceOrTable(AXIAL, S::Axial), "\"rigid\"", "Axial deformation: \"flexible\" is that of columns, `{ columns = \"flexible\", beams = \"flexible\" }` lets beams stretch too, as without a slab: a neighbour then strikes joints instead of floors."),
+    default(S::Frame, "axial", ChoiceOrTable(AXIAL, S::Axial), "\"flexible\" for columns with EA of frames above 3 times as high as wide or ten storeys, except on a foundation; otherwise \"rigid\"", "Axial deformation: \"flexible\" is that of columns, `{ columns = \"flexible\", beams = \"flexible\" }` lets beams stretch too, as without a slab: a neighbour then strikes joints instead of floors."),
     default(S::Frame, "shear", ChoiceOrTable(AXIAL, S::ShearDeformation), "\"rigid\"", "Shear deformation of members (Timoshenko)."),
     default(S::Frame, "poisson_ratio", Quantity(D::Dimensionless), "0.2", "Poisson's ratio, for the shear modulus.").usual("a Poisson's ratio", 0.01, 0.5),
     optional(S::Frame, "joint", Kind::Table(S::Joint), "Elastic hinge at the beam ends."),
@@ -603,7 +607,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::PlanFrame, "beam_mass", PerStorey(D::LineMass), "0", "Mass carried by the beams, if mass of the building does not include it.").usual("a beam mass", 100.0, 1e5).possible(0.0, 1e6),
     default(S::PlanFrame, "column_segments", Count, "1", "Segments of a column in one storey; k segments have k − 1 lumped masses between them, if columns have mass."),
     default(S::PlanFrame, "beam_segments", CountPerSpan, "1", "Segments of the beams: one value, or one per span."),
-    default(S::PlanFrame, "axial", ChoiceOrTable(AXIAL, S::Axial), "\"rigid\"", "Axial deformation of columns; floors are rigid."),
+    default(S::PlanFrame, "axial", ChoiceOrTable(AXIAL, S::Axial), "\"flexible\" for columns with EA of frames above 3 times as high as wide or ten storeys, except on a foundation; otherwise \"rigid\"", "Axial deformation of columns; floors are rigid."),
     default(S::PlanFrame, "shear", ChoiceOrTable(AXIAL, S::ShearDeformation), "\"rigid\"", "Shear deformation of members (Timoshenko)."),
     default(S::PlanFrame, "poisson_ratio", Quantity(D::Dimensionless), "0.2", "Poisson's ratio, for the shear modulus.").usual("a Poisson's ratio", 0.01, 0.5),
     optional(S::PlanFrame, "joint", Kind::Table(S::Joint), "Elastic hinge at the beam ends."),
@@ -695,7 +699,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::StiffnessFactor, "column", Quantity(D::Dimensionless), "1", "Factor on EI of the columns.").usual("a stiffness factor", 0.01, 10.0).possible(1e-6, 1e6),
     default(S::StiffnessFactor, "beam", Quantity(D::Dimensionless), "1", "Factor on EI of the beams.").usual("a stiffness factor", 0.01, 10.0).possible(1e-6, 1e6),
 
-    default(S::Axial, "columns", Choice(AXIAL), "\"rigid\"", "Axial deformation of columns."),
+    default(S::Axial, "columns", Choice(AXIAL), "as without axial", "Axial deformation of columns."),
     default(S::Axial, "beams", Choice(AXIAL), "\"rigid\"", "Axial deformation of beams."),
 
     default(S::ShearDeformation, "columns", Choice(AXIAL), "\"rigid\"", "Shear deformation of columns."),
@@ -714,6 +718,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Isolation, "post_yield", Quantity(D::Dimensionless), "lead-rubber: ratio of post-yield to initial stiffness, at least 0 and below 1.").usual("a ratio of stiffnesses", 1e-6, 1.0).signed(),
     optional(S::Isolation, "radius", Quantity(D::Length), "friction-pendulum: radius of the sliding surface.").usual("a radius of a pendulum", 0.1, 20.0),
     optional(S::Isolation, "friction", NumberOrTable(S::IsolationFriction), "friction-pendulum: coefficient of friction, or its change with speed.").usual("a coefficient of friction", 1e-3, 1.0),
+    optional(S::Isolation, "bounds", Kind::Table(S::IsolationBounds), "Lower and upper bound of the properties of the bearings. `jostle run` then runs both bounds as well and reports the envelope."),
     default(S::Isolation, "slip_displacement", Quantity(D::Length), "\"1 mm\"", "friction-pendulum: displacement at which friction is fully mobilised; where it rises with speed, that of fast friction, so that the stiffness before slip is fast × weight / slip_displacement at any speed.").usual("a slip displacement", 1e-5, 0.1),
     default(S::Isolation, "damping", Quantity(D::Damping), "0", "Dashpot beside the bearings.").usual("a dashpot coefficient", 100.0, 1e10),
     optional(S::Isolation, "damping_ratio", Quantity(D::Dimensionless), "linear: ratio of critical damping of the whole mass on the bearings, instead of damping.").usual("a damping ratio", 1e-4, 1.0),
@@ -726,6 +731,10 @@ pub(crate) const KEYS: &[Key] = &[
     required(S::IsolationFriction, "fast", Quantity(D::Dimensionless), "Coefficient of friction at high speed.").usual("a coefficient of friction", 1e-3, 1.0),
     required(S::IsolationFriction, "rate", Quantity(D::Slowness), "How fast it rises: fast − (fast − slow)·exp(−rate·speed).").usual("a rate of friction", 0.1, 1e3),
 
+    required(S::IsolationBounds, "lower", NumberOrTable(S::BearingFactors), "Factor of the lower bound on stiffness and yield force of rubber, and on friction of pendulums, above 0 and at most 1. Yours to choose: from tests, supplier or code.").usual("a factor on bearings", 0.3, 1.0).possible(1e-6, 1e6),
+    required(S::IsolationBounds, "upper", NumberOrTable(S::BearingFactors), "The same of the upper bound, at least 1.").usual("a factor on bearings", 1.0, 4.0).possible(1e-6, 1e6),
+    default(S::BearingFactors, "stiffness", Quantity(D::Dimensionless), "1", "Factor on the stiffness of rubber; not of pendulums, whose stiffness is that of their surface.").usual("a factor on bearings", 0.3, 4.0).possible(1e-6, 1e6),
+    default(S::BearingFactors, "strength", Quantity(D::Dimensionless), "1", "Factor on the yield force of lead, or on friction; not of linear bearings.").usual("a factor on bearings", 0.3, 4.0).possible(1e-6, 1e6),
     optional(S::IsolationStop, "at", Quantity(D::Length), "Displacement of the mat at which the stops of both sides are reached.").usual("a distance of a stop", 1e-3, 5.0),
     optional(S::IsolationStop, "stiffness", Quantity(D::Stiffness), "Stiffness of each.").usual("a stiffness of a stop", 1e4, 9e11),
     optional(S::IsolationStop, "left", Kind::Table(S::StopSide), "A stop on the left only, instead of both."),

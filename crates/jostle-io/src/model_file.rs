@@ -211,7 +211,6 @@ pub(crate) fn read_tree(
             silenced,
             dampers: _,
         }) if error.faults.is_empty() => Ok(Input {
-            reinforced,
             capacity,
             codes,
             north,
@@ -223,9 +222,10 @@ pub(crate) fn read_tree(
             },
             stated: Stated {
                 records: motion.as_ref().map_or(0, |own| own.records().len().max(1)),
-                buildings: stated::of_buildings(&model, &root),
+                buildings: stated::of_buildings(&model, &root, &reinforced),
                 silenced,
             },
+            reinforced,
             accepted,
             files: files.clone(),
             model,

@@ -102,6 +102,12 @@ const TABLES: &[(Section, &str, &str)] = &[
         "See [Isolated buildings and moat walls](how-to/isolation.md).",
     ),
     (Section::IsolationFriction, "`isolation.friction`", ""),
+    (Section::IsolationBounds, "`isolation.bounds`", ""),
+    (
+        Section::BearingFactors,
+        "`isolation.bounds.lower`, `isolation.bounds.upper`",
+        "",
+    ),
     (Section::IsolationStop, "`isolation.stop`", ""),
     (
         Section::StopSide,

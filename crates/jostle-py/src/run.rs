@@ -66,7 +66,7 @@ pub(crate) fn run(
         // The time of the runs for sensitivity would begin at zero again.
         let observer = observer.as_ref();
         let observer =
-            observer.filter(|_| !matches!(stage, Stage::Sensitivity | Stage::ContactSensitivity));
+            observer.filter(|_| matches!(stage, Stage::Pounding | Stage::WithoutContact));
         match Python::attach(|py| heed(py, observer, progress)) {
             Ok(()) => ControlFlow::Continue(()),
             Err(error) => {
@@ -79,6 +79,9 @@ pub(crate) fn run(
         let mut ran = prepared.run(settings, &mut look_up);
         if sensitivity && pounding {
             ran.run_other_contacts(&mut look_up);
+        }
+        if pounding {
+            ran.run_isolation_bounds(&mut look_up);
         }
         ran
     });
@@ -114,7 +117,7 @@ impl Run {
             ..
         } = &self.ran;
         let mut summary = prepared.summary(outcome, without_contact, *wall);
-        self.ran.add_contact_sensitivity(&mut summary);
+        self.ran.add_variants(&mut summary);
         let spectra = without.and_then(|run| run.ran.floor_spectra.as_ref());
         self.ran.add_floor_spectra(&mut summary, spectra);
         summary

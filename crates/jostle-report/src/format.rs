@@ -193,6 +193,11 @@ pub(crate) fn unit(number: String, unit: &str) -> String {
 pub(crate) use jostle::statics::STANDARD_GRAVITY;
 
 /// A text as it begins a sentence.
+/// A ratio in per cent.
+pub(crate) fn percent(ratio: f64) -> String {
+    unit(fixed(100.0 * ratio, 1), "%")
+}
+
 pub(crate) fn capital(text: &str) -> String {
     let mut letters = text.chars();
     let first = letters.next();

@@ -4,6 +4,7 @@
 //! numbers come from the core crate as they are, this crate only chooses, thins, encodes and draws them.
 
 mod backbones;
+mod bounds;
 mod build;
 mod calculation;
 mod checks;
@@ -97,8 +98,6 @@ pub struct Page<'a> {
     pub north: Option<f64>,
     /// Contact data beside what masses suggest, by gap; empty to omit them.
     pub contacts: &'a [ContactBox],
-    /// Greatest total acceleration of every floor of every building after a low-pass filter; empty to omit it \[m/s²\].
-    pub filtered: &'a [Vec<f64>],
     /// Results of `jostle method` for these buildings, shown as a section; empty to omit it.
     pub methods: &'a [MethodSurvey],
     /// What makes the page a calculation document, if it is known.

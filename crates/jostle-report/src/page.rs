@@ -6,10 +6,11 @@ use crate::document::{CALCULATION_STYLE, POLICY, STYLE, colour, theme_button};
 use crate::envelope::{self, envelopes};
 use crate::message;
 use crate::site_drawing::SITE_STYLE;
-use crate::verdict::{closest_approach, nearest, peak_closing, verdict};
+use crate::verdict::{closest_approach, nearest, outside, peak_closing, verdict};
 use crate::{
-    Page, calculation, checks, contact_box, describe, devices, floor_spectra, format, friction,
-    grounds, hinges, joints, members, method, payload, shear_failures, site_plan, spread, tables,
+    Page, bounds, calculation, checks, contact_box, describe, devices, floor_spectra, format,
+    friction, grounds, hinges, joints, members, method, payload, shear_failures, site_plan, spread,
+    tables,
 };
 
 /// The scripts, in the order of their dependence; together they are one module.
@@ -33,6 +34,7 @@ pub(crate) const IN_SPACE: [&str; 2] = [
 /// The whole page.
 pub(crate) fn page(page: &Page) -> Markup {
     let headline = verdict(page.summary);
+    let outside = outside(page.summary);
     let run = envelope::of_run(page);
     let without = envelope::without_contact(page);
     let without = without.as_deref();
@@ -68,9 +70,11 @@ pub(crate) fn page(page: &Page) -> Markup {
                     (theme_button())
                 }
                 main {
-                    p.verdict { (headline) }
+                    @if let Some(why) = &outside { p.outside role="alert" { b { (message::outside_the_model()) } " " (why) } }
+                    p.verdict.muted[outside.is_some()] { @if page.summary.ended_early.is_some() { (message::until_the_run_ended()) " " } (headline) }
                     (tiles(page))
                     (checks::section(page))
+                    (bounds::section(page))
                     (accuracy(page))
                     @if let Some(spread) = spread::section(page) { (spread) }
                     @if recorded {
@@ -83,7 +87,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                     @if let Some(hinges) = hinges::section(page) { (hinges) }
                     @if let Some(failures) = shear_failures::section(page) { (failures) }
                     @if let Some(devices) = devices::section(page) { (devices) }
-                    section #impacts {
+                    section #impacts.muted[outside.is_some()] {
                         h2 { (message::impacts_title()) }
                         @if recorded { (impact_panels()) }
                         @if page.model.gaps.is_empty() {
@@ -257,7 +261,7 @@ pub(crate) fn tiles(page: &Page) -> Markup {
         message::greatest_over_time().into(),
     );
     html! {
-        div.tiles {
+        div.tiles.muted[outside(summary).is_some()] {
             @for (name, value, note) in &tiles {
                 div.tile { p.tile-name { (name) } p.tile-value { (value) } p.tile-note { (note) } }
             }

@@ -8,7 +8,7 @@ use jostle::results::summary::{BuildingSummary, ContactSummary, GapSummary, Impa
 use maud::{Markup, html};
 
 use crate::message;
-use crate::verdict::place;
+use crate::verdict::{is_outside, place};
 use crate::{Page, format};
 
 /// Most impacts in the table; the strongest are kept.
@@ -131,9 +131,15 @@ fn restitution_note(page: &Page) -> Markup {
     }
 }
 
-/// Numbers of a floor, and how they are shown.
-fn peaks_shown() -> impl Iterator<Item = (&'static Quantity<FloorResponse>, Shown)> {
-    let quantities = FloorResponse::QUANTITIES.iter();
+/// Numbers of the floors of a building, and how they are shown; without those that no floor has.
+fn peaks_shown(
+    building: &BuildingSummary,
+) -> impl Iterator<Item = (&'static Quantity<FloorResponse>, Shown)> + '_ {
+    let has = |quantity: &Quantity<FloorResponse>| {
+        let mut floors = building.floors.iter();
+        floors.any(|floor| quantity.value(&floor.response).is_some())
+    };
+    let quantities = FloorResponse::QUANTITIES.iter().filter(move |own| has(own));
     quantities.filter_map(|quantity| Some((quantity, quantity.shown?)))
 }
 
@@ -142,6 +148,7 @@ fn title(quantity: &Quantity<FloorResponse>, shown: Shown) -> &'static str {
     match quantity.name {
         "displacement_peak_m" => message::displacement(),
         "total_acceleration_peak_m_s2" => message::total_acceleration(),
+        "filtered_acceleration_peak_m_s2" => message::filtered_acceleration(),
         "storey_drift_peak" => message::storey_drift(),
         "storey_shear_peak_n" => message::storey_shear(),
         "overturning_moment_peak_n_m" => message::overturning_moment(),
@@ -152,16 +159,18 @@ fn title(quantity: &Quantity<FloorResponse>, shown: Shown) -> &'static str {
 /// Peaks of every floor and of the storey below it, with and without contact: one folded table for each building.
 pub(crate) fn peaks(page: &Page) -> Markup {
     html! {
-        @for (index, building) in page.summary.buildings.iter().enumerate() {
-            details.peaks {
+        @for building in &page.summary.buildings {
+            details.peaks.muted[is_outside(building)] {
                 summary { (message::peaks_of_in_numbers(&building.name)) }
-                (peaks_of(building, page.filtered.get(index).map(Vec::as_slice)))
+                @if is_outside(building) { p { b { (message::outside_the_model()) } } }
+                (peaks_of(building))
             }
         }
     }
 }
 
-fn peaks_of(building: &BuildingSummary, filtered: Option<&[f64]>) -> Markup {
+fn peaks_of(building: &BuildingSummary) -> Markup {
+    let filtered = building.response.filtered_acceleration_peak_m_s2.is_some();
     let compared = building.floors.iter().any(|f| f.without_contact.is_some());
     html! {
         div.scroll {
@@ -170,15 +179,12 @@ fn peaks_of(building: &BuildingSummary, filtered: Option<&[f64]>) -> Markup {
                     tr {
                         th scope="col" rowspan=[compared.then_some("2")] { (message::floor()) }
                         th.number scope="col" rowspan=[compared.then_some("2")] { (message::height()) br; span.unit { "[m]" } }
-                        @for (quantity, shown) in peaks_shown() {
+                        @for (quantity, shown) in peaks_shown(building) {
                             th.number scope="colgroup" colspan=[compared.then_some("2")] { (title(quantity, shown)) br; span.unit { "[" (shown.unit) "]" } }
-                        }
-                        @if filtered.is_some() {
-                            th.number scope="col" rowspan=[compared.then_some("2")] { (message::filtered_acceleration()) br; span.unit { "[m/s²]" } }
                         }
                     }
                     @if compared {
-                        tr { @for _ in peaks_shown() { th.number scope="col" { (message::with_word()) } th.number scope="col" { (message::without()) } } }
+                        tr { @for _ in peaks_shown(building) { th.number scope="col" { (message::with_word()) } th.number scope="col" { (message::without()) } } }
                     }
                 }
                 tbody {
@@ -186,14 +192,11 @@ fn peaks_of(building: &BuildingSummary, filtered: Option<&[f64]>) -> Markup {
                         tr {
                             th scope="row" { (floor.floor) }
                             td.number { (format::fixed(floor.height_m, 2)) }
-                            @for (quantity, shown) in peaks_shown() {
+                            @for (quantity, shown) in peaks_shown(building) {
                                 td.number { (peak_cell(quantity, shown, Some(&floor.response))) }
                                 @if compared {
                                     td.number { (peak_cell(quantity, shown, floor.without_contact.as_ref())) }
                                 }
-                            }
-                            @if let Some(filtered) = filtered {
-                                td.number { (filtered.get(floor.floor - 1).map_or(format::NOTHING.into(), |peak| format::fixed(*peak, 2))) }
                             }
                         }
                     }
@@ -204,7 +207,7 @@ fn peaks_of(building: &BuildingSummary, filtered: Option<&[f64]>) -> Markup {
             (message::greatest_absolute_values())
             @if compared { (message::with_and_without_contact()) }
             (message::drift_and_shear_are_those())
-            @if filtered.is_some() { (message::the_filter_of_floor_spectra()) }
+            @if filtered { (message::the_filter_of_floor_spectra()) }
         }
     }
 }

@@ -1,16 +1,13 @@
 //! The same run with other contacts: both ends of the advised range of stiffness, lower and higher restitution.
 
-use std::sync::Arc;
-
 use jostle::judgement::advised_stiffness;
 use jostle::results::contact_sensitivity::{
     BuildingChange, ContactSensitivity, ContactVariant, GapSpread, RangeEnd, VariantResult,
 };
 use jostle::results::summary::{BuildingSummary, FloorSummary};
-use jostle::{LawKind, Model, Plan, RunEnd, Summary, System};
+use jostle::{LawKind, Model, Summary, System};
 
 use crate::observer::{Observer, Stage};
-use crate::prepared::Prepared;
 use crate::run::Ran;
 
 impl Ran {
@@ -24,20 +21,6 @@ impl Ran {
         }
     }
 
-    /// Adds what came out of other contacts to the numbers of the run, or why it is missing.
-    pub fn add_contact_sensitivity(&self, summary: &mut Summary) {
-        match &self.contact_sensitivity {
-            Some(Ok(found)) => {
-                summary.contact_sensitivity = Some(found.clone());
-                self.prepared.judge(summary);
-            }
-            Some(Err(problem)) => summary.warnings.push(format!(
-                "results cannot be compared with those of other contacts: {problem}"
-            )),
-            None => {}
-        }
-    }
-
     fn other_contacts(
         &self,
         summary: &Summary,
@@ -45,22 +28,18 @@ impl Ran {
     ) -> Result<ContactSensitivity, String> {
         let mut others = Vec::new();
         for variant in ContactVariant::USUAL {
-            let Some(prepared) = self.prepared.with_contact(variant)? else {
+            let mut model = self.prepared.input.model.clone();
+            change(&mut model, &self.prepared.system, variant);
+            let words = in_words(variant);
+            let assemble = |model: &Model| self.prepared.system.with_gaps_of(model);
+            let Some(prepared) = self.prepared.with_model(model, &words, assemble)? else {
                 continue;
             };
-            let outcome = prepared.step(prepared.settings(false), |progress| {
-                observer(Stage::ContactSensitivity, progress)
-            });
-            match &outcome.end {
-                RunEnd::Completed => {}
-                RunEnd::Stopped => return Err("they were interrupted".to_owned()),
-                RunEnd::Failed(error) => return Err(format!("{}: {error}", in_words(variant))),
-            }
             let model = &prepared.input.model;
             others.push((
                 variant,
                 model.gaps.iter().map(|gap| gap.law.stiffness).collect(),
-                prepared.summary(&outcome, None, 0.0),
+                prepared.run_variant(&words, Stage::ContactSensitivity, observer)?,
             ));
         }
         let own = self.prepared.input.model.gaps.first();
@@ -69,30 +48,6 @@ impl Ran {
             own.map_or(1.0, |gap| gap.law.stiffness),
             &others,
         ))
-    }
-}
-
-impl Prepared {
-    /// The same with another contact; `None` if it is the same contact.
-    fn with_contact(&self, variant: ContactVariant) -> Result<Option<Self>, String> {
-        let mut input = (*self.input).clone();
-        change(&mut input.model, &self.system, variant);
-        if input.model == self.input.model {
-            return Ok(None);
-        }
-        let refused = |faults: Vec<jostle::ModelFault>| {
-            let problems: Vec<String> = faults.iter().map(ToString::to_string).collect();
-            format!("{}: {}", in_words(variant), problems.join("; "))
-        };
-        let system = self.system.with_gaps_of(&input.model).map_err(refused)?;
-        let plan = Plan::choose(&system, &self.motion, &input.model.analysis).map_err(refused)?;
-        Ok(Some(Self {
-            input: Arc::new(input),
-            system: Arc::new(system),
-            motion: self.motion.clone(),
-            plan,
-            shapes: None,
-        }))
     }
 }
 

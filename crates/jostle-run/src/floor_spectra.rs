@@ -91,14 +91,13 @@ const USUAL_CORNER: f64 = 25.0;
 /// Its order.
 const USUAL_ORDER: usize = 4;
 
-/// Greatest total acceleration of every floor of every building after the filter of floor spectra, from the histories of a run; empty if
-/// they cannot be filtered. Rows 5 ms apart keep it to about 1 % \[m/s²\].
-pub(crate) fn filtered_peaks(
-    request: Option<&FloorSpectraRequest>,
-    history: &History,
-    floors: &[Vec<FloorPeaks>],
-) -> Vec<Vec<f64>> {
-    let low_pass = request.map_or(USUAL_CORNER, |request| request.low_pass);
+/// Notes the greatest total acceleration of every floor after the filter of floor spectra in the peaks of a run; without histories there is
+/// none. Rows 5 ms apart keep it to about 1 %.
+pub(crate) fn filter_floors(request: Option<&FloorSpectraRequest>, outcome: &mut Outcome) {
+    let Some(history) = &outcome.history else {
+        return;
+    };
+    let low_pass = low_pass(request);
     let order = request.map_or(USUAL_ORDER, |request| request.order);
     let column = |column| history.column(column).unwrap_or_default();
     let (time, ground) = (column(Column::Time), column(Column::GroundAcceleration));
@@ -108,12 +107,16 @@ pub(crate) fn filtered_peaks(
         let motion = UnevenMotion::with_velocity(time.clone(), total, &velocity, &ground)?;
         filtered_peak(&motion, low_pass, order)
     };
-    let all: Result<Vec<Vec<f64>>, MotionFault> = floors
-        .iter()
-        .enumerate()
-        .map(|(building, own)| (1..=own.len()).map(|floor| one(building, floor)).collect())
-        .collect();
-    all.unwrap_or_default()
+    for (building, floors) in outcome.floors.iter_mut().enumerate() {
+        for (index, floor) in floors.iter_mut().enumerate() {
+            floor.filtered_acceleration = one(building, index + 1).ok();
+        }
+    }
+}
+
+/// Corner of the filter of filtered accelerations \[Hz\].
+pub(crate) fn low_pass(request: Option<&FloorSpectraRequest>) -> f64 {
+    request.map_or(USUAL_CORNER, |request| request.low_pass)
 }
 
 /// Peak of a floor acceleration after the filter \[m/s²\].

@@ -20,6 +20,7 @@ mod floor_spectra;
 mod floor_spectra_text;
 mod gap_page;
 mod gap_runs;
+mod isolation_bounds;
 mod modes;
 mod numbers;
 mod observer;
@@ -34,6 +35,7 @@ mod shapes;
 mod spectra;
 mod style;
 mod summary_text;
+mod variants;
 
 pub use case_cache::{CaseCache, CaseError};
 pub use checks_text::finding_with_remedy;

@@ -16,6 +16,8 @@ pub enum Stage {
     WithoutContact,
     /// A run with another contact stiffness or restitution.
     ContactSensitivity,
+    /// A run at a bound of the properties of bearings.
+    IsolationBounds,
 }
 
 /// Called with the stage, the time reached and the time to reach; stops the run with `ControlFlow::Break`.

@@ -6,7 +6,6 @@ use jostle_io::Input;
 use jostle_report::{Page, ReinforcedSection};
 
 use crate::contact_advice::contact_boxes;
-use crate::floor_spectra::filtered_peaks;
 use crate::prepared::Prepared;
 
 /// A run in the form that its files are written from.
@@ -50,8 +49,6 @@ impl<'a> Results<'a> {
             &self.prepared.system,
             self.summary,
         );
-        let request = self.prepared.input.floor_spectra.as_ref();
-        let filtered = filtered_peaks(request, history, &self.outcome.floors);
         Some(show(&Page {
             model: &self.prepared.input.model,
             motion: &self.prepared.motion,
@@ -63,7 +60,6 @@ impl<'a> Results<'a> {
             codes: &self.prepared.input.codes,
             north: self.prepared.input.north,
             contacts: &contacts,
-            filtered: &filtered,
             methods: self.methods,
             calculation: Some(&calculation),
         }))

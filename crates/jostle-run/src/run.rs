@@ -3,9 +3,10 @@
 use std::time::Instant;
 
 use jostle::results::contact_sensitivity::ContactSensitivity;
+use jostle::results::isolation_bounds::IsolationBounds;
 use jostle::{Outcome, Pounding, RunEnd, Settings, Summary};
 
-use crate::floor_spectra::{RunFloorSpectra, combine};
+use crate::floor_spectra::{RunFloorSpectra, combine, filter_floors};
 use crate::observer::{Observer, Stage};
 use crate::prepared::{Prepared, without_contact};
 use crate::results::Results;
@@ -22,6 +23,8 @@ pub struct Ran {
     pub wall: f64,
     /// The same with other contacts, or why not, if these were run.
     pub contact_sensitivity: Option<Result<ContactSensitivity, String>>,
+    /// The same at the bounds of bearings, or why not, if the model states any.
+    pub isolation_bounds: Option<Result<IsolationBounds, String>>,
     /// Spectra of floors, or why not, if they were asked for.
     pub floor_spectra: Option<Result<RunFloorSpectra, String>>,
     /// Those of the run without contact.
@@ -40,6 +43,7 @@ impl Prepared {
         let started = Instant::now();
         let mut outcome = self.step(settings, |progress| observer(stage, progress));
         let wall = started.elapsed().as_secs_f64();
+        filter_floors(self.input.floor_spectra.as_ref(), &mut outcome);
         if stage == Stage::Pounding {
             self.find_sensitivity(&mut outcome, |progress| {
                 observer(Stage::Sensitivity, progress)
@@ -53,6 +57,7 @@ impl Prepared {
             without_contact: None,
             wall,
             contact_sensitivity: None,
+            isolation_bounds: None,
         }
     }
 }
@@ -63,7 +68,8 @@ impl Ran {
         if self.prepared.compares(&self.outcome) {
             let settings = without_contact(self.prepared.with_rows_for_spectra(settings));
             let watch = |progress| observer(Stage::WithoutContact, progress);
-            let outcome = self.prepared.step(settings, watch);
+            let mut outcome = self.prepared.step(settings, watch);
+            filter_floors(self.prepared.input.floor_spectra.as_ref(), &mut outcome);
             if outcome.end == RunEnd::Completed {
                 self.floor_spectra_without = self.prepared.floor_spectra(&outcome);
             }
@@ -76,9 +82,36 @@ impl Ran {
     pub fn summary(&self) -> Summary {
         let without = self.without_contact.as_ref();
         let mut summary = self.prepared.summary(&self.outcome, without, self.wall);
-        self.add_contact_sensitivity(&mut summary);
+        self.add_variants(&mut summary);
         self.add_floor_spectra(&mut summary, self.floor_spectra_without.as_ref());
         summary
+    }
+
+    /// Adds what came out of other contacts and of the bounds of bearings to the numbers of the run, or why it is missing.
+    pub fn add_variants(&self, summary: &mut Summary) {
+        match &self.contact_sensitivity {
+            Some(Ok(found)) => summary.contact_sensitivity = Some(found.clone()),
+            Some(Err(problem)) => summary.warnings.push(format!(
+                "results cannot be compared with those of other contacts: {problem}"
+            )),
+            None => {}
+        }
+        match &self.isolation_bounds {
+            Some(Ok(found)) => summary.isolation_bounds = Some(found.clone()),
+            Some(Err(problem)) => summary.warnings.push(format!(
+                "there is no envelope over the bounds of bearings: {problem}"
+            )),
+            None => {}
+        }
+        if self.has_variants() {
+            self.prepared.judge(summary);
+        }
+    }
+
+    /// Whether runs with other contacts or at the bounds of bearings were made, or tried.
+    #[must_use]
+    pub fn has_variants(&self) -> bool {
+        self.contact_sensitivity.is_some() || self.isolation_bounds.is_some()
     }
 
     /// Adds the spectra of floors to the numbers of the run, or why they are missing. `without`: those of the run without

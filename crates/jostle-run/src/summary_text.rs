@@ -5,6 +5,7 @@ use std::path::Path;
 
 use jostle::linear::sort_by;
 use jostle::results::contact_sensitivity::ContactSensitivity;
+use jostle::results::isolation_bounds::{Bounded, IsolationBounds};
 use jostle::results::response::FloorResponse;
 use jostle::results::summary::{
     BuildingSummary, ContactSummary, ExceededSummary, GapSummary, LinkSummary, Summary,
@@ -13,6 +14,7 @@ use jostle::separation::{Requirement, Requirements};
 use jostle_io::Input;
 
 use crate::checks_text::write_findings;
+use crate::floor_spectra::low_pass;
 use crate::floor_spectra_text::write_floor_spectra;
 use crate::numbers::{counted, counted_grouped, grouped, kn, mm};
 use crate::style::{BOLD, DIM, LOUD, styled};
@@ -61,7 +63,8 @@ fn write_all(
             styled(LOUD, &format!("ended early: {reason}"))
         )?;
     }
-    write_buildings(text, &summary.buildings)?;
+    let corner = low_pass(input.floor_spectra.as_ref());
+    write_buildings(text, &summary.buildings, corner)?;
     write_in_plan(text, &summary.buildings)?;
     write_isolation(text, summary)?;
     write_foundations(text, summary)?;
@@ -79,6 +82,9 @@ fn write_all(
     }
     if let Some(spread) = &summary.contact_sensitivity {
         write_spread(text, spread)?;
+    }
+    if let Some(bounds) = &summary.isolation_bounds {
+        write_bounds(text, bounds)?;
     }
     for link in &summary.links {
         write_link(text, link)?;
@@ -124,6 +130,18 @@ fn write_all(
     Ok(())
 }
 
+/// Greatest acceleration of any floor, and the same after the filter where there are histories.
+fn accelerations(building: &BuildingSummary) -> String {
+    let response = &building.response;
+    let filtered = response
+        .filtered_acceleration_peak_m_s2
+        .map_or_else(String::new, |value| format!(" ({value:.1})"));
+    format!(
+        "{:.1}{filtered} m/s²",
+        response.total_acceleration_peak_m_s2
+    )
+}
+
 /// What buildings with plans do across the row and in torsion.
 fn write_in_plan(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::Result {
     if buildings.iter().all(|building| building.in_plan.is_none()) {
@@ -160,15 +178,25 @@ fn write_in_plan(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::
     Ok(())
 }
 
-fn write_buildings(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::Result {
+/// One line for every building; `corner` is that of the filter of accelerations \[Hz\].
+fn write_buildings(
+    text: &mut String,
+    buildings: &[BuildingSummary],
+    corner: f64,
+) -> std::fmt::Result {
     let width = buildings
         .iter()
         .map(|building| building.name.chars().count())
         .fold(8, usize::max);
     writeln!(
         text,
-        "\n{:width$}  floors     mass  {:17}  {:>17}  {:>6}  {:>10}",
-        "building", "periods", "roof", "drift", "base shear"
+        "\n{:width$}  floors     mass  {:17}  {:>17}  {:>6}  {:>10}  {:>24}",
+        "building",
+        "periods",
+        "roof",
+        "drift",
+        "base shear",
+        format!("acceleration (< {corner} Hz)")
     )?;
     for building in buildings {
         let periods: Vec<String> = building
@@ -182,7 +210,7 @@ fn write_buildings(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt
         };
         writeln!(
             text,
-            "{:width$}  {:6}  {:5.0} t  {:15} s  {:>+6.1} / {:>+5.1} mm  {:4.2} %  {:>7} kN",
+            "{:width$}  {:6}  {:5.0} t  {:15} s  {:>+6.1} / {:>+5.1} mm  {:4.2} %  {:>7} kN  {:>24}",
             building.name,
             building.floors.len(),
             building.mass_kg * 1e-3,
@@ -190,7 +218,8 @@ fn write_buildings(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt
             roof.response.displacement_max_m * 1e3,
             roof.response.displacement_min_m * 1e3,
             building.response.drift_peak * 100.0,
-            kn(building.response.base_shear_peak_n)
+            kn(building.response.base_shear_peak_n),
+            accelerations(building)
         )?;
     }
     Ok(())
@@ -585,6 +614,41 @@ fn range_beside(gap: &GapSummary, summary: &Summary) -> String {
         let [least, most] = [own.peak_force_min_n, own.peak_force_max_n].map(kn);
         format!(" ({least} to {most} kN)")
     })
+}
+
+/// Results over the range of the properties of bearings.
+fn write_bounds(text: &mut String, bounds: &IsolationBounds) -> std::fmt::Result {
+    let heading = "Bearings at nominal, lower and upper properties";
+    writeln!(text, "\n{}", styled(BOLD, heading))?;
+    let mut line = |name: &str, what: &str, own: &Bounded, show: &dyn Fn(f64) -> String| {
+        let [nominal, lower, upper, envelope] =
+            [own.nominal, own.lower, own.upper, own.envelope].map(show);
+        writeln!(
+            text,
+            "{name}: {what} {nominal}, {lower}, {upper}; envelope {}",
+            styled(BOLD, &envelope)
+        )
+    };
+    for own in &bounds.buildings {
+        let (name, drift) = (&own.name, |x: f64| format!("{:.2} %", 100.0 * x));
+        if let Some(stroke) = &own.stroke_m {
+            line(name, "stroke", stroke, &|x| format!("{} mm", mm(x)))?;
+        }
+        if let Some(force) = &own.force_n {
+            line(name, "force", force, &|x| format!("{} kN", kn(x)))?;
+        }
+        line(name, "drift", &own.drift, &drift)?;
+    }
+    for own in &bounds.gaps {
+        let [left, right] = &own.between;
+        line(
+            &format!("{left} ↔ {right}"),
+            "contact force",
+            &own.peak_force_n,
+            &|x| format!("{} kN", kn(x)),
+        )?;
+    }
+    Ok(())
 }
 
 fn write_spread(text: &mut String, spread: &ContactSensitivity) -> std::fmt::Result {

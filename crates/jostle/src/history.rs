@@ -499,6 +499,8 @@ pub struct FloorPeaks {
     pub displacement_min: Extreme,
     /// Greatest total acceleration, either sign \[m/s²\].
     pub total_acceleration: f64,
+    /// The same after a low-pass filter, which the mechanics leaves to its callers; `None` if it was not computed \[m/s²\].
+    pub filtered_acceleration: Option<f64>,
     /// Greatest drift ratio of the storey below, either sign \[–\].
     pub storey_drift: f64,
     /// Greatest shear of the storey below, either sign \[N\].

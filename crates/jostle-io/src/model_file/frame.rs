@@ -89,7 +89,7 @@ fn read_members(
     let (modulus, modulus_is_bad) = read_modulus(reader, view);
     let density = read_density(reader, view, defaults.density);
     let (column_factor, beam_factor) = stiffness_factors(reader, view);
-    let shears = flexible_members(reader, view, "shear", Section::ShearDeformation);
+    let shears = flexible_members(reader, view, "shear", Section::ShearDeformation, false);
     let poisson_ratio = read_poisson_ratio(reader, view);
     let material = |factor, shears| Material {
         modulus,
@@ -113,8 +113,7 @@ fn read_members(
         Some(field) => reader.count(&field).unwrap_or(1),
         None => defaults.segments,
     };
-    let axial = flexible_members(reader, view, "axial", Section::Axial);
-    Frame {
+    let mut frame = Frame {
         beam_segments: beam_segments(reader, view, spans.len(), defaults.segments),
         storey_heights,
         spans,
@@ -123,12 +122,19 @@ fn read_members(
         beam_mass,
         floor_mass,
         column_segments,
-        axial: Axial {
-            columns_flexible: axial.0,
-            beams_flexible: axial.1,
-        },
+        axial: Axial::default(),
         joint: joint(reader, view),
-    }
+    };
+    // Foundations on soil need columns that keep their length, and columns that shorten need their EA.
+    let shortens = frame.tallness() > 1.0
+        && !view.has("foundation")
+        && frame.columns.iter().all(|own| own.axial_rigidity.is_some());
+    let axial = flexible_members(reader, view, "axial", Section::Axial, shortens);
+    frame.axial = Axial {
+        columns_flexible: axial.0,
+        beams_flexible: axial.1,
+    };
+    frame
 }
 
 /// Density of the columns \[kg/m³\].
@@ -248,15 +254,16 @@ fn beam_segments(
     }
 }
 
-/// Whether columns and beams are flexible in some way: a word for all, or a table.
+/// Whether columns and beams are flexible in some way: a word for all, or a table. Columns are as `usual` where the file does not say.
 pub(super) fn flexible_members(
     reader: &mut Reader<'_>,
     view: &View<'_>,
     key: &'static str,
     section: Section,
+    usual: bool,
 ) -> (bool, bool) {
     let Some(field) = reader.get(view, key) else {
-        return (false, false);
+        return (usual, false);
     };
     if !matches!(field.node.value, Value::Table(_)) {
         let flexible = is_flexible(reader, &field);
@@ -270,11 +277,11 @@ pub(super) fn flexible_members(
     let Some(view) = reader.open(&field, sections) else {
         return (false, false);
     };
-    let mut flexible = |key| match reader.get(&view, key) {
+    let mut flexible = |key, usual| match reader.get(&view, key) {
         Some(field) => is_flexible(reader, &field),
-        None => false,
+        None => usual,
     };
-    (flexible("columns"), flexible("beams"))
+    (flexible("columns", usual), flexible("beams", false))
 }
 
 pub(super) fn read_poisson_ratio(reader: &mut Reader<'_>, view: &View<'_>) -> f64 {

@@ -1,6 +1,9 @@
 //! `[building.isolation]`: bearings under a building, and the mat on them.
 
-use jostle::{Isolation, Isolator, IsolatorDamping, PlanPoint, SpeedFriction, Stop};
+use jostle::{
+    BearingBounds, BearingFactors, Isolation, Isolator, IsolatorDamping, PlanPoint, SpeedFriction,
+    Stop,
+};
 
 use super::plan::pair;
 use crate::keys::{ISOLATORS, Section};
@@ -71,6 +74,7 @@ pub(super) fn read(
     let limit = given(reader, &view, "limit", Dimension::Length);
     read_places(reader, &view, places);
     let weight = given(reader, &view, "weight", Dimension::Force);
+    let bounds = kind.and_then(|kind| bounds(reader, &view, kind));
     Some(Isolation {
         isolator: isolator?,
         mat_mass: mat_mass?,
@@ -78,6 +82,71 @@ pub(super) fn read(
         stops,
         limit,
         weight,
+        bounds,
+    })
+}
+
+/// Lower and upper bound of the properties of bearings of a kind.
+fn bounds(reader: &mut Reader<'_>, view: &View<'_>, kind: &'static str) -> Option<BearingBounds> {
+    let field = reader.get(view, "bounds")?;
+    let view = reader.open(&field, &[Section::IsolationBounds])?;
+    let [lower, upper] = [("lower", "0.85"), ("upper", "1.3")].map(|(key, example)| {
+        let Some(field) = reader.get(&view, key) else {
+            reader.missing(
+                &view,
+                key,
+                format!("add {key} = {example}, or the factor of your supplier or code"),
+            );
+            return None;
+        };
+        factors(reader, &field, kind)
+    });
+    Some(BearingBounds {
+        lower: lower?,
+        upper: upper?,
+    })
+}
+
+/// Factors on what bearings of a kind have: one for all of it, or one each.
+fn factors(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    kind: &'static str,
+) -> Option<BearingFactors> {
+    let has = |key| match key {
+        "stiffness" => kind != "friction-pendulum",
+        _ => kind != "linear",
+    };
+    let keys = ["stiffness", "strength"];
+    if !matches!(field.node.value, Value::Table(_)) {
+        let factor = reader.positive(field, Dimension::Dimensionless)?;
+        let [stiffness, strength] = keys.map(|key| if has(key) { factor } else { 1.0 });
+        return Some(BearingFactors {
+            stiffness,
+            strength,
+        });
+    }
+    let view = reader.open(field, &[Section::BearingFactors])?;
+    let [stiffness, strength] = keys.map(|key| {
+        let Some(field) = reader.get(&view, key) else {
+            return Some(1.0);
+        };
+        if !has(key) {
+            *reader.bad(&field, format!("is not a property of kind = \"{kind}\"")) = Some(
+                match key {
+                    "stiffness" => {
+                        "the stiffness of a pendulum is its weight over its radius; leave it out"
+                    }
+                    _ => "linear bearings have no yield force; leave it out",
+                }
+                .into(),
+            );
+        }
+        reader.positive(&field, Dimension::Dimensionless)
+    });
+    Some(BearingFactors {
+        stiffness: stiffness?,
+        strength: strength?,
     })
 }
 

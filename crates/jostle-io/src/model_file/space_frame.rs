@@ -151,7 +151,7 @@ pub(super) fn read(
 ) -> SpaceFrame {
     let (modulus, modulus_is_bad) = read_modulus(reader, view);
     let (column_factor, beam_factor) = stiffness_factors(reader, view);
-    let shears = flexible_members(reader, view, "shear", Section::ShearDeformation);
+    let shears = flexible_members(reader, view, "shear", Section::ShearDeformation, false);
     let torsion = reader
         .get(view, "torsion_factor")
         .and_then(|field| reader.positive(&field, Dimension::Dimensionless));

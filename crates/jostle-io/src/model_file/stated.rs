@@ -3,8 +3,10 @@
 use jostle::Model;
 use jostle::judgement::{StatedBuilding, named, names};
 use jostle_section::StrengthLevel;
+use jostle_section::formula::Member;
 
 use super::assumptions::{STIFFEST_CONCRETE, as_table, factor, number};
+use super::reinforced::ReinforcedMember;
 use crate::grade::parse_concrete;
 use crate::keys::Section;
 use crate::nearest::nearest;
@@ -43,7 +45,11 @@ pub(super) fn silenced(reader: &mut Reader<'_>, field: &Field<'_>) -> Vec<&'stat
 }
 
 /// What a file says of every building.
-pub(super) fn of_buildings(model: &Model, root: &Node) -> Vec<StatedBuilding> {
+pub(super) fn of_buildings(
+    model: &Model,
+    root: &Node,
+    reinforced: &[ReinforcedMember],
+) -> Vec<StatedBuilding> {
     let tables = match as_table(root).and_then(|root| root.get("building")) {
         Some(Node {
             value: Value::List(list),
@@ -56,7 +62,28 @@ pub(super) fn of_buildings(model: &Model, root: &Node) -> Vec<StatedBuilding> {
         .map(|table| table.map_or_else(Default::default, of_building));
     let mut stated: Vec<StatedBuilding> = known.collect();
     stated.resize(model.buildings.len(), StatedBuilding::default());
+    for (index, own) in stated.iter_mut().enumerate() {
+        if own.hinges_from_sections {
+            own.hinge_compression = hinge_compression(index, reinforced);
+        }
+    }
     stated
+}
+
+/// Compression for which the hinges of columns of a building are made, by storey and column line \[N\].
+fn hinge_compression(building: usize, reinforced: &[ReinforcedMember]) -> Vec<Vec<f64>> {
+    let mut storeys: Vec<Vec<f64>> = Vec::new();
+    let columns = reinforced
+        .iter()
+        .filter(|own| own.building == building && own.member == Member::Column);
+    for column in columns {
+        storeys.resize(storeys.len().max(column.floor), Vec::new());
+        let row = &mut storeys[column.floor - 1];
+        // A storey without bars has no hinges of sections.
+        row.resize(row.len().max(column.place), f64::NAN);
+        row[column.place - 1] = column.compression;
+    }
+    storeys
 }
 
 fn of_building(table: &Table) -> StatedBuilding {
@@ -75,5 +102,7 @@ fn of_building(table: &Table) -> StatedBuilding {
         modulus: modulus.filter(|modulus| *modulus <= STIFFEST_CONCRETE),
         stiffness_factor: ["column", "beam"].map(|key| factor(factors, key)),
         hinges_from_sections: hinges.is_some_and(|hinges| hinges.get("from").is_some()),
+        hinge_compression: Vec::new(),
+        axial: table.get("axial").is_some(),
     }
 }

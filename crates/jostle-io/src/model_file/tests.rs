@@ -52,7 +52,7 @@ base = { horizontal_stiffness = 1, horizontal_hinge = { rule = "normal" }, rotat
 joint = { rotational_stiffness = 1 }
 damping = { ratio = 0.1 }
 foundation = { length = 1 }
-isolation = { kind = "friction-pendulum", friction = { slow = 0.03 }, stop = { left = { at = 1 } } }
+isolation = { kind = "friction-pendulum", friction = { slow = 0.03 }, bounds = { upper = { strength = 2 } }, stop = { left = { at = 1 } } }
 hinges = { rule = "pinched", pinching = {}, damage = {}, column = { positive = {}, negative = {} } }
 [[building]]
 kind = "shear"

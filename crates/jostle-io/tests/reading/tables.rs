@@ -143,6 +143,7 @@ fn summary() -> Summary {
         promise: Default::default(),
         work: WorkSummary::default(),
         contact_sensitivity: None,
+        isolation_bounds: None,
         floor_spectra: None,
         checks: Vec::new(),
         silenced_checks: Vec::new(),

@@ -469,6 +469,23 @@ messages! {
     greatest_over_time = "greatest over time";
     accuracy = "Accuracy:";
     assumptions_and_limits = "Assumptions and limits of this result";
+    outside_the_model = "Outside the model: no basis for design.";
+    results_are_outside(drifts, limit) = "{drifts}. Beyond {limit} members lose strength that this model keeps, and geometry is no longer that of small drifts. Results in grey say that the building is badly damaged or lost, not how badly.";
+    until_the_run_ended = "Until the run ended:";
+    drift_of(name, drift) = "{name} drifts {drift}";
+
+    // bounds
+    bounds_of_bearings = "Bounds of the bearings";
+    nominal = "nominal";
+    lower_bounds = "lower bounds";
+    upper_bounds = "upper bounds";
+    envelope = "envelope";
+    stroke_mm(name) = "{name}: stroke of the bearings [mm]";
+    force_of_bearings_kn(name) = "{name}: force of the bearings [kN]";
+    drift_percent(name) = "{name}: peak drift [%]";
+    peak_force_between_kn(between) = "{between}: peak contact force [kN]";
+    impacts_between(between) = "{between}: impacts";
+    all_bearings_at_one_bound = "Three runs: all bearings at their nominal properties, at their lower and at their upper bounds. The envelope is the greatest of the three. The rest of this report shows the nominal run.";
     all_checks_are_passed = "No check found anything.";
     silenced_checks(names) = "Silenced in the model file: {names}.";
     what_was_found(text, check) = "{text} ({check}).";

@@ -162,6 +162,25 @@ fn warnings_come_first() {
     );
 }
 
+/// Past check B2 results are grey, and words above them say why.
+#[test]
+fn results_outside_the_model_are_grey_and_said_to_be_so() {
+    let mut run = two_frames(0.1);
+    run.summary.buildings[1].response.drift_peak = 0.0449;
+    let text = render(&run.page());
+    assert!(!text.contains("Outside the model") && !text.contains("tiles muted"));
+    run.summary.buildings[1].response.drift_peak = 0.0613;
+    let text = render(&run.page());
+    let said = text.find("Outside the model: no basis for design.");
+    assert!(said.expect("it is said") < text.find("class=\"verdict muted\"").expect("a verdict"));
+    assert!(text.contains("J2 drifts 6.1\u{a0}%") || text.contains("J2 drifts 6.1 %"));
+    assert!(
+        text.contains("tiles muted") && text.contains("<section class=\"muted\" id=\"impacts\"")
+    );
+    // The tables of the other building are not.
+    assert_eq!(text.matches("peaks muted").count(), 1);
+}
+
 #[test]
 fn peaks_of_every_floor_are_in_numbers_with_and_without_contact() {
     let mut run = two_frames(0.1);

@@ -230,7 +230,11 @@ fn filtered_peaks_have_the_gain_of_the_filter() {
             output = {{ floor_spectra = {{ periods = [0.02, 0.1], low_pass = "25 Hz", order = {order} }} }}
             "#
         );
-        let found = run_in(&text, folder.path()).summary().floor_spectra;
+        let summary = run_in(&text, folder.path()).summary();
+        let building = &summary.buildings[0];
+        let of_floor = building.floors[0].response.filtered_acceleration_peak_m_s2;
+        let of_building = building.response.filtered_acceleration_peak_m_s2;
+        let found = summary.floor_spectra;
         let got = found.expect("asked for").floors[0]
             .response
             .filtered_peak_acceleration_m_s2;
@@ -244,5 +248,50 @@ fn filtered_peaks_have_the_gain_of_the_filter() {
             (got / known - 1.0).abs() < 5e-3,
             "{frequency} {order}: {got} {known}"
         );
+        // Every run reports it, by the filter that the file asks for.
+        assert_eq!(of_floor, Some(got));
+        assert_eq!(of_building, Some(got));
     }
+}
+
+/// Accelerations of a run without spectra: below 25 Hz, with contact and without, null where no histories are kept.
+#[test]
+fn every_run_with_histories_reports_filtered_accelerations() {
+    let text = r#"
+        motion = { kind = "ricker", amplitude = 4.0, period = 0.5 }
+        building = [
+            { name = "A", kind = "shear", mass = [4e4, 4e4], stiffness = 6e7, storey_height = 3.0 },
+            { name = "B", kind = "shear", mass = [8e4, 8e4], stiffness = 4e7, storey_height = 3.0 },
+        ]
+        gap = [{ between = ["A", "B"], width = 0.002, stiffness = 2e10 }]
+        "#;
+    let summary = run(text).summary();
+    assert!(summary.gaps[0].impact_count > 0);
+    let floors = || summary.buildings.iter().flat_map(|own| own.floors.iter());
+    let mut less = 0;
+    for floor in floors() {
+        let filtered = floor
+            .response
+            .filtered_acceleration_peak_m_s2
+            .expect("histories");
+        let raw = floor.response.total_acceleration_peak_m_s2;
+        assert!(filtered > 0.0 && filtered < 1.02 * raw, "{filtered} {raw}");
+        less += usize::from(filtered < 0.8 * raw);
+        // Without impacts nothing is above 25 Hz: the filter leaves the peak.
+        let alone = floor.without_contact.expect("that run was made");
+        let (filtered, raw) = (
+            alone.filtered_acceleration_peak_m_s2.expect("histories"),
+            alone.total_acceleration_peak_m_s2,
+        );
+        assert!((filtered / raw - 1.0).abs() < 0.03, "{filtered} {raw}");
+    }
+    assert!(less > 0, "impacts are cut");
+    let input = read_model_text("test", text, Format::Toml, Path::new("")).expect("a model");
+    let prepared = Opened::new(input, "test").expect("assembles").prepare();
+    let prepared = prepared.expect("plans");
+    let settings = prepared.settings(false);
+    assert_eq!(settings.record_interval, None);
+    let plain = prepared.run(settings, &mut |_, _| ControlFlow::Continue(()));
+    let plain = &plain.summary().buildings[0];
+    assert_eq!(plain.response.filtered_acceleration_peak_m_s2, None);
 }

@@ -219,7 +219,7 @@ impl Work<'_> {
             let share = match stage {
                 Stage::Pounding => WORK[0] * part,
                 Stage::Sensitivity => WORK[0] + WORK[1] * part,
-                Stage::WithoutContact | Stage::ContactSensitivity => {
+                Stage::WithoutContact | Stage::ContactSensitivity | Stage::IsolationBounds => {
                     WORK[0] + WORK[1] + WORK[2] * part
                 }
             };
@@ -240,6 +240,7 @@ impl Work<'_> {
         if self.options.sensitivity {
             ran.run_other_contacts(&mut observer);
         }
+        ran.run_isolation_bounds(&mut observer);
         let ended = ran.outcome.end == RunEnd::Stopped
             || ran
                 .without_contact

@@ -170,9 +170,13 @@ pub(super) fn building(
         tree.insert("beam_mass".into(), json!(random.scaled(1000.0, 5000.0)));
         tree.insert("column_segments".into(), json!(columns));
         tree.insert("beam_segments".into(), json!(beams));
-        if random.chance(0.15) {
-            tree.insert("axial".into(), json!("flexible"));
-        }
+        // Stated, because the default depends on the height, and both should occur at any.
+        let axial = if random.chance(0.15) {
+            "flexible"
+        } else {
+            "rigid"
+        };
+        tree.insert("axial".into(), json!(axial));
         if random.chance(0.15) {
             tree.insert(
                 "joint".into(),

@@ -41,6 +41,7 @@ pub(super) fn check_isolation(faults: &mut Faults, path: &str, building: &Buildi
         faults.positive(weight, format!("{own}.weight"), "N");
     }
     check_isolator(faults, &own, isolation);
+    check_bounds(faults, &own, isolation);
     if let Some(limit) = isolation.limit {
         faults.positive(limit, format!("{own}.limit"), "m");
     }
@@ -106,6 +107,24 @@ fn check_isolation_in_plan(faults: &mut Faults, path: &str, isolation: &Isolatio
                 .into()
         },
     );
+}
+
+/// Faults of the range of the properties of bearings.
+fn check_bounds(faults: &mut Faults, own: &str, isolation: &Isolation) {
+    let Some(bounds) = isolation.bounds else {
+        return;
+    };
+    for (key, factors, within) in [
+        ("lower", bounds.lower, 0.0..=1.0),
+        ("upper", bounds.upper, 1.0..=f64::MAX),
+    ] {
+        let is_sound = |factor: f64| factor > 0.0 && within.contains(&factor);
+        let sound = is_sound(factors.stiffness) && is_sound(factors.strength);
+        faults.require(sound, format!("{own}.bounds.{key}"), || match key {
+            "lower" => "must be above 0 and at most 1: it multiplies the properties of the bearings, as in bounds = { lower = 0.85, upper = 1.3 }".into(),
+            _ => "must be at least 1: it multiplies the properties of the bearings, as in bounds = { lower = 0.85, upper = 1.3 }".into(),
+        });
+    }
 }
 
 fn check_isolator(faults: &mut Faults, own: &str, isolation: &Isolation) {

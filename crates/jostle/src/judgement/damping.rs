@@ -1,15 +1,17 @@
 //! A4: damping of the first modes.
 
+use super::yielding::structure_yields;
 use super::{Known, Tally, quoted};
+use crate::model::Building;
 
 /// Modes that are looked at.
 const MODES: usize = 5;
 /// Least share of the mass that a mode carries, along x or across: what higher modes do hardly shows \[–\].
 const SHARE: f64 = 0.05;
 
-/// Share of critical damping of the first lateral modes, by the damping of the building alone: dashpots of bases, soil, bearings
-/// and links are meant to damp more.
-pub(super) fn modal_damping(known: &Known<'_>, tally: &mut Tally<'_>) {
+/// Calls `add` with building, number and share of critical damping of the first lateral modes, by the damping of the building alone:
+/// dashpots of bases, soil, bearings and links are meant to damp more.
+fn ratios(known: &Known<'_>, mut add: impl FnMut(&Building, usize, f64)) {
     for (building, own) in known.model.buildings.iter().zip(&known.system.buildings) {
         // Bearings and soil have modes of their own.
         if building.base.isolation.is_some() || building.base.foundation.is_some() {
@@ -25,16 +27,42 @@ pub(super) fn modal_damping(known: &Known<'_>, tally: &mut Tally<'_>) {
             }
             let omega = mode.circular_frequency;
             let by_rayleigh = 0.5 * (equations.alpha / omega + equations.beta * omega);
-            let ratio = own.modal_damping.unwrap_or(by_rayleigh);
-            tally.add(ratio, || {
-                let text = format!(
-                    "{}: lateral mode {} has {:.1} % of critical damping",
-                    quoted(&building.name),
-                    index + 1,
-                    100.0 * ratio
-                );
-                (format!("{}, mode {}", building.name, index + 1), text)
-            });
+            add(
+                building,
+                index + 1,
+                own.modal_damping.unwrap_or(by_rayleigh),
+            );
         }
     }
+}
+
+/// Share of critical damping of the first lateral modes.
+pub(super) fn modal_damping(known: &Known<'_>, tally: &mut Tally<'_>) {
+    ratios(known, |building, mode, ratio| {
+        tally.add(ratio, || {
+            let text = format!(
+                "{}: lateral mode {mode} has {:.1} % of critical damping",
+                quoted(&building.name),
+                100.0 * ratio
+            );
+            (format!("{}, mode {mode}", building.name), text)
+        });
+    });
+}
+
+/// Share of critical damping of the first mode of buildings that yield.
+pub(super) fn damping_with_hinges(known: &Known<'_>, tally: &mut Tally<'_>) {
+    ratios(known, |building, mode, ratio| {
+        if mode > 1 || !structure_yields(building) {
+            return;
+        }
+        tally.add(ratio, || {
+            let text = format!(
+                "{} yields with {:.1} % of critical damping in its first mode: what yielding dissipates comes on top",
+                quoted(&building.name),
+                100.0 * ratio
+            );
+            (building.name.clone(), text)
+        });
+    });
 }

@@ -1,7 +1,8 @@
-//! B6, B7 and B9: indentation, duration and spread of impacts.
+//! B6, B7 and B9: indentation, pressure, duration and spread of impacts.
 
 use super::contact::is_bare;
 use super::gap::length;
+use super::mass::floor_masses;
 use super::{Known, Tally};
 use crate::contact::{LawKind, SlabMaterial};
 use crate::results::summary::{GapSummary, ImpactSummary};
@@ -52,6 +53,63 @@ pub(super) fn indentation_share(known: &Known<'_>, tally: &mut Tally<'_>) {
             (place, text)
         });
     }
+}
+
+/// Thickness of the slabs that are pressed together, where only the force is known \[m\].
+const SLAB: f64 = 0.15;
+/// Mass of a floor per area, from which the width of a slab follows where it is not known \[kg/m²\].
+const FLOOR_DENSITY: f64 = 1000.0;
+/// Characteristic strength of concrete where it is not stated: C25/30 of EN 1992-1-1 \[Pa\].
+const STRENGTH: f64 = 25e6;
+
+/// Pressure of the strongest impact on the edges of the slabs over the strength of the weaker concrete.
+pub(super) fn pressure(known: &Known<'_>, tally: &mut Tally<'_>) {
+    let Some((summary, _)) = known.results else {
+        return;
+    };
+    for (own, gap) in summary.gaps.iter().zip(&known.model.gaps) {
+        if !is_bare(gap.law.kind) || gap.law.kind == LawKind::Restitution {
+            continue;
+        }
+        let sides = known.model.buildings_beside(gap.between);
+        let strength = |side: usize| known.stated(side).strength.unwrap_or(STRENGTH);
+        let strength = sides.into_iter().flatten().map(strength);
+        let strength = strength.fold(f64::INFINITY, f64::min);
+        for contact in &own.contacts {
+            let width = match contact.in_plan {
+                Some(plan) => plan.overlap_m,
+                None => {
+                    let floors = sides.into_iter().zip(contact.floors);
+                    let widths =
+                        floors.filter_map(|(side, floor)| slab_width(known, side?, floor?));
+                    widths.fold(f64::INFINITY, f64::min)
+                }
+            };
+            // Corners have no width, struck columns no slab.
+            if width <= 0.0 || width.is_infinite() {
+                continue;
+            }
+            let pressure = contact.peak_force_n / (width * SLAB);
+            tally.add(pressure / strength, || {
+                let place = own.between.join(" ↔ ");
+                let text = format!(
+                    "{place}: {:.0} kN press a slab of {:.0} mm along {width:.1} m with {:.0} MPa, above the {:.0} MPa of its concrete: it crushes before",
+                    1e-3 * contact.peak_force_n,
+                    1e3 * SLAB,
+                    1e-6 * pressure,
+                    1e-6 * strength
+                );
+                (place, text)
+            });
+        }
+    }
+}
+
+/// Width of the slab of a floor across the row: its mass over its length and 1000 kg/m², or that of a square.
+fn slab_width(known: &Known<'_>, building: usize, floor: usize) -> Option<f64> {
+    let masses = floor_masses(known.system.buildings.get(building)?);
+    let area = masses.get(floor.checked_sub(1)?)? / FLOOR_DENSITY;
+    Some(length(&known.model.buildings[building]).map_or(area.sqrt(), |length| area / length))
 }
 
 /// Duration of the strongest impact of a gap over the time in which a wave runs along the shorter floor and back.

@@ -26,7 +26,7 @@ use crate::system::System;
 pub use contact::advised_stiffness;
 pub use mass::floor_masses;
 pub use silence::{named, names};
-pub use table::{CHECKS, JUDGEMENT};
+pub use table::{CHECKS, FROM_MODEL, JUDGEMENT, OUTSIDE_DRIFT};
 
 /// What checks know.
 #[derive(Clone, Copy, Debug)]
@@ -55,7 +55,7 @@ pub struct Stated {
 }
 
 /// What the file says of one building.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct StatedBuilding {
     /// Characteristic compressive strength of its concrete; `None` if it is not stated \[Pa\].
     pub strength: Option<f64>,
@@ -65,6 +65,11 @@ pub struct StatedBuilding {
     pub stiffness_factor: [f64; 2],
     /// Whether hinges follow from sections: they then turn by what the members leave of the rotation at yield.
     pub hinges_from_sections: bool,
+    /// Compression for which the hinges of columns were made, by storey and column line; empty if hinges do not follow from sections
+    /// \[N\].
+    pub hinge_compression: Vec<Vec<f64>>,
+    /// Whether the file says if columns shorten.
+    pub axial: bool,
 }
 
 impl Default for StatedBuilding {
@@ -74,6 +79,8 @@ impl Default for StatedBuilding {
             modulus: None,
             stiffness_factor: [1.0; 2],
             hinges_from_sections: false,
+            hinge_compression: Vec::new(),
+            axial: false,
         }
     }
 }
@@ -81,13 +88,13 @@ impl Default for StatedBuilding {
 impl Known<'_> {
     fn stated(&self, building: usize) -> StatedBuilding {
         let own = self.stated.buildings.get(building);
-        own.copied().unwrap_or_default()
+        own.cloned().unwrap_or_default()
     }
 }
 
 /// A check, or one part of it.
 pub struct Check {
-    /// Identifier: `A1` to `A14` of models, `B1` to `B12` of results.
+    /// Identifier: `A1` to `A15` of models, `B1` to `B12` of results.
     pub id: &'static str,
     /// Name of the part, unique.
     pub name: &'static str,
@@ -97,8 +104,9 @@ pub struct Check {
     pub unit: &'static str,
     /// Limits; the most severe one that is crossed counts.
     pub limits: &'static [Limit],
-    /// Where the limits come from, or [`JUDGEMENT`].
-    pub source: &'static str,
+    /// Where the limits come from: at least two publications that agree, [`JUDGEMENT`] or [`FROM_MODEL`]. What only some of the limits
+    /// have begins with their name.
+    pub sources: &'static [&'static str],
     /// What to do about it.
     pub remedy: &'static str,
     measure: fn(&Known<'_>, &mut Tally<'_>),
@@ -185,6 +193,12 @@ impl Check {
     #[must_use]
     pub fn is_of_model(&self) -> bool {
         self.id.starts_with('A')
+    }
+
+    /// Where its limits come from, in one line.
+    #[must_use]
+    pub fn source(&self) -> String {
+        self.sources.join("; ")
     }
 
     /// The worst that it finds; `None` if it is passed or does not apply.

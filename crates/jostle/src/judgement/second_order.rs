@@ -3,18 +3,19 @@
 use super::{Known, Tally, quoted};
 use crate::model::{Frame, Structure};
 
-/// Height over width of frames whose columns keep their length.
+/// How tall frames are whose columns keep their length.
 pub(super) fn rigid_columns(known: &Known<'_>, tally: &mut Tally<'_>) {
     let mut compare = |name: &str, frame: &Frame| {
-        let (height, width): (f64, f64) =
-            (frame.storey_heights.iter().sum(), frame.spans.iter().sum());
         if frame.axial.columns_flexible {
             return;
         }
-        tally.add(height / width, || {
+        tally.add(frame.tallness(), || {
+            let (height, width): (f64, f64) =
+                (frame.storey_heights.iter().sum(), frame.spans.iter().sum());
             let text = format!(
-                "{}: {:.1} times as high as wide, with columns that keep their length: real ones shorten, and the building is softer",
+                "{}: {} storeys, {:.1} times as high as wide, with columns that keep their length: real ones shorten, and the building is softer",
                 quoted(name),
+                frame.storey_heights.len(),
                 height / width
             );
             (name.to_owned(), text)

@@ -1,13 +1,31 @@
-//! B11: strokes of bearings.
+//! A15 and B11: properties, strokes and uplift of bearings.
 
+use super::gap::length;
 use super::{Known, Tally, quoted};
+use crate::model::{PlanPoint, Structure};
 
-/// Displacement of bearings over the one that they allow.
+/// 1 for an isolated building without a range of the properties of its bearings, 0 for others.
+pub(super) fn bearing_bounds(known: &Known<'_>, tally: &mut Tally<'_>) {
+    for building in &known.model.buildings {
+        let Some(isolation) = &building.base.isolation else {
+            continue;
+        };
+        tally.add(f64::from(u8::from(isolation.bounds.is_none())), || {
+            let text = format!(
+                "{}: one set of bearing properties; codes want lower and upper bounds, which decide stroke and force",
+                quoted(&building.name)
+            );
+            (building.name.clone(), text)
+        });
+    }
+}
+
+/// Displacement of bearings over the one that they allow, at the bounds of their properties too.
 pub(super) fn bearing_stroke(known: &Known<'_>, tally: &mut Tally<'_>) {
     let Some((summary, _)) = known.results else {
         return;
     };
-    for building in &summary.buildings {
+    for (index, building) in summary.buildings.iter().enumerate() {
         let Some((own, limit)) = building
             .isolation
             .as_ref()
@@ -15,19 +33,78 @@ pub(super) fn bearing_stroke(known: &Known<'_>, tally: &mut Tally<'_>) {
         else {
             continue;
         };
-        let stroke = own.displacement_peak_m();
+        let bounds = summary.isolation_bounds.as_ref();
+        let bounds = bounds.and_then(|all| all.buildings.get(index)?.stroke_m);
+        let nominal = own.displacement_peak_m();
+        let stroke = bounds.map_or(nominal, |own| own.envelope);
         tally.add(stroke / limit, || {
             let what = match own.in_plan {
                 Some(_) => "a bearing",
                 None => "the mat",
             };
+            let at = match stroke > nominal {
+                true => " at a bound of its properties",
+                false => "",
+            };
             let text = format!(
-                "{what} of {} moves {:.0} mm, beyond the {:.0} mm that its bearings allow",
+                "{what} of {} moves {:.0} mm{at}, beyond the {:.0} mm that its bearings allow",
                 quoted(&building.name),
                 1e3 * stroke,
                 1e3 * limit
             );
             (building.name.clone(), text)
         });
+    }
+}
+
+/// Overturning moment on the bearings over that at which the outermost one loses its compression: W Σx²/(n x_max) for n bearings at x
+/// from their middle, W B/6 for bearings spread evenly over a length B.
+pub(super) fn bearing_uplift(known: &Known<'_>, tally: &mut Tally<'_>) {
+    let Some((summary, _)) = known.results else {
+        return;
+    };
+    for (model, own) in known.model.buildings.iter().zip(&summary.buildings) {
+        let bearings = match &model.structure {
+            Structure::Tiers(tiers) => &tiers.bearings[..],
+            Structure::Frame(_) | Structure::Shear(_) | Structure::Given(_) => &[],
+        };
+        let arm = core(bearings).or_else(|| Some(length(model)? / 6.0));
+        let (Some(isolation), Some(arm), Some(lowest)) = (&own.isolation, arm, own.floors.first())
+        else {
+            continue;
+        };
+        let moment = lowest.response.overturning_moment_peak_n_m;
+        let ratio = moment / (isolation.weight_n * arm);
+        tally.add(ratio, || {
+            let text = format!(
+                "{}: an overturning moment of {:.1} MN·m lifts the outermost bearings, which lose their compression at {:.1} MN·m",
+                quoted(&own.name),
+                1e-6 * moment,
+                1e-6 * isolation.weight_n * arm
+            );
+            (own.name.clone(), text)
+        });
+    }
+}
+
+/// Greatest eccentricity of the weight along x without uplift of a bearing; `None` for bearings that do not stand apart \[m\].
+fn core(bearings: &[PlanPoint]) -> Option<f64> {
+    let count = bearings.len() as f64;
+    let middle = bearings.iter().map(|own| own[0]).sum::<f64>() / count;
+    let x = || bearings.iter().map(|own| own[0] - middle);
+    let furthest = x().map(f64::abs).fold(0.0, f64::max);
+    (furthest > 0.0).then(|| x().map(|x| x * x).sum::<f64>() / (count * furthest))
+}
+
+#[cfg(test)]
+mod tests {
+    /// Two bearings 2a apart: one carries nothing once the weight stands over the other, at a. Many along B: the kern of a line, B/6.
+    #[test]
+    fn the_core_of_bearings_is_that_of_statics() {
+        let two = [[1.0, 0.0], [7.0, 5.0]];
+        assert_eq!(super::core(&two), Some(3.0));
+        let many: Vec<[f64; 2]> = (0..=2000).map(|i| [0.006 * f64::from(i), 0.0]).collect();
+        assert!((super::core(&many).unwrap_or(0.0) - 2.0).abs() < 2e-3);
+        assert_eq!(super::core(&[]), None);
     }
 }

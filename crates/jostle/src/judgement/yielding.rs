@@ -171,3 +171,53 @@ pub(super) fn column_tension(known: &Known<'_>, tally: &mut Tally<'_>) {
         }
     }
 }
+
+/// Greatest change of the axial force of a column against the one for which its hinges were made, over A f_ck.
+pub(super) fn hinge_axial_force(known: &Known<'_>, tally: &mut Tally<'_>) {
+    let Some((summary, _)) = known.results else {
+        return;
+    };
+    for (index, model) in known.model.buildings.iter().enumerate() {
+        let stated = known.stated(index);
+        let (Structure::Frame(frame), Some(modulus), Some(strength), Some(own)) = (
+            &model.structure,
+            stated.modulus,
+            stated.strength,
+            summary.buildings.get(index),
+        ) else {
+            continue;
+        };
+        for member in &own.members {
+            let Some((storey, made_for)) = made_for(&member.name, &stated.hinge_compression) else {
+                continue;
+            };
+            let Some(axial) = frame.columns.get(storey).and_then(|own| own.axial_rigidity) else {
+                continue;
+            };
+            // Forces of a run from rest are changes; with gravity they include self weight.
+            let rest = if model.gravity.preload { made_for } else { 0.0 };
+            for end in &member.ends {
+                let [most, least] = [end.axial_max_n, end.axial_min_n].map(|force| force + rest);
+                let change = if -least > most { least } else { most };
+                let ratio = change.abs() * modulus / (axial * strength);
+                tally.add(ratio, || {
+                    let text = format!(
+                        "{}: its axial force is {:+.0} kN from the {:.0} kN of compression for which its hinges were made, ν changes by {ratio:.2}: its strength changes too",
+                        member.name,
+                        -1e-3 * change,
+                        1e-3 * made_for
+                    );
+                    (member.name.clone(), text)
+                });
+            }
+        }
+    }
+}
+
+/// Storey from 0 of a column `NAME.column.LINE.STOREY`, and the compression for which its hinges were made \[N\].
+fn made_for(name: &str, compressions: &[Vec<f64>]) -> Option<(usize, f64)> {
+    let (_, place) = name.rsplit_once(".column.")?;
+    let (line, storey) = place.split_once('.')?;
+    let [line, storey] = [line, storey].map(|number| number.parse::<usize>().ok()?.checked_sub(1));
+    Some((storey?, *compressions.get(storey?)?.get(line?)?))
+}

@@ -30,6 +30,26 @@ pub struct Isolation {
     pub limit: Option<f64>,
     /// Weight on the bearings, > 0; `None` is the mass of building and mat times g = 9.80665 m/s² \[N\].
     pub weight: Option<f64>,
+    /// Range of their properties; `None` if it is not stated.
+    pub bounds: Option<BearingBounds>,
+}
+
+/// Factors on the properties of bearings, for ageing, temperature, first cycles and manufacture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BearingFactors {
+    /// On the stiffness of rubber, > 0; 1 for pendulums, whose stiffness N/R is that of their surface \[–\].
+    pub stiffness: f64,
+    /// On the yield force of the lead, or on friction, > 0; 1 for linear bearings \[–\].
+    pub strength: f64,
+}
+
+/// Lower and upper bound of the properties of bearings, as ASCE/SEI 7-16, 17.2.8, and EN 15129 ask for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BearingBounds {
+    /// Lower bound, ≤ 1.
+    pub lower: BearingFactors,
+    /// Upper bound, ≥ 1.
+    pub upper: BearingFactors,
 }
 
 impl Isolation {
@@ -43,6 +63,7 @@ impl Isolation {
             stops: [None; 2],
             limit: None,
             weight: None,
+            bounds: None,
         }
     }
 
@@ -147,6 +168,38 @@ pub struct Stop {
 }
 
 impl Isolator {
+    /// The same bearings with their properties multiplied.
+    #[must_use]
+    pub fn scaled(self, factors: BearingFactors) -> Self {
+        match self {
+            Self::Linear { stiffness } => Self::Linear {
+                stiffness: factors.stiffness * stiffness,
+            },
+            Self::LeadRubber {
+                stiffness,
+                yield_force,
+                post_yield,
+            } => Self::LeadRubber {
+                stiffness: factors.stiffness * stiffness,
+                yield_force: factors.strength * yield_force,
+                post_yield,
+            },
+            Self::Pendulum {
+                radius,
+                friction,
+                slip_displacement,
+            } => Self::Pendulum {
+                radius,
+                friction: SpeedFriction {
+                    slow: factors.strength * friction.slow,
+                    fast: factors.strength * friction.fast,
+                    ..friction
+                },
+                slip_displacement,
+            },
+        }
+    }
+
     /// Name in model files.
     #[must_use]
     pub const fn name(&self) -> &'static str {

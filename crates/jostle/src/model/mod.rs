@@ -27,7 +27,9 @@ pub use capacity::{
 pub use gap::{FloorPairs, Gap, LEVEL_TOLERANCE, Level, PlanContact};
 pub use given::{Given, MatrixEntry};
 pub use integrator::Integrator;
-pub use isolation::{Isolation, Isolator, IsolatorDamping, SpeedFriction, Stop};
+pub use isolation::{
+    BearingBounds, BearingFactors, Isolation, Isolator, IsolatorDamping, SpeedFriction, Stop,
+};
 pub use link_law::LinkLaw;
 pub use members::{JointRequest, MemberRequest};
 pub use plan_frame::{LumpedFloor, PlanFrame, SharedColumn};
@@ -374,7 +376,24 @@ pub struct Section {
     pub line_mass: f64,
 }
 
-/// Axial behaviour of the members of a frame.
+impl Frame {
+    /// Height over width above which columns shorten unless a model file says otherwise \[–\].
+    pub const SLENDER: f64 = 3.0;
+    /// Storeys above which they do.
+    pub const TALL: usize = 10;
+
+    /// Height over [`Self::SLENDER`] times the width, or storeys over [`Self::TALL`], whichever is greater: above 1 rigid columns make
+    /// the frame noticeably too stiff \[–\].
+    #[must_use]
+    pub fn tallness(&self) -> f64 {
+        let (height, width): (f64, f64) =
+            (self.storey_heights.iter().sum(), self.spans.iter().sum());
+        let storeys = self.storey_heights.len() as f64 / Self::TALL as f64;
+        storeys.max(height / (Self::SLENDER * width))
+    }
+}
+
+/// Axial behaviour of the members of a frame. Model files let columns of tall frames shorten by default ([`Frame::tallness`]).
 ///
 /// ```
 /// use jostle::Axial;
@@ -384,7 +403,7 @@ pub struct Section {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct Axial {
-    /// Columns are axially flexible (`true`) or rigid (`false`, the default, as in Zhang et al. 2019).
+    /// Columns are axially flexible (`true`) or rigid (`false`, as in Zhang et al. 2019).
     pub columns_flexible: bool,
     /// Beams are axially flexible (`true`) or rigid, so that a floor moves as one body (`false`, the default).
     pub beams_flexible: bool,

@@ -134,6 +134,7 @@ fn mat_response(index: usize, outcome: &Outcome, lowest: &FloorResponse) -> Floo
         displacement_min_m: min.value,
         displacement_min_at_s: min.at,
         total_acceleration_peak_m_s2: total_acceleration,
+        filtered_acceleration_peak_m_s2: None,
         storey_drift_peak: 0.0,
         storey_shear_peak_n: outcome.base_shear[index],
         overturning_moment_peak_n_m: lowest.overturning_moment_peak_n_m,

@@ -10,6 +10,7 @@ mod friction;
 mod ground;
 pub mod in_plan;
 mod isolation;
+pub mod isolation_bounds;
 mod members;
 pub mod registry;
 mod required;

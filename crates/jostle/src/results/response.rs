@@ -16,6 +16,8 @@ pub struct BuildingResponse {
     pub drift_peak: f64,
     /// Greatest total acceleration of any floor, either sign \[m/s²\].
     pub total_acceleration_peak_m_s2: f64,
+    /// The same after the low-pass filter of floor spectra; `None` without histories \[m/s²\].
+    pub filtered_acceleration_peak_m_s2: Option<f64>,
     /// Greatest drift ratio of any storey at the end, either sign \[–\].
     pub residual_drift_peak: f64,
     /// Greatest elastic base shear, either sign \[N\].
@@ -36,6 +38,7 @@ impl BuildingResponse {
     pub const QUANTITIES: &[Quantity<Self>] = &[
         Quantity::<Self>::real("drift_peak", Unit::NONE, "greatest drift ratio of any storey", |b| b.drift_peak).in_study().compared(),
         Quantity::<Self>::real("total_acceleration_peak_m_s2", Unit::M_S2, "greatest total acceleration of any floor", |b| b.total_acceleration_peak_m_s2).in_study().compared(),
+        Quantity::<Self>::optional("filtered_acceleration_peak_m_s2", Unit::M_S2, "the same below 25 Hz, or the corner of floor spectra; null without histories", |b| b.filtered_acceleration_peak_m_s2),
         Quantity::<Self>::real("residual_drift_peak", Unit::NONE, "greatest drift ratio of any storey at the end", |b| b.residual_drift_peak).in_study().compared(),
         Quantity::<Self>::real("base_shear_peak_n", Unit::N, "greatest elastic base shear", |b| b.base_shear_peak_n).in_study().compared(),
         Quantity::<Self>::real("residual_roof_displacement_m", Unit::M, "roof displacement at the end", |b| b.residual_roof_displacement_m).in_study().compared(),
@@ -58,6 +61,8 @@ pub struct FloorResponse {
     pub displacement_min_at_s: f64,
     /// Greatest total acceleration, either sign \[m/s²\].
     pub total_acceleration_peak_m_s2: f64,
+    /// The same after the low-pass filter of floor spectra; `None` without histories \[m/s²\].
+    pub filtered_acceleration_peak_m_s2: Option<f64>,
     /// Greatest drift ratio of the storey below, either sign \[–\].
     pub storey_drift_peak: f64,
     /// Greatest shear of the storey below, either sign: the horizontal forces above its base \[N\].
@@ -93,6 +98,7 @@ impl FloorResponse {
         Quantity::<Self>::real("displacement_min_at_s", Unit::S, "its instant", |f| f.displacement_min_at_s),
         Quantity::<Self>::real("displacement_peak_m", Unit::M, "greatest displacement, either sign", Self::displacement_peak_m).not_in_summary().compared().shown("displacement", "mm", 1e3, 1),
         Quantity::<Self>::real("total_acceleration_peak_m_s2", Unit::M_S2, "greatest total acceleration", |f| f.total_acceleration_peak_m_s2).in_study().compared().shown("total acceleration", "m/s²", 1.0, 2),
+        Quantity::<Self>::optional("filtered_acceleration_peak_m_s2", Unit::M_S2, "the same below 25 Hz, or the corner of floor spectra; null without histories", |f| f.filtered_acceleration_peak_m_s2).shown("total acceleration, filtered", "m/s²", 1.0, 2),
         Quantity::<Self>::real("storey_drift_peak", Unit::NONE, "greatest drift ratio of the storey", |f| f.storey_drift_peak).in_study().compared().shown("storey drift", "%", 100.0, 2),
         Quantity::<Self>::real("storey_shear_peak_n", Unit::N, "greatest shear of the storey: the horizontal restoring forces above its base", |f| f.storey_shear_peak_n).in_study().compared().shown("storey shear", "kN", 1e-3, 1),
         Quantity::<Self>::real("overturning_moment_peak_n_m", Unit::NM, "greatest moment of these forces about the base of the storey", |f| f.overturning_moment_peak_n_m).in_study().compared().shown("overturning moment", "kN·m", 1e-3, 0),
@@ -115,6 +121,7 @@ pub(super) fn floor_responses(
         displacement_min_m: peaks.displacement_min.value,
         displacement_min_at_s: peaks.displacement_min.at,
         total_acceleration_peak_m_s2: peaks.total_acceleration,
+        filtered_acceleration_peak_m_s2: peaks.filtered_acceleration,
         storey_drift_peak: peaks.storey_drift,
         storey_shear_peak_n: peaks.storey_shear,
         overturning_moment_peak_n_m: peaks.overturning_moment,
@@ -141,6 +148,10 @@ pub(super) fn building_response(
     BuildingResponse {
         drift_peak: greatest(|floor| floor.storey_drift_peak),
         total_acceleration_peak_m_s2: greatest(|floor| floor.total_acceleration_peak_m_s2),
+        filtered_acceleration_peak_m_s2: floors
+            .iter()
+            .filter_map(|floor| floor.filtered_acceleration_peak_m_s2)
+            .max_by(f64::total_cmp),
         residual_drift_peak: greatest(|floor| floor.residual_drift.abs()),
         base_shear_peak_n: outcome.base_shear[index],
         residual_roof_displacement_m: roof_displacement(building, outcome),

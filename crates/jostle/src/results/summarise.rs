@@ -127,6 +127,7 @@ impl Summary {
             promise: promise_summary(run),
             work: work_summary(run),
             contact_sensitivity: None,
+            isolation_bounds: None,
             floor_spectra: None,
             checks: Vec::new(),
             silenced_checks: Vec::new(),

@@ -40,6 +40,7 @@ use serde::Serialize;
 use crate::quantity::{Quantity, Unit};
 use crate::results::contact_sensitivity::ContactSensitivity;
 use crate::results::floor_spectra::FloorSpectra;
+use crate::results::isolation_bounds::IsolationBounds;
 
 /// Results of a run without histories.
 ///
@@ -96,6 +97,9 @@ pub struct Summary {
     /// How results depend on the contact; absent unless asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact_sensitivity: Option<ContactSensitivity>,
+    /// Peaks over the range of the properties of bearings; absent where the model states none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub isolation_bounds: Option<IsolationBounds>,
     /// Response spectra of floors; absent unless asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub floor_spectra: Option<FloorSpectra>,

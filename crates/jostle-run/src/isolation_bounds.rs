@@ -1,0 +1,105 @@
+//! The same run at the lower and at the upper bound of the properties of bearings.
+
+use jostle::results::isolation_bounds::{Bounded, BoundedBuilding, BoundedGap, IsolationBounds};
+use jostle::results::summary::{BuildingSummary, GapSummary};
+use jostle::{Model, RunEnd, Summary, System};
+
+use crate::observer::{Observer, Stage};
+use crate::prepared::Prepared;
+use crate::run::Ran;
+
+/// The bounds, as messages call them.
+const BOUNDS: [&str; 2] = ["at the lower bounds", "at the upper bounds"];
+
+impl Ran {
+    /// Runs the model at both bounds of its bearings, if it states any and the run came to its end.
+    pub fn run_isolation_bounds(&mut self, observer: &mut Observer<'_>) {
+        let model = &self.prepared.input.model;
+        if has_bounds(model) && self.outcome.end == RunEnd::Completed {
+            let summary = self.prepared.summary(&self.outcome, None, self.wall);
+            self.isolation_bounds = Some(at_bounds(&self.prepared, &summary, observer));
+        }
+    }
+}
+
+/// Whether a model states bounds of bearings.
+fn has_bounds(model: &Model) -> bool {
+    let mut isolated = model
+        .buildings
+        .iter()
+        .filter_map(|own| own.base.isolation.as_ref());
+    isolated.any(|isolation| isolation.bounds.is_some())
+}
+
+fn at_bounds(
+    prepared: &Prepared,
+    nominal: &Summary,
+    observer: &mut Observer<'_>,
+) -> Result<IsolationBounds, String> {
+    let mut one = |upper: bool| {
+        let words = BOUNDS[usize::from(upper)];
+        let model = scaled(&prepared.input.model, upper);
+        match prepared.with_model(model, words, System::assemble)? {
+            Some(other) => other.run_variant(words, Stage::IsolationBounds, observer),
+            None => Ok(nominal.clone()),
+        }
+    };
+    let (lower, upper) = (one(false)?, one(true)?);
+    Ok(compare([nominal, &lower, &upper]))
+}
+
+/// The model with all bearings at one bound.
+fn scaled(model: &Model, upper: bool) -> Model {
+    let mut model = model.clone();
+    let bases = model.buildings.iter_mut().map(|own| &mut own.base);
+    for isolation in bases.filter_map(|base| base.isolation.as_mut()) {
+        if let Some(bounds) = isolation.bounds {
+            let factors = if upper { bounds.upper } else { bounds.lower };
+            isolation.isolator = isolation.isolator.scaled(factors);
+        }
+    }
+    model
+}
+
+/// Puts the runs beside each other: nominal, lower, upper.
+fn compare(runs: [&Summary; 3]) -> IsolationBounds {
+    let building = |index: usize| {
+        let own = runs.map(|run| &run.buildings[index]);
+        let isolated = |of: fn(&BuildingSummary) -> f64| {
+            let has = own[0].isolation.is_some();
+            has.then(|| Bounded::new(own.map(of)))
+        };
+        BoundedBuilding {
+            name: own[0].name.clone(),
+            stroke_m: isolated(stroke),
+            force_n: isolated(force),
+            drift: Bounded::new(own.map(|run| run.response.drift_peak)),
+        }
+    };
+    let gap = |index: usize| {
+        let own = runs.map(|run| &run.gaps[index]);
+        let of = |value: fn(&GapSummary) -> f64| Bounded::new(own.map(value));
+        BoundedGap {
+            between: own[0].between.clone(),
+            peak_force_n: of(|gap| gap.peak_force_n),
+            impact_count: of(|gap| gap.impact_count as f64),
+        }
+    };
+    IsolationBounds {
+        buildings: (0..runs[0].buildings.len()).map(building).collect(),
+        gaps: (0..runs[0].gaps.len()).map(gap).collect(),
+    }
+}
+
+fn stroke(building: &BuildingSummary) -> f64 {
+    let isolation = building.isolation.as_ref();
+    isolation.map_or(0.0, |own| own.displacement_peak_m())
+}
+
+fn force(building: &BuildingSummary) -> f64 {
+    let isolation = building.isolation.as_ref();
+    isolation.map_or(0.0, |own| {
+        let across = own.in_plan.map_or(0.0, |plan| plan.force_across_peak_n);
+        own.force_peak_n.max(across)
+    })
+}
