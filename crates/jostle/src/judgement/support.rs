@@ -104,7 +104,9 @@ mod tests {
         let two = [[1.0, 0.0], [7.0, 5.0]];
         assert_eq!(super::core(&two), Some(3.0));
         let many: Vec<[f64; 2]> = (0..=2000).map(|i| [0.006 * f64::from(i), 0.0]).collect();
-        assert!((super::core(&many).unwrap_or(0.0) - 2.0).abs() < 2e-3);
+        // n equally spaced: B²/12 (n + 1)/(n − 1) over B/2.
+        let due = 2.0 * 2002.0 / 2000.0;
+        assert!((super::core(&many).unwrap_or(0.0) - due).abs() < 1e-9);
         assert_eq!(super::core(&[]), None);
     }
 }
