@@ -15,6 +15,7 @@ mod contact_advice;
 mod contact_sensitivity;
 mod critical_gap;
 mod error;
+mod expectation;
 mod files;
 mod floor_spectra;
 mod floor_spectra_text;
@@ -52,6 +53,7 @@ pub use critical_gap::{
     CriticalGap, GapProgress, GapSettings, LeftOutRule, RuleGap, critical_gaps,
 };
 pub use error::RunError;
+pub use expectation::{Expectation, Pace};
 pub use files::{Content, earlier_files};
 pub use floor_spectra::RunFloorSpectra;
 pub use gap_page::{earlier_gap_curves, gap_curve_csv, gap_curve_page, write_gap_curves};

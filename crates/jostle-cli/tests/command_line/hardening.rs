@@ -275,3 +275,69 @@ fn small_mistakes_are_told() {
     let shown = printed(&jostle(folder, &["check", "m.toml"]));
     assert!(shown.contains("valid, without a ground motion"), "{shown}");
 }
+
+/// `check` says what a run takes, dampers included; the bound on work counts them, and so much memory is refused with the
+/// interval that fits.
+#[test]
+fn expected_work_is_told_and_bounded() {
+    let held = folder();
+    let folder = held.path();
+    let damper = r#"
+[[building.damper]]
+floors = [[0, 1]]
+law = "viscous"
+damping = "18 kN.(s/m)^0.5"
+exponent = 0.5
+stiffness = "150 MN/m"
+"#;
+    let at = SMALL
+        .find("[[building]]\nname = \"B\"")
+        .expect("the second building");
+    let with = |count: usize| {
+        let (first, rest) = SMALL.split_at(at);
+        format!("{first}{}\n{rest}", damper.repeat(count))
+    };
+    write(folder, "m.toml", &with(20));
+    let told = printed(&jostle(folder, &["check", "m.toml"]));
+    assert!(
+        told.contains("20 links and dampers solved together in every step"),
+        "{told}"
+    );
+    for part in [
+        " of computing on this machine, about ",
+        " MB of memory, ",
+        " rows of histories (history.parquet about ",
+    ] {
+        assert!(told.contains(part), "{part}: {told}");
+    }
+    // A run of 400 hours.
+    let long = with(300).replace("duration = \"0.8 s\"", "duration = \"3000 s\"");
+    write(folder, "long.toml", &long);
+    let refused = complained(&jostle(folder, &["check", "long.toml"]));
+    assert!(
+        refused.contains("hours of computing: 300 links and dampers take")
+            && refused.contains("long.toml:"),
+        "{refused}"
+    );
+    let rows = "[output]\ninterval = \"0.1 ms\"\n[[building]]\nname = \"A\"";
+    let much = SMALL.replace("duration = \"0.8 s\"", "duration = \"3600 s\"");
+    let much = much.replacen("[[building]]\nname = \"A\"", rows, 1);
+    write(folder, "much.toml", &much);
+    for command in ["check", "run"] {
+        let refused = complained(&jostle(folder, &[command, "much.toml"]));
+        for part in [
+            "much.toml:",
+            "GB of memory, more than 8.0 GB",
+            "under [output] for fewer rows",
+        ] {
+            assert!(refused.contains(part), "{part}: {refused}");
+        }
+        let longer = refused
+            .split("write interval = \"")
+            .nth(1)
+            .and_then(|rest| rest.split('"').next());
+        let fits = much.replace("0.1 ms", longer.expect("an interval"));
+        write(folder, "fits.toml", &fits);
+        printed(&jostle(folder, &["check", "fits.toml"]));
+    }
+}
