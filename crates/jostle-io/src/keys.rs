@@ -963,12 +963,14 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Study, "rose", Kind::Any, "Columns to draw over the angle of the motion, where motion.angle varies; by default forces, impacts and peaks of buildings."),
     optional(S::Study, "selection", Kind::Table(S::Selection), "Code that the records are checked against."),
 
-    required(S::Vary, "path", Kind::Any, "Key of the model file that is set, or a list of keys."),
+    optional(S::Vary, "path", Kind::Any, "Key of the model file that is set, or a list of keys; needed without table."),
     optional(S::Vary, "name", Text, "Name of the column; by default the path."),
     default(S::Vary, "multiply", Flag, "false", "The value multiplies the value of the model."),
     optional(S::Vary, "values", Kind::Any, "A list of values."),
     optional(S::Vary, "range", Kind::Table(S::Range), "Equally spaced values."),
     optional(S::Vary, "distribution", Kind::Table(S::Distribution), "A distribution to draw from."),
+    optional(S::Vary, "table", Text, "CSV or Parquet file with a row for each case and a column for each key, named as the key, such as gap[0].width. An empty cell keeps the value of the model."),
+    optional(S::Vary, "columns", TextOrTexts, "Columns of the table that are used; by default all."),
     optional(S::Vary, "files", Text, "Record files whose names match, such as records/*.at2."),
 
     required(S::Range, "from", Kind::Any, "First value."),

@@ -4,6 +4,7 @@ mod angles;
 mod capacity_columns;
 mod damaged_parts;
 mod isolation_columns;
+mod large;
 mod pages_in_another_language;
 mod ready_made;
 mod size;
