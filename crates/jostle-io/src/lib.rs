@@ -3,6 +3,8 @@
 //! Parsers take text or bytes and never panic. All reading of files goes through [`Files`] and [`read_file`], which refuse
 //! what may not be read, what is no plain file and what is too large. Everything that leaves this crate is in SI.
 
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))] // bits of results depend on no processor
+
 mod baseline;
 mod builtin;
 mod builtin_model;

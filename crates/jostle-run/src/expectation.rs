@@ -187,7 +187,7 @@ fn in_bytes(bytes: f64) -> String {
 /// A time of computing, to one digit.
 fn in_time(seconds: f64) -> String {
     let rounded = |value: f64| {
-        let digit = 10_f64.powf(value.log10().floor());
+        let digit = libm::pow(10_f64, libm::log10(value).floor());
         ((value / digit).round() * digit) as u64
     };
     match seconds {

@@ -4,6 +4,8 @@
 //! [`Results::write`] writes its files. Progress goes to an observer, which can stop the run. Nothing is printed, and no
 //! terminal is read.
 
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))] // bits of results depend on no processor
+
 mod calculation;
 mod case_cache;
 mod checks_text;

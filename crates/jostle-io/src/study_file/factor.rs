@@ -475,7 +475,7 @@ fn range(
         }
         let share = index as f64;
         match spacing {
-            "log" => from.number * (to.number / from.number).powf(share / last),
+            "log" => from.number * libm::pow(to.number / from.number, share / last),
             _ => from.number + (to.number - from.number) * share / last,
         }
     };
