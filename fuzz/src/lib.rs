@@ -73,10 +73,22 @@ pub fn read_model(bytes: &[u8]) {
 }
 
 #[path = "../../crates/jostle-study/tests/studies/inputs.rs"]
-pub mod inputs;
+mod inputs;
+
+/// One of the kinds of [`inputs`]: path, map, expression, study, suite or spectrum.
+pub fn read_input(kind: &str, bytes: &[u8]) {
+    match kind {
+        "path" => inputs::path(bytes),
+        "map" => inputs::map(bytes),
+        "expression" => inputs::expression(bytes),
+        "study" => inputs::study(bytes),
+        "suite" => inputs::suite(bytes),
+        _ => inputs::spectrum(folder(), bytes),
+    }
+}
 
 /// A folder that the targets of files write into.
-pub fn folder() -> &'static Path {
+fn folder() -> &'static Path {
     static FOLDER: LazyLock<tempfile::TempDir> =
         LazyLock::new(|| tempfile::tempdir().expect("a temporary folder"));
     FOLDER.path()

@@ -22,6 +22,7 @@ pub mod statistics;
 mod study;
 pub mod suite;
 mod varied;
+mod verified;
 
 pub use dataset::{of_folder, settle};
 pub use design::{CaseDesign, Choice, DesignError};

@@ -8,10 +8,10 @@ use std::io::Read;
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use crate::dataset::Verified;
 use crate::design::{CaseDesign, Choice, DesignError, value_of};
 use crate::layout::{Layout, Named};
 use crate::measures::measures;
+use crate::verified::Verified;
 use jostle_run::{CaseCache, CaseError};
 
 /// A study ready to be run.

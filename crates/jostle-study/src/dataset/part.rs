@@ -4,11 +4,8 @@
 //! notes in the footer of the Parquet file, so that a part carries it wherever it is copied, and any other reader
 //! ignores it.
 
-use std::collections::HashMap;
 use std::io;
-use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
-use std::time::{Duration, SystemTime};
+use std::path::Path;
 
 use bytes::Bytes;
 use jostle_io::{FileError, OutputError, encode_values_parquet, read_file, write_atomically};
@@ -20,6 +17,7 @@ use super::reading::read_rows;
 use super::{Table, part_path};
 use crate::row::Row;
 use crate::study::{Study, StudyError, hex};
+use crate::verified::Stamp;
 
 /// Largest part \[bytes\].
 const LARGEST: usize = 1 << 30;
@@ -118,53 +116,14 @@ pub(crate) fn write(
     Ok(())
 }
 
-/// Files that were verified, as they were then.
-#[derive(Debug, Default)]
-pub(crate) struct Verified(Mutex<HashMap<PathBuf, Stamp>>);
-
-/// What a file that is changed does not keep: its length, the time of its last change, and its place on the disk.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Stamp(u64, SystemTime, u64);
-
-/// Age from which the time of the last change tells every later change: clocks of file systems tick slowly.
-const OLD: Duration = Duration::from_secs(2);
-
-impl Stamp {
-    fn of(path: &Path) -> Option<Self> {
-        let found = std::fs::metadata(path).ok()?;
-        Some(Self(found.len(), found.modified().ok()?, place(&found)))
-    }
-
-    fn is_old(&self) -> bool {
-        self.1.elapsed().is_ok_and(|age| age >= OLD)
-    }
-}
-
-#[cfg(unix)]
-fn place(found: &std::fs::Metadata) -> u64 {
-    std::os::unix::fs::MetadataExt::ino(found)
-}
-
-#[cfg(not(unix))]
-fn place(_: &std::fs::Metadata) -> u64 {
-    0
-}
-
 /// Whether the file of a part is whole, of this study, and that part. What was verified and has not changed since is not read again.
 pub(crate) fn verify(study: &Study, folder: &Path, part: u64) -> Result<(), PartFault> {
     let path = part_path(folder, study.part(part).start);
-    let known = || {
-        study
-            .verified
-            .0
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner)
-    };
-    let stamp = Stamp::of(&path).filter(Stamp::is_old);
-    if stamp.is_some() && known().get(&path) == stamp.as_ref() {
+    let stamp = Stamp::of(&path);
+    if study.verified.holds(&path, stamp) {
         return Ok(());
     }
-    let bytes = match read_file(&path, LARGEST) {
+    let checked = match read_file(&path, LARGEST) {
         Ok(bytes) => check(study, part, bytes.into()),
         Err(FileError::Io(error)) if error.kind() == io::ErrorKind::NotFound => {
             Err(PartFault::Absent)
@@ -172,10 +131,8 @@ pub(crate) fn verify(study: &Study, folder: &Path, part: u64) -> Result<(), Part
         Err(FileError::Io(error)) => Err(PartFault::Unreadable(error)),
         Err(other) => Err(PartFault::Damaged(format!("it {other}"))),
     };
-    bytes?;
-    if let Some(stamp) = stamp {
-        known().insert(path, stamp);
-    }
+    checked?;
+    study.verified.note(path, stamp);
     Ok(())
 }
 

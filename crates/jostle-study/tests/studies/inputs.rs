@@ -13,7 +13,7 @@ fn tree() -> ModelTree {
 }
 
 /// A path into a model.
-pub fn path(bytes: &[u8]) {
+pub(crate) fn path(bytes: &[u8]) {
     let text = String::from_utf8_lossy(bytes);
     let mut model = tree();
     for value in [TreeValue::Number(0.02), TreeValue::Text("20 mm".into())] {
@@ -26,7 +26,7 @@ pub fn path(bytes: &[u8]) {
 }
 
 /// The map of a comparison with measured histories.
-pub fn map(bytes: &[u8]) {
+pub(crate) fn map(bytes: &[u8]) {
     let text = String::from_utf8_lossy(bytes);
     for format in [Format::Toml, Format::Json] {
         if let Err(error) = ComparisonMap::parse("map.toml", &text, format) {
@@ -36,7 +36,7 @@ pub fn map(bytes: &[u8]) {
 }
 
 /// Varied keys, conditions and the objective of a search, a line each.
-pub fn expression(bytes: &[u8]) {
+pub(crate) fn expression(bytes: &[u8]) {
     let text = String::from_utf8_lossy(bytes);
     let mut lines = text.lines().map(str::to_owned);
     let request = SizeRequest {
@@ -51,7 +51,7 @@ pub fn expression(bytes: &[u8]) {
 }
 
 /// A study file.
-pub fn study(bytes: &[u8]) {
+pub(crate) fn study(bytes: &[u8]) {
     let text = String::from_utf8_lossy(bytes);
     for format in [Format::Toml, Format::Json] {
         let base = Some(tree());
@@ -70,7 +70,7 @@ pub fn study(bytes: &[u8]) {
 }
 
 /// A model of several records.
-pub fn suite(bytes: &[u8]) {
+pub(crate) fn suite(bytes: &[u8]) {
     let text = String::from_utf8_lossy(bytes);
     let read = jostle_io::read_model_text("m.toml", &text, Format::Toml, Path::new("/nonexistent"));
     let Ok(input) = read else { return };
@@ -80,7 +80,7 @@ pub fn suite(bytes: &[u8]) {
 }
 
 /// A file of a design spectrum, in a folder that may be written.
-pub fn spectrum(folder: &Path, bytes: &[u8]) {
+pub(crate) fn spectrum(folder: &Path, bytes: &[u8]) {
     let path = folder.join("spectrum.csv");
     std::fs::write(&path, bytes).expect("a file");
     match read_target_file(&path) {
@@ -96,7 +96,7 @@ pub fn spectrum(folder: &Path, bytes: &[u8]) {
 }
 
 /// A folder of results, one of whose files has these bytes.
-pub fn results(folder: &Path, file: &str, bytes: &[u8]) {
+pub(crate) fn results(folder: &Path, file: &str, bytes: &[u8]) {
     std::fs::write(folder.join(file), bytes).expect("a file");
     match of_folder(folder) {
         Ok(Some(study)) => {
