@@ -1,6 +1,7 @@
 //! What every fuzz target does: read, and check that what is accepted can be used.
 
 use std::path::Path;
+use std::sync::LazyLock;
 
 use jostle_io::{
     Format, RecordContent, RecordFormat, RecordLayout, RecordOptions, parse_info, parse_record,
@@ -69,4 +70,43 @@ pub fn read_model(bytes: &[u8]) {
             assert!(!error.faults.is_empty());
         }
     }
+}
+
+#[path = "../../crates/jostle-study/tests/studies/inputs.rs"]
+mod inputs;
+
+/// One of the kinds of [`inputs`]: path, map, expression, study, suite or spectrum.
+pub fn read_input(kind: &str, bytes: &[u8]) {
+    match kind {
+        "path" => inputs::path(bytes),
+        "map" => inputs::map(bytes),
+        "expression" => inputs::expression(bytes),
+        "study" => inputs::study(bytes),
+        "suite" => inputs::suite(bytes),
+        _ => inputs::spectrum(folder(), bytes),
+    }
+}
+
+/// A folder that the targets of files write into.
+fn folder() -> &'static Path {
+    static FOLDER: LazyLock<tempfile::TempDir> =
+        LazyLock::new(|| tempfile::tempdir().expect("a temporary folder"));
+    FOLDER.path()
+}
+
+/// Damages one of the files of a folder of results.
+pub fn read_results(bytes: &[u8]) {
+    let Some((which, bytes)) = bytes.split_first() else {
+        return;
+    };
+    let folder = folder();
+    for inside in ["cases", "under-way"] {
+        let _ = std::fs::create_dir_all(folder.join(inside));
+    }
+    let files = [
+        "manifest.json",
+        "cases/part-0000000000.parquet",
+        "under-way/part-0000000000.journal",
+    ];
+    inputs::results(folder, files[usize::from(*which) % files.len()], bytes);
 }

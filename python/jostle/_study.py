@@ -133,6 +133,7 @@ class Study:
         client: Any = None,
         progress: bool | Observer = False,
         report: bool = True,
+        csv: bool = False,
     ) -> StudyResult:
         """Runs the unfinished cases of a folder. The same call resumes after any interruption.
 
@@ -149,6 +150,7 @@ class Study:
             progress: true shows a line on a terminal or a bar in a notebook; or a function called with
                 the numbers of finished cases and of all cases.
             report: true writes the report and its tables when all cases are finished.
+            csv: true writes ``cases.csv`` also of more than 200 000 cases.
 
         Raises:
             ModelError: the folder contains another study, or an argument is wrong.
@@ -171,18 +173,19 @@ class Study:
                 self._core.run(folder, jobs, index - 1, of, observer, _remark)
         result = StudyResult(self, Path(folder))
         if report and result.complete:
-            self._core.finish(folder)
+            self._core.finish(folder, csv)
         return result
 
     def _run_on(self, client: Any, folder: str, observer: Observer | None) -> None:
         """Submits every missing part to the workers of a client."""
         distributed: Any = import_module("distributed")
         parts = self._core.parts
+        self._core.settle(folder)
         missing = self._core.missing(folder)
         # With every task: what is scattered dies with the worker that holds its last copy.
         share = pickle.dumps(self)
         futures = [
-            client.submit(_compute, share, folder, part, parts, pure=False, retries=10, key=f"jostle-{part}-{id(self)}")
+            client.submit(_compute, share, folder, part, pure=False, retries=10, key=f"jostle-{part}-{id(self)}")
             for part in missing
         ]
         try:
@@ -200,6 +203,8 @@ class Study:
             raise AnalysisError(
                 f"{len(left)} of {parts} parts did not arrive in {folder}: the workers must share this folder"
             )
+        # Nothing is left to compute: moves files of others aside, and makes runs of single cases that are missing.
+        self._core.run(folder, 1, remark=_remark)
 
     def run_case(self, case: int, out: str | os.PathLike[str]) -> Path:
         """Runs one case with its histories and report into a folder, and returns the path of the report."""
@@ -534,9 +539,9 @@ def _read_study(share: bytes) -> Study:
     return _shared[share]
 
 
-def _compute(share: bytes, folder: str, part: int, parts: int) -> int:
-    """One part, on a worker: as many shares as parts."""
-    return _read_study(share)._core.run(folder, 1, part, parts, None, _remark)[1]
+def _compute(share: bytes, folder: str, part: int) -> int:
+    """One part, on a worker, which looks at no other file of the folder."""
+    return _read_study(share)._core.run(folder, 1, remark=_remark, only=part)[1]
 
 
 def _remark(text: str) -> None:

@@ -258,3 +258,54 @@ def test_the_only_busy_worker_is_killed(tmp_path: Path) -> None:
         thread.join()
     assert len(killed) == 1
     assert result.complete
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_workers_that_pause_and_a_client_that_comes_back(tmp_path: Path) -> None:
+    distributed = pytest.importorskip("distributed")
+    vary = [{**VARY[0], "range": {"from": "2 mm", "to": "60 mm", "count": 60}}, VARY[1]]
+    big = jostle.Study(towers(), vary)
+    big.run(tmp_path / "alone", report=False)
+    folder = tmp_path / "cluster"
+
+    def parts() -> int:
+        return len(list(folder.glob("cases/*.parquet")))
+
+    class Enough(Exception):
+        """The client goes away."""
+
+    def leave(finished: float, cases: float) -> None:
+        if finished >= 2:
+            raise Enough
+
+    with (
+        distributed.LocalCluster(
+            n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+        ) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        with pytest.raises(Enough):
+            big.run(folder, client=client, progress=leave)
+        before = parts()
+        assert before > 0
+        # One of two workers stands still for a while; the same call goes on with what is left.
+        paused = next(iter(client.run(os.getpid).values()))
+        os.kill(paused, signal.SIGSTOP)
+        timer = threading.Timer(3.0, os.kill, (paused, signal.SIGCONT))
+        timer.start()
+        result = big.run(folder, client=client)
+        timer.join()
+    assert result.complete and result.report.is_file()
+    assert table(folder) == table(tmp_path / "alone")
+
+
+def test_inputs_come_from_a_table(tmp_path: Path) -> None:
+    polars = pytest.importorskip("polars")
+    rows = polars.DataFrame({"gap[0].width": [0.01, 0.02, 0.03], "motion.pga": ["1 m/s2", "2 m/s2", "3 m/s2"]})
+    rows.write_parquet(tmp_path / "rows.parquet", compression="snappy")
+    many = jostle.Study(towers(), [{"table": str(tmp_path / "rows.parquet")}])
+    assert many.cases == 3
+    result = many.run(tmp_path / "out", csv=True)
+    assert (tmp_path / "out" / "cases.csv").is_file()
+    np.testing.assert_array_equal(result["gap0.width"], [0.01, 0.02, 0.03])
+    np.testing.assert_allclose(result["pga_m_s2"], [1.0, 2.0, 3.0], rtol=1e-9)

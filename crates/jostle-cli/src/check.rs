@@ -81,6 +81,12 @@ pub(crate) fn check(args: &CheckArgs) -> Result<(), Failure> {
         let _ = describe_grounds(&mut text, &opened.system, &motion);
         let _ = writeln!(text, "{}", styled(BOLD, "Expected work"));
         let _ = describe_work(&mut text, &opened.system, &plan, motion.duration);
+        let prepared = opened.prepare()?;
+        let settings = prepared.settings(true);
+        prepared.check_memory(settings, true, Some("jostle run --force runs it anyway"))?;
+        let expected = prepared.expect(settings, true);
+        let seconds = prepared.expected_seconds(settings);
+        let _ = writeln!(text, "  {}\n", expected.text(seconds));
     } else {
         let _ = writeln!(
             text,

@@ -8,8 +8,8 @@ use jostle::method::MethodSurvey;
 use jostle::{RunEnd, Solver};
 use jostle_io::FloorSpectraRequest;
 use jostle_run::{
-    Content, FileKind, FolderClaim, Opened, Prepared, Ran, Results, describe_summary,
-    earlier_files, may_write, stopped_by,
+    Content, FileKind, FolderClaim, Opened, Pace, Prepared, Ran, Results, Stage, describe_summary,
+    earlier_files, grouped, may_write, stopped_by,
 };
 use jostle_section::capacity::ShearRule;
 
@@ -19,6 +19,11 @@ use crate::printer::Printer;
 use crate::progress::StageBar;
 use crate::stop::stop_on_interrupt;
 use crate::{method, terminal};
+
+/// Time after which the speed of a run is known \[s\].
+const PATIENCE: f64 = 1.0;
+/// Expected time of a run from which it is said what it takes \[s\].
+const LONG: f64 = 5.0;
 
 /// Default folder of results.
 const RESULTS: &str = "jostle-out";
@@ -68,6 +73,11 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
         prepared.check_digits(Some("--force runs it anyway"))?;
     }
     let out = folder(args, &opened.name);
+    let settings = prepared.settings(out.is_some() || !args.no_report);
+    if !args.force {
+        let both = !args.no_report;
+        prepared.check_memory(settings, both, Some("--force runs it anyway"))?;
+    }
     let mut claim = None;
     if let Some(out) = &out {
         std::fs::create_dir_all(out).map_err(|error| {
@@ -100,7 +110,22 @@ fn analyse(
 ) -> Result<(), Failure> {
     let settings = prepared.settings(out.is_some() || !args.no_report);
     let mut bar = StageBar::default();
+    let expected = prepared.expect(settings, !args.no_report);
+    let mut pace = Some(Pace::new(&prepared));
     let mut observer = stopped_by(stop, |stage, progress| {
+        if let Some(known) = &mut pace {
+            let [elapsed, seconds] = known.look(progress);
+            if stage != Stage::Pounding || elapsed > PATIENCE {
+                if stage == Stage::Pounding && seconds > LONG {
+                    terminal::remark(&format!(
+                        "expected: {} steps, {}",
+                        grouped(expected.steps),
+                        expected.text(seconds)
+                    ));
+                }
+                pace = None;
+            }
+        }
         bar.show(stage, progress.time, progress.duration);
     });
     let mut ran = prepared.run(settings, &mut observer);

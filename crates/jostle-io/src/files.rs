@@ -229,15 +229,24 @@ fn or_here(folder: &Path) -> &Path {
     }
 }
 
+/// A plain file, to be read piece by piece. Pipes, devices and folders are refused before they are opened.
+///
+/// # Errors
+/// [`FileError`].
+pub fn open_file(path: &Path) -> Result<File, FileError> {
+    plain(&std::fs::metadata(path)?)?;
+    let file = File::open(path)?;
+    plain(&file.metadata()?)?;
+    Ok(file)
+}
+
 /// The bytes of a plain file, at most `most`. Pipes, devices and folders are refused before they are opened.
 ///
 /// # Errors
 /// [`FileError`].
 pub fn read_file(path: &Path, most: usize) -> Result<Vec<u8>, FileError> {
-    plain(&std::fs::metadata(path)?)?;
-    let file = File::open(path)?;
+    let file = open_file(path)?;
     let found = file.metadata()?;
-    plain(&found)?;
     let stated = usize::try_from(found.len()).unwrap_or(usize::MAX);
     if stated > most {
         return Err(FileError::TooLarge { most });

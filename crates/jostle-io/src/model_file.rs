@@ -567,6 +567,9 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, files: &Files) -> Option<Part
         let read = read.map(|read| (&read.buildings[..], &read.members[..]));
         (analysis.members, floor_spectra, capacity) = output::read(reader, &field, read);
         analysis.link_motion = output::link_motion(reader, &field);
+        if let Some(interval) = output::interval(reader, &field) {
+            analysis.row_interval = interval;
+        }
     }
     let codes = reader.get(&view, "codes");
     let of_buildings = buildings.as_ref().map(|read| read.codes.clone());

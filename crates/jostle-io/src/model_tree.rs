@@ -50,7 +50,9 @@ pub struct PathError {
 }
 
 impl PathError {
-    pub(crate) fn new(path: &str, problem: String) -> Self {
+    /// A problem with a path.
+    #[must_use]
+    pub fn new(path: &str, problem: String) -> Self {
         Self {
             path: crate::quantity::shorten(path),
             problem,

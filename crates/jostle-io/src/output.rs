@@ -1,5 +1,6 @@
 //! Files of results: written whole or not at all.
 
+use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -82,6 +83,14 @@ fn is_gone(process: u32) -> bool {
 /// # Errors
 /// [`OutputError::Io`] with path and reason.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
+    write_atomically_by(path, |file| file.write_all(bytes))
+}
+
+/// The same for contents that come piece by piece.
+pub(crate) fn write_atomically_by(
+    path: &Path,
+    contents: impl FnOnce(&mut File) -> std::io::Result<()>,
+) -> Result<(), OutputError> {
     let write = || -> std::io::Result<()> {
         let folder = match path.parent() {
             Some(parent) if parent != Path::new("") => parent,
@@ -92,7 +101,7 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
         builder.prefix(&prefix).suffix(PART_SUFFIX);
         readable_by_all(&mut builder);
         let mut file = builder.tempfile_in(folder)?;
-        file.write_all(bytes)?;
+        contents(file.as_file_mut())?;
         file.as_file().sync_all()?;
         persist(file.into_temp_path(), path)
     };

@@ -3,6 +3,7 @@
 mod distribution;
 mod factor;
 mod selection;
+mod table;
 mod wanted;
 
 use std::path::{Path, PathBuf};
@@ -11,6 +12,7 @@ use std::sync::Arc;
 pub use distribution::{Distribution, Shape};
 pub use factor::{Factor, FactorValues, Level};
 pub use selection::{SelectionScaling, SelectionWanted};
+pub use table::{InputTable, TableColumn};
 pub use wanted::{FragilityWanted, IdaWanted};
 
 use crate::builtin_model;
@@ -156,7 +158,10 @@ impl StudyFile {
         InputError {
             name: self.source.name.clone(),
             faults: vec![Fault {
-                path: format!("vary[{factor}]"),
+                path: match self.factors.get(factor) {
+                    Some(factor) => format!("vary[{}]", factor.entry),
+                    None => "vary".to_owned(),
+                },
                 place: self
                     .factors
                     .get(factor)
@@ -198,7 +203,7 @@ impl StudyFile {
             match own {
                 Some(&index) => {
                     fault.place = Some(self.source.place(&self.factors[index].span));
-                    fault.path = format!("vary[{index}]: {}", fault.path);
+                    fault.path = format!("vary[{}]: {}", self.factors[index].entry, fault.path);
                 }
                 None => all_here = false,
             }
@@ -463,6 +468,18 @@ fn design_of(
     {
         *reader.bad(&field, "has no effect: nothing is drawn") = Some("remove it".into());
     }
+    let of_table = |factor: &&Factor| matches!(factor.values, FactorValues::Table(_));
+    if matches!(
+        design.kind,
+        DesignKind::Saltelli | DesignKind::Morris | DesignKind::OneAtATime
+    ) && let Some(factor) = factors.and_then(|factors| factors.iter().find(of_table))
+    {
+        *reader.fault(
+            &factor.span.clone(),
+            "vary",
+            "the rows of a table cannot be moved one by one",
+        ) = Some("use the design factorial, zipped, random, latin-hypercube or sobol".into());
+    }
     if design.kind == DesignKind::Zipped {
         zipped_lists_are_equal(reader, factors?);
     }
@@ -472,10 +489,7 @@ fn design_of(
 fn zipped_lists_are_equal(reader: &mut Reader<'_>, factors: &[Factor]) {
     // Records of the model are crossed with what is zipped.
     let own = factors.iter().filter(|factor| !factor.from_model);
-    let lists = own.filter_map(|factor| match &factor.values {
-        FactorValues::Listed(levels) => Some((factor, levels.len())),
-        FactorValues::Drawn(_) => None,
-    });
+    let lists = own.filter_map(|factor| Some((factor, factor.values.count()?)));
     let mut first = None;
     for (factor, count) in lists {
         let expected = *first.get_or_insert(count);

@@ -1,5 +1,6 @@
 //! `history.parquet`, `impacts.parquet`, `hinges.parquet`, `members.parquet` and `capacity.parquet`: columns with units in their names, compressed with LZ4.
 
+use std::io::{BufWriter, Write};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -23,7 +24,7 @@ use parquet::file::properties::{EnabledStatistics, WriterProperties};
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::{ColumnPath, Type};
 
-use crate::output::{OutputError, write_atomically};
+use crate::output::{OutputError, write_atomically, write_atomically_by};
 
 /// Number of rows above which compression saves more than its overhead.
 const WORTH_COMPRESSING: usize = 64;
@@ -58,6 +59,16 @@ impl Values {
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
+
+    /// No values of the same kind.
+    fn blank(&self) -> Self {
+        match self {
+            Self::Real(_) => Self::Real(Vec::new()),
+            Self::Instant(_) => Self::Instant(Vec::new()),
+            Self::Whole(_) => Self::Whole(Vec::new()),
+            Self::Text(_) => Self::Text(Vec::new()),
+        }
+    }
 }
 
 /// Writes the time histories: one row per instant.
@@ -75,17 +86,25 @@ pub fn write_history_parquet(
     summary: &Summary,
     history: &History,
 ) -> Result<(), OutputError> {
-    let names = history_names(model, summary, history.columns());
-    let columns = names.into_iter().zip(history.columns());
-    let columns = columns
-        .map(|(name, column)| {
-            (
-                name,
-                Values::Real(history.column(*column).unwrap_or_default()),
-            )
-        })
-        .collect();
-    write_table(path, summary, columns)
+    let columns = history.columns();
+    let names = history_names(model, summary, columns).into_iter();
+    let names: Vec<(String, Values)> = names.map(|name| (name, Values::Real(vec![]))).collect();
+    // Long rows are large: one column at a time is in memory beside them.
+    write_atomically_by(path, |file| {
+        let fields = Fields {
+            version: &summary.jostle,
+            title: &summary.title,
+            facts: &[],
+            columns: &names,
+            rows: history.len(),
+        };
+        let values =
+            |index: usize| Values::Real(history.column(columns[index]).unwrap_or_default());
+        let out = BufWriter::new(file);
+        let written = write_columns(out, &fields, values).map_err(std::io::Error::other)?;
+        written.into_inner()?;
+        Ok(())
+    })
 }
 
 /// Names of recorded quantities in tables, as described at [`write_history_parquet`]; all are distinct.
@@ -759,20 +778,53 @@ fn encode_with(
     version: &str,
     title: &str,
     facts: &[(&str, String)],
-    columns: Vec<(String, Values)>,
+    mut columns: Vec<(String, Values)>,
 ) -> Result<Vec<u8>, ParquetError> {
-    let fields = columns
-        .iter()
+    let mut all: Vec<Values> = Vec::with_capacity(columns.len());
+    for (_, values) in &mut columns {
+        let blank = values.blank();
+        all.push(std::mem::replace(values, blank));
+    }
+    let fields = Fields {
+        version,
+        title,
+        facts,
+        columns: &columns,
+        rows: all.first().map_or(0, Values::len),
+    };
+    let mut all = all.into_iter();
+    let next = |_| all.next().unwrap_or(Values::Real(vec![]));
+    write_columns(Vec::new(), &fields, next)
+}
+
+/// What a table is besides its values.
+struct Fields<'a> {
+    version: &'a str,
+    title: &'a str,
+    facts: &'a [(&'a str, String)],
+    /// Names, and values of the kind of each, which may be none.
+    columns: &'a [(String, Values)],
+    rows: usize,
+}
+
+/// Writes columns one after the other; `values` gives those of a column.
+fn write_columns<W: Write + Send>(
+    out: W,
+    fields: &Fields<'_>,
+    mut values: impl FnMut(usize) -> Values,
+) -> Result<W, ParquetError> {
+    let (version, title) = (fields.version, fields.title);
+    let types = fields.columns.iter();
+    let types = types
         .map(|(name, values)| field(name, values).map(Arc::new))
         .collect::<Result<Vec<_>, _>>()?;
     let schema = Type::group_type_builder("schema")
-        .with_fields(fields)
+        .with_fields(types)
         .build()?;
     let pair = |key: &str, value: &str| KeyValue::new(key.to_owned(), value.to_owned());
     let mut pairs = vec![pair("jostle", version), pair("title", title)];
-    pairs.extend(facts.iter().map(|(key, value)| pair(key, value)));
-    let rows = columns.first().map_or(0, |(_, values)| values.len());
-    let compression = if rows < WORTH_COMPRESSING {
+    pairs.extend(fields.facts.iter().map(|(key, value)| pair(key, value)));
+    let compression = if fields.rows < WORTH_COMPRESSING {
         Compression::UNCOMPRESSED
     } else {
         Compression::LZ4_RAW
@@ -784,20 +836,20 @@ fn encode_with(
         .set_dictionary_enabled(false)
         .set_created_by(format!("jostle {version}"))
         .set_key_value_metadata(Some(pairs));
-    for (name, values) in &columns {
+    for (name, values) in fields.columns {
         if matches!(values, Values::Text(_)) {
             let path = ColumnPath::new(vec![name.clone()]);
             properties = properties.set_column_dictionary_enabled(path, true);
         }
     }
     let properties = Arc::new(properties.build());
-    let mut writer = SerializedFileWriter::new(Vec::new(), Arc::new(schema), properties)?;
+    let mut writer = SerializedFileWriter::new(out, Arc::new(schema), properties)?;
     let mut group = writer.next_row_group()?;
-    for (_, values) in columns {
+    for index in 0..fields.columns.len() {
         let Some(mut column) = group.next_column()? else {
             return Err(ParquetError::General("fewer columns than announced".into()));
         };
-        match values {
+        match values(index) {
             Values::Real(values) => {
                 column
                     .typed::<DoubleType>()

@@ -131,7 +131,7 @@ impl Unit {
             *mine += power * others;
         }
         Self {
-            factor: self.factor * other.factor.powf(power),
+            factor: self.factor * libm::pow(other.factor, power),
             exponents,
         }
     }

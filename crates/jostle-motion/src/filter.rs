@@ -2,8 +2,6 @@
 
 use std::f64::consts::PI;
 
-use biquad::{Biquad, Coefficients, DirectForm2Transposed, ToHertz, Type};
-
 use crate::Accelerogram;
 use crate::fault::{MotionFault, within};
 
@@ -70,12 +68,12 @@ pub fn butterworth(
     let mut values = vec![0.0; pad];
     values.extend_from_slice(motion.acceleration());
     values.resize(motion.points() + 2 * pad, 0.0);
-    for (corner, kind) in [(filter.low, Type::HighPass), (filter.high, Type::LowPass)] {
+    for (corner, passes_high) in [(filter.low, true), (filter.high, false)] {
         if let Some(corner) = corner {
-            for section in sections(kind, corner, order, motion.step())? {
-                pass(&mut values, section);
+            for section in sections(passes_high, corner, order, motion.step()) {
+                pass(&mut values, &section);
                 values.reverse();
-                pass(&mut values, section);
+                pass(&mut values, &section);
                 values.reverse();
             }
         }
@@ -99,29 +97,44 @@ pub(crate) fn low_pass(
     )
 }
 
-fn pass(values: &mut [f64], section: Coefficients<f64>) {
-    let mut section = DirectForm2Transposed::<f64>::new(section);
+/// A second-order section: y = (b₀ + b₁ z⁻¹ + b₂ z⁻²)/(1 + a₁ z⁻¹ + a₂ z⁻²) x.
+struct Section {
+    b: [f64; 3],
+    a: [f64; 2],
+}
+
+fn pass(values: &mut [f64], section: &Section) {
+    let Section {
+        b: [b0, b1, b2],
+        a: [a1, a2],
+    } = *section;
+    let (mut first, mut second) = (0.0, 0.0);
     for value in values {
-        *value = section.run(*value);
+        let input = *value;
+        *value = first + b0 * input;
+        first = second + b1 * input - a1 * *value;
+        second = b2 * input - a2 * *value;
     }
 }
 
-/// Second-order sections: poles at the angles (2k + 1) π/2n have the quality 1/(2 cos angle).
-fn sections(
-    kind: Type<f64>,
-    corner: f64,
-    order: usize,
-    step: f64,
-) -> Result<Vec<Coefficients<f64>>, MotionFault> {
+/// Second-order sections: poles at the angles (2k + 1) π/2n have the quality 1/(2 cos angle). The bilinear transform keeps the corner
+/// (R. Bristow-Johnson, Cookbook formulae for audio equalizer biquad filter coefficients).
+fn sections(passes_high: bool, corner: f64, order: usize, step: f64) -> Vec<Section> {
+    let (sine, cosine) = libm::sincos(2.0 * PI * corner * step);
     let section = |k: usize| {
         let angle = (2 * k + 1) as f64 * PI / (2 * order) as f64;
-        let quality = 0.5 / angle.cos();
-        Coefficients::from_params(kind, (1.0 / step).hz(), corner.hz(), quality)
+        // sin ω/(2 Q).
+        let alpha = sine * libm::cos(angle);
+        let scale = 1.0 / (1.0 + alpha);
+        let (end, middle) = if passes_high {
+            (0.5 * (1.0 + cosine), -(1.0 + cosine))
+        } else {
+            (0.5 * (1.0 - cosine), 1.0 - cosine)
+        };
+        Section {
+            b: [end * scale, middle * scale, end * scale],
+            a: [-2.0 * cosine * scale, (1.0 - alpha) * scale],
+        }
     };
-    let sections: Result<Vec<_>, _> = (0..order / 2).map(section).collect();
-    sections.map_err(|_| MotionFault::Range {
-        what: "a corner frequency",
-        range: "between 0 and half the sampling frequency",
-        found: corner,
-    })
+    (0..order / 2).map(section).collect()
 }

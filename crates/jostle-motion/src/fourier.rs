@@ -1,9 +1,9 @@
 //! Fourier transforms of motions.
 
-use rustfft::FftPlanner;
-use rustfft::num_complex::Complex64;
+use num_complex::Complex64;
 
 use crate::Accelerogram;
+use crate::transform::transform;
 
 /// Fourier amplitudes of a motion.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,7 +31,7 @@ pub fn fourier_spectrum(motion: &Accelerogram, spacing: f64) -> FourierSpectrum 
             .collect(),
         amplitude: values[..half]
             .iter()
-            .map(|c| c.norm() * motion.step())
+            .map(|c| libm::hypot(c.re, c.im) * motion.step())
             .collect(),
     }
 }
@@ -59,9 +59,7 @@ pub fn mean_period(motion: &Accelerogram) -> f64 {
 pub(crate) fn forward(values: &[f64], length: usize) -> Vec<Complex64> {
     let mut buffer: Vec<Complex64> = values.iter().map(|&v| Complex64::new(v, 0.0)).collect();
     buffer.resize(length, Complex64::default());
-    FftPlanner::new()
-        .plan_fft_forward(length)
-        .process(&mut buffer);
+    transform(&mut buffer, -1.0);
     buffer
 }
 
@@ -69,9 +67,7 @@ pub(crate) fn forward(values: &[f64], length: usize) -> Vec<Complex64> {
 pub(crate) fn inverse(half: &[Complex64], length: usize) -> Vec<f64> {
     let mut buffer = half[..length / 2 + 1].to_vec();
     buffer.extend((1..length.div_ceil(2)).rev().map(|k| half[k].conj()));
-    FftPlanner::new()
-        .plan_fft_inverse(length)
-        .process(&mut buffer);
+    transform(&mut buffer, 1.0);
     buffer.iter().map(|c| c.re / length as f64).collect()
 }
 

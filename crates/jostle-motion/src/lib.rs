@@ -3,6 +3,8 @@
 //! Mathematics only: nothing here opens a file, reads a clock or prints. Everything is in SI and radians, and every
 //! result has the same bits for the same input on any register width.
 
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))] // bits of results depend on no processor
+
 mod accelerogram;
 mod fault;
 mod filter;
@@ -21,6 +23,7 @@ mod selection;
 mod spectrum;
 mod synthesis;
 mod target;
+mod transform;
 mod uneven;
 
 pub use accelerogram::{Accelerogram, STANDARD_GRAVITY};

@@ -59,13 +59,13 @@ impl Advance {
     pub(crate) fn over(theta: f64, damping: f64) -> Self {
         let z = damping;
         let root = ((1.0 - z) * (1.0 + z)).sqrt();
-        let (sine, cosine) = (theta * root).sin_cos();
+        let (sine, cosine) = libm::sincos(theta * root);
         let s = sine / root;
-        let e = (-z * theta).exp();
+        let e = libm::exp(-z * theta);
         let (a, b, d) = (e * (cosine + z * s), e * s, e * (cosine - z * s));
         // A − 1 without the loss of digits of small phases.
-        let half = (0.5 * theta * root).sin();
-        let q = (-z * theta).exp_m1() * (cosine + z * s) + (z * s - 2.0 * half * half);
+        let half = libm::sin(0.5 * theta * root);
+        let q = libm::expm1(-z * theta) * (cosine + z * s) + (z * s - 2.0 * half * half);
         Self {
             a,
             b,

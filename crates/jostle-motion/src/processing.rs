@@ -151,7 +151,7 @@ impl Accelerogram {
     pub(crate) fn ending_with(&self, end: [f64; 2]) -> Self {
         let mut values = self.acceleration().to_vec();
         let last = (values.len() - 1) as f64;
-        let window = |i: usize| (std::f64::consts::PI * i as f64 / last).sin().powi(2);
+        let window = |i: usize| libm::sin(std::f64::consts::PI * i as f64 / last).powi(2);
         let basis: [Vec<f64>; 2] = [
             (0..values.len()).map(window).collect(),
             (0..values.len())

@@ -48,7 +48,7 @@ pub fn match_factor(
         if *value == 0.0 {
             return Err(MotionFault::Zero);
         }
-        sum += (target.acceleration(period, damping)? / value).ln();
+        sum += libm::log(target.acceleration(period, damping)? / value);
     }
-    Ok((sum / periods.len() as f64).exp())
+    Ok(libm::exp(sum / periods.len() as f64))
 }

@@ -126,12 +126,12 @@ pub(crate) fn curve(damping: f64, periods: &[f64], peaks: &[[f64; 2]]) -> Spectr
 /// `count` periods at equal ratios from `first` to `last`, both > 0 \[s\].
 #[must_use]
 pub fn spaced_periods(first: f64, last: f64, count: usize) -> Vec<f64> {
-    let ratio = (last / first).ln() / (count.max(2) - 1) as f64;
+    let ratio = libm::log(last / first) / (count.max(2) - 1) as f64;
     (0..count)
         .map(|i| match i {
             0 => first,
             _ if i + 1 == count => last,
-            _ => first * (ratio * i as f64).exp(),
+            _ => first * libm::exp(ratio * i as f64),
         })
         .collect()
 }

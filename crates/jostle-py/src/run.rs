@@ -18,7 +18,7 @@ use numpy::PyArray2;
 use pyo3::exceptions::{PyFileExistsError, PyKeyboardInterrupt};
 use pyo3::prelude::*;
 
-use crate::error::{AnalysisError, argument_error, output_error};
+use crate::error::{AnalysisError, argument_error, input_error, output_error};
 use crate::histories::Histories;
 use crate::model::Model;
 use crate::table::Table;
@@ -56,6 +56,11 @@ pub(crate) fn run(
         },
         record_interval,
     };
+    if !force {
+        let remedy = Some("a longer record_interval needs less, and force=True runs it anyway");
+        let checked = prepared.check_memory(settings, false, remedy);
+        checked.map_err(|error| input_error(&error))?;
+    }
     let mut stopped: Option<PyErr> = None;
     let mut looked = Instant::now();
     let mut look_up = |stage: Stage, progress: Progress| {

@@ -107,9 +107,15 @@ impl Study {
         py.detach(|| missing_parts(&self.0, &folder))
     }
 
-    /// Runs the unfinished cases; returns cases finished, cases computed, cases to finish, failed cases, and whether
+    /// Makes the folder ready for this study, or makes sure that it holds this one.
+    fn settle(&self, py: Python<'_>, folder: PathBuf) -> PyResult<()> {
+        py.detach(|| jostle_study::settle(&self.0, &folder))
+            .map_err(|error| study_error(&error))
+    }
+
+    /// Runs the unfinished cases, of the part `only` alone if it is given; returns cases finished, cases computed, cases to finish, failed cases, and whether
     /// every part of the whole study is there. `remark` is called with remarks about the folder.
-    #[pyo3(signature = (folder, jobs=None, shard=0, shards=1, observer=None, remark=None))]
+    #[pyo3(signature = (folder, jobs=None, shard=0, shards=1, observer=None, remark=None, only=None))]
     #[allow(
         clippy::too_many_arguments,
         reason = "they are those of the Python function"
@@ -123,12 +129,14 @@ impl Study {
         shards: u64,
         observer: Option<Py<PyAny>>,
         remark: Option<Py<PyAny>>,
+        only: Option<u64>,
     ) -> PyResult<(u64, u64, u64, u64, bool)> {
         let study = Arc::clone(&self.0);
         let settings = RunSettings {
             jobs,
             shard,
             shards,
+            only,
         };
         let halt = AtomicBool::new(false);
         let latest: Mutex<Option<Progress>> = Mutex::new(None);
@@ -185,8 +193,9 @@ impl Study {
     }
 
     /// Writes the report and its tables.
-    fn finish(&self, py: Python<'_>, folder: PathBuf) -> PyResult<String> {
-        py.detach(|| jostle_study::finish(&self.0, &folder))
+    #[pyo3(signature = (folder, csv=false))]
+    fn finish(&self, py: Python<'_>, folder: PathBuf, csv: bool) -> PyResult<String> {
+        py.detach(|| jostle_study::finish(&self.0, &folder, csv))
             .map_err(|error| study_error(&error))
     }
 

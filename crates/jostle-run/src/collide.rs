@@ -236,7 +236,7 @@ impl Stiffness {
         let hertz = if dimension == Dimension::HertzStiffness {
             value
         } else {
-            (value / (1.25 * energy).powf(0.2)).powf(1.25)
+            libm::pow(value / libm::pow(1.25 * energy, 0.2), 1.25)
         };
         let linear = if dimension == Dimension::Stiffness {
             value

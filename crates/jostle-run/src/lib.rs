@@ -4,6 +4,8 @@
 //! [`Results::write`] writes its files. Progress goes to an observer, which can stop the run. Nothing is printed, and no
 //! terminal is read.
 
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))] // bits of results depend on no processor
+
 mod calculation;
 mod case_cache;
 mod checks_text;
@@ -15,6 +17,7 @@ mod contact_advice;
 mod contact_sensitivity;
 mod critical_gap;
 mod error;
+mod expectation;
 mod files;
 mod floor_spectra;
 mod floor_spectra_text;
@@ -54,6 +57,7 @@ pub use critical_gap::{
     CriticalGap, GapProgress, GapSettings, LeftOutRule, RuleGap, critical_gaps,
 };
 pub use error::RunError;
+pub use expectation::{Expectation, Pace};
 pub use files::{Content, earlier_files};
 pub use floor_spectra::RunFloorSpectra;
 pub use gap_page::{earlier_gap_curves, gap_curve_csv, gap_curve_page, write_gap_curves};

@@ -75,10 +75,10 @@ impl Prepared {
     pub fn settings(&self, histories: bool) -> Settings {
         let audits_anyway = matches!(self.plan.solver, Solver::Modal | Solver::Series);
         let recorded = histories || !audits_anyway;
-        let usual = Settings::default();
+        let interval = self.input.model.analysis.row_interval;
         Settings {
-            record_interval: usual.record_interval.filter(|_| recorded),
-            ..usual
+            record_interval: recorded.then_some(interval),
+            ..Settings::default()
         }
     }
 

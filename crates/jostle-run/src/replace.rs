@@ -10,6 +10,9 @@ use crate::error::RunError;
 /// How much of the beginning and of the end of a file is read to see what it is \[bytes\].
 const LOOK: u64 = 8192;
 
+/// Longest footer of a Parquet file that is read \[bytes\].
+const LONGEST_FOOTER: u64 = 64 << 20;
+
 /// A kind of file that jostle writes.
 #[derive(Clone, Copy, Debug)]
 pub struct FileKind {
@@ -161,7 +164,33 @@ fn ends(path: &Path, len: u64) -> std::io::Result<String> {
     let mut file = std::fs::File::open(path)?;
     let mut bytes = Vec::new();
     file.by_ref().take(LOOK).read_to_end(&mut bytes)?;
+    let mut end = Vec::new();
     file.seek(SeekFrom::Start(len.saturating_sub(LOOK)))?;
-    file.take(LOOK).read_to_end(&mut bytes)?;
+    file.by_ref().take(LOOK).read_to_end(&mut end)?;
+    if let Some(&[a, b, c, d, b'P', b'A', b'R', b'1']) = end.last_chunk() {
+        // Of a table with many columns the footer is longer.
+        let footer = u64::from(u32::from_le_bytes([a, b, c, d])).min(LONGEST_FOOTER) + 8;
+        end.clear();
+        file.seek(SeekFrom::Start(len.saturating_sub(footer)))?;
+        file.take(footer).read_to_end(&mut end)?;
+    }
+    bytes.append(&mut end);
     Ok(String::from_utf8_lossy(&bytes).into_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tables_of_many_columns_are_known() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("history.parquet");
+        let columns = (0..5000).map(|index| (format!("column{index}"), vec![0.0, 1.0]));
+        jostle_io::write_columns_parquet(&path, "wide", columns.collect()).expect("a table");
+        assert!(may_write(&path, Some(FileKind::TABLE), false).expect("of jostle"));
+        assert!(may_write(&path, Some(FileKind::SUMMARY), false).is_err());
+        std::fs::write(&path, b"PAR1 of another program \xff\xff\xff\x7fPAR1").expect("a file");
+        assert!(may_write(&path, Some(FileKind::TABLE), false).is_err());
+    }
 }

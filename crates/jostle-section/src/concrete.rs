@@ -174,7 +174,7 @@ impl Concrete {
         let cube = 1e-6 * strength / 0.67;
         Self {
             strength,
-            tensile_strength: 1e6 * 0.309 * cube.powf(0.55),
+            tensile_strength: 1e6 * 0.309 * libm::pow(cube, 0.55),
             modulus: 1e11 / (2.2 + 34.7 / cube),
             strains: None,
         }

@@ -27,7 +27,7 @@ impl ConcreteLaw {
     #[must_use]
     pub fn unconfined(concrete: &Concrete) -> Self {
         let strength = 1e-6 * concrete.strength;
-        let softening = (0.157 * strength.powf(0.785) - 0.905).max(0.0);
+        let softening = (0.157 * libm::pow(strength, 0.785) - 0.905).max(0.0);
         Self {
             peak_stress: concrete.strength,
             peak_strain: concrete.peak_strain(),
@@ -62,7 +62,7 @@ impl ConcreteLaw {
                 // Popovics' curve; its initial slope is the modulus.
                 let secant = self.peak_stress / self.peak_strain;
                 let n = self.modulus / (self.modulus - secant).max(1e-6 * self.modulus);
-                self.peak_stress * x * n / (n - 1.0 + x.powf(n))
+                self.peak_stress * x * n / (n - 1.0 + libm::pow(x, n))
             }
         }
     }

@@ -8,6 +8,8 @@
 //! Everything is in SI. Compression is positive for concrete strains and axial loads; positive moments stretch
 //! the bottom.
 
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))] // bits of results depend on no processor
+
 pub mod capacity;
 pub mod formula;
 

@@ -18,6 +18,10 @@ pub struct CaseDesign {
     copula: Copula,
     quantiles: [f64; 2],
     dimensions: usize,
+    /// For every factor its list among `lists`; those of one table share theirs.
+    places: Vec<usize>,
+    /// For every factor the one whose coordinate chooses its value: the first of its table, or itself.
+    leaders: Vec<usize>,
     seed: u64,
 }
 
@@ -66,11 +70,32 @@ impl CaseDesign {
         let (design, factors) = (&file.design, &file.factors);
         let k = factors.len();
         let samples = design.samples.unwrap_or(1);
-        let listed = factors.iter().filter_map(|factor| match &factor.values {
-            FactorValues::Listed(levels) => Some((factor.from_model, levels.len() as u64)),
-            FactorValues::Drawn(_) => None,
-        });
-        let listed: Vec<(bool, u64)> = listed.collect();
+        let leaders: Vec<usize> = (factors.iter().enumerate())
+            .map(|(index, factor)| {
+                let same = |other: &Factor| other.entry == factor.entry && !other.from_model;
+                let first = factors.iter().position(same);
+                first.filter(|_| !factor.from_model).unwrap_or(index)
+            })
+            .collect();
+        let zipped = design.kind == DesignKind::Zipped;
+        let mut places = vec![0; k];
+        let mut listed: Vec<(bool, u64)> = Vec::new();
+        for (index, factor) in factors.iter().enumerate() {
+            let Some(count) = factor.values.count() else {
+                continue;
+            };
+            if leaders[index] != index {
+                places[index] = places[leaders[index]];
+                continue;
+            }
+            // Zipped lists are the first, records of the model the last.
+            places[index] = match (zipped, factor.from_model) {
+                (true, false) => 0,
+                (true, true) => usize::MAX,
+                (false, _) => listed.len(),
+            };
+            listed.push((factor.from_model, count as u64));
+        }
         let lengths = |from_model: bool| {
             let same = listed.iter().filter(move |list| list.0 == from_model);
             same.map(|list| list.1)
@@ -130,8 +155,15 @@ impl CaseDesign {
             copula: Copula::new(k, &pairs)?,
             quantiles: design.quantiles,
             dimensions,
+            places,
+            leaders,
             seed: design.seed,
         })
+    }
+
+    /// Lengths of the crossed lists, and draws for each of their combinations.
+    pub(crate) fn lists_and_draws(&self) -> (&[u64], u64) {
+        (&self.lists, self.draws)
     }
 
     /// The values of a case, factor by factor.
@@ -141,10 +173,10 @@ impl CaseDesign {
             DesignKind::Factorial | DesignKind::Zipped => self.listed(case, factors),
             DesignKind::LatinHypercube | DesignKind::Sobol | DesignKind::Random => {
                 let point = self.point(case);
-                chosen(factors, &point)
+                self.chosen(factors, &point)
             }
-            DesignKind::Saltelli => chosen(factors, &self.saltelli(case, factors.len())),
-            DesignKind::Morris => chosen(factors, &self.morris(case, factors.len())),
+            DesignKind::Saltelli => self.chosen(factors, &self.saltelli(case, factors.len())),
+            DesignKind::Morris => self.chosen(factors, &self.morris(case, factors.len())),
             DesignKind::OneAtATime => {
                 let mut point = vec![0.5; factors.len()];
                 if case > 0 {
@@ -153,9 +185,24 @@ impl CaseDesign {
                         *u = self.quantiles[at % 2];
                     }
                 }
-                chosen(factors, &point)
+                self.chosen(factors, &point)
             }
         }
+    }
+
+    /// Values at the coordinates of a point; the entries of a list share the unit interval equally.
+    fn chosen(&self, factors: &[Factor], point: &[f64]) -> Vec<Choice> {
+        let choice = |(factor, leader): (&Factor, &usize)| {
+            let u = point.get(*leader).copied().unwrap_or(0.5);
+            match &factor.values {
+                FactorValues::Drawn(distribution) => Choice::Drawn(quantile(distribution, u)),
+                values @ (FactorValues::Listed(_) | FactorValues::Table(_)) => {
+                    let count = values.count().unwrap_or(1);
+                    Choice::Listed(((u * count as f64) as usize).min(count - 1))
+                }
+            }
+        };
+        factors.iter().zip(&self.leaders).map(choice).collect()
     }
 
     fn listed(&self, case: u64, factors: &[Factor]) -> Vec<Choice> {
@@ -168,21 +215,19 @@ impl CaseDesign {
         }
         let mut point = self.point(draw);
         point.resize(factors.len(), 0.5);
-        let mut next = 0;
-        let zipped = self.kind == DesignKind::Zipped;
-        let pick = |(factor, u): (&Factor, f64)| match &factor.values {
-            FactorValues::Listed(_) => {
-                let at = if zipped && factor.from_model {
-                    levels.len().saturating_sub(1)
-                } else {
-                    next
-                };
-                next += usize::from(!zipped);
+        let pick = |((factor, u), place): ((&Factor, f64), &usize)| match &factor.values {
+            FactorValues::Listed(_) | FactorValues::Table(_) => {
+                let at = (*place).min(levels.len().saturating_sub(1));
                 Choice::Listed(levels.get(at).copied().unwrap_or(0))
             }
             FactorValues::Drawn(distribution) => Choice::Drawn(quantile(distribution, u)),
         };
-        factors.iter().zip(point).map(pick).collect()
+        factors
+            .iter()
+            .zip(point)
+            .zip(&self.places)
+            .map(pick)
+            .collect()
     }
 
     /// A point of the sample, correlated.
@@ -272,17 +317,6 @@ pub(crate) fn morris_steps(seed: u64, trajectory: u64, k: usize) -> MorrisSteps 
     }
 }
 
-/// Values at the coordinates of a point; the entries of a list share the unit interval equally.
-fn chosen(factors: &[Factor], point: &[f64]) -> Vec<Choice> {
-    let choice = |(factor, u): (&Factor, &f64)| match &factor.values {
-        FactorValues::Listed(levels) => {
-            Choice::Listed(((u * levels.len() as f64) as usize).min(levels.len() - 1))
-        }
-        FactorValues::Drawn(distribution) => Choice::Drawn(quantile(distribution, *u)),
-    };
-    factors.iter().zip(point).map(choice).collect()
-}
-
 /// Value for the model, and its number in SI if it is one.
 pub(crate) fn value_of(factor: &Factor, choice: &Choice) -> (TreeValue, Option<f64>, String) {
     match (&factor.values, choice) {
@@ -295,6 +329,10 @@ pub(crate) fn value_of(factor: &Factor, choice: &Choice) -> (TreeValue, Option<f
             let label = value.to_string();
             (value, Some(number * distribution.unit_size), label)
         }
+        (FactorValues::Table(column), Choice::Listed(row)) => match column.level(*row) {
+            Ok(Some(level)) => (level.value, level.number, level.label),
+            _ => (TreeValue::Flag(false), None, String::new()),
+        },
         // Choices are made for these very factors.
         _ => (TreeValue::Flag(false), None, String::new()),
     }

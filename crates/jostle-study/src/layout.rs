@@ -89,6 +89,7 @@ impl Layout {
                     levels.iter().all(|level| level.number.is_some())
                 }
                 jostle_io::FactorValues::Drawn(_) => true,
+                jostle_io::FactorValues::Table(column) => column.is_numeric,
             };
             let kind = if numeric { Kind::Real } else { Kind::Text };
             inputs.push(Column { name, kind });

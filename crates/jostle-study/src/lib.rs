@@ -4,6 +4,8 @@
 //! partitioned Parquet dataset with one row a case. Every number of a row depends on the study and the number of the
 //! case alone: not on threads, order, processes or interruptions.
 
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))] // bits of results depend on no processor
+
 mod case;
 pub mod dataset;
 mod design;
@@ -20,6 +22,7 @@ pub mod statistics;
 mod study;
 pub mod suite;
 mod varied;
+mod verified;
 
 pub use dataset::{of_folder, settle};
 pub use design::{CaseDesign, Choice, DesignError};

@@ -159,7 +159,9 @@ fn wanted(name: &str, tree: &ModelTree, input: &Input, notes: &mut Vec<String>) 
         ],
         "gap-sweep" => {
             // Four values for every doubling, from an eighth of the gap to four times the gap.
-            let widths: Vec<f64> = (-12..=8).map(|k| 2_f64.powf(0.25 * f64::from(k))).collect();
+            let widths: Vec<f64> = (-12..=8)
+                .map(|k| libm::pow(2_f64, 0.25 * f64::from(k)))
+                .collect();
             [
                 factors::shaking(tree, input, &[0.5, 1.0, 2.0], notes),
                 factors::widths(input, &widths, notes),

@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 use crate::case;
 use crate::dataset::{
     Claim, Journal, PartFault, cases_of, journal_path, keep_copy, no_journal, owner_of, part_path,
-    set_aside, settle, strangers, verify, write_part,
+    set_aside, settle, settle_for_part, strangers, verify, write_part,
 };
 use crate::row::{Row, Status};
 use crate::single::{add_run_without_contact, run_case, run_until, write_run};
@@ -28,6 +28,9 @@ pub struct RunSettings {
     pub shard: u64,
     /// 1 computes everything.
     pub shards: u64,
+    /// Computes this part only and looks at no other file of the folder, so that the time of a part does not depend on their number:
+    /// for workers that are given one part each. `shard` and `shards` have no effect then.
+    pub only: Option<u64>,
 }
 
 impl Default for RunSettings {
@@ -36,6 +39,7 @@ impl Default for RunSettings {
             jobs: None,
             shard: 0,
             shards: 1,
+            only: None,
         }
     }
 }
@@ -95,7 +99,7 @@ pub fn run(
         remark,
     };
     let mut done = run_with(study, folder, settings, hooks, &compute)?;
-    if done.complete {
+    if done.complete && settings.only.is_none() {
         done.stopped = !remake_histories(study, folder, stop)?;
     }
     Ok(done)
@@ -139,10 +143,17 @@ pub(crate) fn run_with(
     hooks: Hooks<'_>,
     compute: &(dyn Fn(u64) -> Result<Option<Row>, StudyError> + Sync),
 ) -> Result<Done, StudyError> {
-    settle(study, folder)?;
-    let parts: VecDeque<u64> = (0..study.parts())
-        .filter(|part| part % settings.shards == settings.shard)
-        .collect();
+    let parts: VecDeque<u64> = match settings.only {
+        Some(part) => {
+            settle_for_part(study, folder)?;
+            VecDeque::from([part])
+        }
+        None => {
+            settle(study, folder)?;
+            let own = |part: &u64| part % settings.shards == settings.shard;
+            (0..study.parts()).filter(own).collect()
+        }
+    };
     let cases = parts.iter().map(|part| count(study, *part)).sum();
     let work = Work {
         study,
@@ -162,7 +173,9 @@ pub(crate) fn run_with(
         unlocked: AtomicBool::new(false),
         hooks,
     };
-    work.clear_strangers()?;
+    if settings.only.is_none() {
+        work.clear_strangers()?;
+    }
     let threads = settings.jobs.unwrap_or(0);
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
@@ -173,7 +186,10 @@ pub(crate) fn run_with(
     if let Some(error) = lock(&work.error).take() {
         return Err(error);
     }
-    let complete = work.is_complete(settings)?;
+    let complete = match settings.only {
+        Some(_) => work.now().finished == work.cases,
+        None => work.is_complete(settings)?,
+    };
     Ok(Done {
         progress: work.now(),
         failed: work.failed.load(Ordering::Relaxed),

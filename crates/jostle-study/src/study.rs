@@ -4,11 +4,14 @@ use jostle::Settings;
 use jostle_io::{Factor, FactorValues, InputError, ModelTree, PathError, StudyFile};
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
+use std::io::Read;
 use std::ops::ControlFlow;
+use std::path::Path;
 
 use crate::design::{CaseDesign, Choice, DesignError, value_of};
 use crate::layout::{Layout, Named};
 use crate::measures::measures;
+use crate::verified::Verified;
 use jostle_run::{CaseCache, CaseError};
 
 /// A study ready to be run.
@@ -29,6 +32,7 @@ pub struct Study {
     pub warnings: Vec<String>,
     /// Whether a folder is continued that another build of jostle began.
     pub any_build: bool,
+    pub(crate) verified: Verified,
 }
 
 /// Why a study cannot be run.
@@ -67,6 +71,8 @@ impl From<jostle_io::OutputError> for StudyError {
 const LARGEST_FILE: usize = 256 << 20;
 /// Entries of lists that are tried before the study begins.
 const MOST_TRIED: usize = 500;
+/// Rows of a column of a table that are tried.
+const MOST_ROWS_TRIED: usize = 50;
 /// Combinations of lists that change the columns.
 const MOST_COMBINED: usize = 4000;
 /// Parts of a study, if it is large enough for them.
@@ -98,6 +104,7 @@ impl Study {
             model_hash,
             warnings: trial.warnings,
             any_build: false,
+            verified: Verified::default(),
             file,
         };
         study.check_wishes()?;
@@ -223,6 +230,17 @@ fn put(tree: &mut ModelTree, factor: &Factor, choice: &Choice) -> Result<(), Pat
     if let (true, Choice::Listed(index)) = (factor.from_model, choice) {
         tree.keep_record(*index);
         return Ok(());
+    }
+    if let (FactorValues::Table(column), Choice::Listed(row)) = (&factor.values, choice) {
+        let cell = column.level(*row);
+        return match cell.map_err(|problem| PathError::new(&factor.paths[0], problem))? {
+            // An empty cell keeps the value of the model.
+            None => Ok(()),
+            Some(level) => factor
+                .paths
+                .iter()
+                .try_for_each(|path| tree.set(path, &level.value)),
+        };
     }
     let (value, number, _) = value_of(factor, choice);
     for path in &factor.paths {
@@ -362,7 +380,7 @@ fn usual(file: &StudyFile) -> Vec<Choice> {
 /// A value of a factor: a quantile, or an entry of its list.
 fn at(factor: &Factor, p: f64, entry: usize) -> Choice {
     match &factor.values {
-        FactorValues::Listed(_) => Choice::Listed(entry),
+        FactorValues::Listed(_) | FactorValues::Table(_) => Choice::Listed(entry),
         FactorValues::Drawn(distribution) => {
             Choice::Drawn(crate::sampling::quantile(distribution, p))
         }
@@ -372,17 +390,22 @@ fn at(factor: &Factor, p: f64, entry: usize) -> Choice {
 /// The values of a factor to try.
 fn tried(factor: &Factor) -> Vec<Choice> {
     match &factor.values {
-        FactorValues::Listed(levels) => {
-            let step = levels.len().div_ceil(MOST_TRIED).max(1);
-            let last = levels.len() - 1;
-            let mut entries: Vec<usize> = (0..levels.len()).step_by(step).collect();
-            if entries.last() != Some(&last) {
-                entries.push(last);
-            }
-            entries.into_iter().map(Choice::Listed).collect()
-        }
+        FactorValues::Listed(levels) => some_of(levels.len(), MOST_TRIED),
+        // Columns of one table are many, and each row needs a model.
+        FactorValues::Table(column) => some_of(column.table.rows() as usize, MOST_ROWS_TRIED),
         FactorValues::Drawn(_) => [0.5, 0.02, 0.98].map(|p| at(factor, p, 0)).to_vec(),
     }
+}
+
+/// At most about so many entries of a list, the first and the last among them.
+fn some_of(count: usize, most: usize) -> Vec<Choice> {
+    let step = count.div_ceil(most).max(1);
+    let last = count - 1;
+    let mut entries: Vec<usize> = (0..count).step_by(step).collect();
+    if entries.last() != Some(&last) {
+        entries.push(last);
+    }
+    entries.into_iter().map(Choice::Listed).collect()
 }
 
 /// The results that a case would have, without running it: a run of no length has them all.
@@ -423,7 +446,28 @@ fn hashes(file: &StudyFile) -> (String, String) {
             }
         }
     }
+    let mut tables: Vec<&Path> = Vec::new();
+    for factor in &file.factors {
+        if let FactorValues::Table(column) = &factor.values
+            && !tables.contains(&column.table.path())
+        {
+            tables.push(column.table.path());
+            all.update(digest_of(column.table.path()));
+        }
+    }
     (hex(&all.finalize()), model)
+}
+
+/// Digest of a file of any size; that of nothing if it is gone, which is a fault elsewhere.
+fn digest_of(path: &Path) -> [u8; 32] {
+    let mut digest = Sha256::new();
+    if let Ok(mut file) = jostle_io::open_file(path) {
+        let mut piece = vec![0; 1 << 16];
+        while let Ok(count @ 1..) = file.read(&mut piece) {
+            digest.update(&piece[..count]);
+        }
+    }
+    digest.finalize().into()
 }
 
 /// Reads the model with every text of a list that was too long for a trial of all its entries: such a text may name a

@@ -48,6 +48,11 @@ pub fn varied(study: &Study) -> Vec<Varied> {
         let values = match &factor.values {
             FactorValues::Listed(levels) => listed(levels),
             FactorValues::Drawn(drawn) => distributed(drawn, ends),
+            FactorValues::Table(column) => format!(
+                "column of {} ({} rows)",
+                column.table.path().display(),
+                column.table.rows()
+            ),
         };
         let mut own: Vec<String> = Vec::new();
         for value in factor.paths.iter().flat_map(|path| file.base.values(path)) {

@@ -11,4 +11,5 @@ pub mod imports;
 pub mod models;
 pub mod motions;
 pub mod runs;
+pub mod scan;
 mod texts;

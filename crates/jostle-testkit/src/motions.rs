@@ -8,8 +8,8 @@ use jostle::GroundMotion;
 pub fn fading(name: &str, rate: f64, [scale, slow]: [f64; 2], steps: u32) -> GroundMotion {
     let at = |i: u32| {
         let t = 0.02 * f64::from(i);
-        let slow = slow * (rate * t).sin() * (-0.1 * t).exp();
-        scale * (slow + 1.2 * (3.1 * rate * t).cos() * (-0.3 * t).exp())
+        let slow = slow * libm::sin(rate * t) * libm::exp(-0.1 * t);
+        scale * (slow + 1.2 * libm::cos(3.1 * rate * t) * libm::exp(-0.3 * t))
     };
     GroundMotion::sampled(name, 0.02, (0..=steps).map(at).collect())
 }
@@ -19,7 +19,7 @@ pub fn fading(name: &str, rate: f64, [scale, slow]: [f64; 2], steps: u32) -> Gro
 pub fn two_waves(steps: u32) -> GroundMotion {
     let wave = (0..=steps).map(|i| {
         let t = 0.01 * f64::from(i);
-        4.0 * (7.0 * t).sin() + 2.0 * (23.0 * t).cos()
+        4.0 * libm::sin(7.0 * t) + 2.0 * libm::cos(23.0 * t)
     });
     GroundMotion::sampled("two waves", 0.01, wave.collect())
 }

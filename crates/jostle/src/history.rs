@@ -725,6 +725,11 @@ impl MemberHistory {
         })
     }
 
+    /// Size of a row \[bytes\].
+    pub(crate) fn row_bytes(&self) -> usize {
+        8 * (1 + SECTION_FORCES * self.sections)
+    }
+
     /// Adds an instant \[s\]; `values`: those of all forms, building by building.
     pub(crate) fn push(&mut self, system: &System, time: f64, values: &[Vec<f64>]) {
         self.times.push(time);

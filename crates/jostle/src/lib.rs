@@ -82,6 +82,8 @@
 //!
 //! `cargo run -p jostle --example two_towers` prints the impacts of the pair above for several gaps.
 
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))] // bits of results depend on no processor
+
 pub mod contact;
 pub mod eigen;
 pub mod history;

@@ -112,7 +112,7 @@ fn uneven_load(building: &BuildingSystem) -> Vec<f64> {
     masses
         .map(|(dof, mass)| {
             if *mass > 0.0 {
-                1e4 * (12.9898 * dof as f64 + 0.5).sin()
+                1e4 * libm::sin(12.9898 * dof as f64 + 0.5)
             } else {
                 0.0
             }

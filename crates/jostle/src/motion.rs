@@ -126,7 +126,7 @@ impl GroundMotion {
         };
         let across = bearing.across.as_ref();
         let second = across.map_or(0.0, |motion| motion.acceleration(t));
-        let (sin, cos) = bearing.angle.sin_cos();
+        let (sin, cos) = libm::sincos(bearing.angle);
         [first * cos - second * sin, first * sin + second * cos]
     }
 
@@ -139,14 +139,14 @@ impl GroundMotion {
         self.scale
             * match &self.wave {
                 Wave::Sampled { step, acceleration } => interpolate(acceleration, t / step),
-                Wave::Sine { amplitude, period } => amplitude * (2.0 * PI * t / period).sin(),
+                Wave::Sine { amplitude, period } => amplitude * libm::sin(2.0 * PI * t / period),
                 Wave::Ricker {
                     amplitude,
                     period,
                     centre,
                 } => {
                     let tau = PI * (t - centre) / period;
-                    amplitude * (1.0 - 2.0 * tau * tau) * (-tau * tau).exp()
+                    amplitude * (1.0 - 2.0 * tau * tau) * libm::exp(-tau * tau)
                 }
             }
     }
@@ -172,7 +172,7 @@ impl GroundMotion {
                 if self.duration >= 0.25 * period {
                     amplitude.abs()
                 } else {
-                    (amplitude * (2.0 * PI * self.duration / period).sin()).abs()
+                    (amplitude * libm::sin(2.0 * PI * self.duration / period)).abs()
                 }
             }
             Wave::Ricker { amplitude, .. } => amplitude.abs(),

@@ -62,8 +62,17 @@ pub(super) fn describe_work(
             ""
         }
     )?;
+    let links = system.links.len();
+    if links > 0 {
+        let those = if links == 1 {
+            "link or damper"
+        } else {
+            "links and dampers"
+        };
+        writeln!(text, "  {links} {those} solved together in every step")?;
+    }
     if exact.is_some() {
-        return writeln!(text);
+        return Ok(());
     }
     let sweeps = system
         .buildings
@@ -72,7 +81,7 @@ pub(super) fn describe_work(
     let couplings: usize = sweeps.map(|sweep| sweep.entries_of_l()).sum();
     writeln!(
         text,
-        "  {} entries of L: {} multiply-adds per solution\n",
+        "  {} entries of L: {} multiply-adds per solution",
         grouped(couplings as u64),
         grouped(2 * couplings as u64)
     )

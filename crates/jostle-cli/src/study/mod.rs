@@ -63,6 +63,9 @@ pub(crate) struct StudyArgs {
     /// Omit the report and its tables when all cases are finished
     #[arg(long)]
     no_report: bool,
+    /// Write cases.csv also of more than 200 000 cases
+    #[arg(long, conflicts_with = "no_report")]
+    csv: bool,
     /// Go on in a folder that another build of jostle began
     #[arg(long)]
     any_build: bool,
@@ -106,6 +109,7 @@ pub(crate) fn study(args: &StudyArgs) -> Result<(), Failure> {
         jobs: args.jobs.map(|jobs| jobs as usize),
         shard,
         shards,
+        only: None,
     };
     let started = Instant::now();
     let bar = bar::Bar::new();
@@ -124,7 +128,7 @@ pub(crate) fn study(args: &StudyArgs) -> Result<(), Failure> {
         return Err(Failure::Stopped);
     }
     if done.complete && !args.no_report {
-        let written = jostle_study::finish(&study, &out)?;
+        let written = jostle_study::finish(&study, &out, args.csv)?;
         terminal::print(&written)?;
     }
     Ok(())

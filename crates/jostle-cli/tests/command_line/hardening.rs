@@ -275,3 +275,279 @@ fn small_mistakes_are_told() {
     let shown = printed(&jostle(folder, &["check", "m.toml"]));
     assert!(shown.contains("valid, without a ground motion"), "{shown}");
 }
+
+/// `check` says what a run takes, dampers included; the bound on work counts them, and so much memory is refused with the
+/// interval that fits.
+#[test]
+fn expected_work_is_told_and_bounded() {
+    let held = folder();
+    let folder = held.path();
+    let damper = r#"
+[[building.damper]]
+floors = [[0, 1]]
+law = "viscous"
+damping = "18 kN.(s/m)^0.5"
+exponent = 0.5
+stiffness = "150 MN/m"
+"#;
+    let at = SMALL
+        .find("[[building]]\nname = \"B\"")
+        .expect("the second building");
+    let with = |count: usize| {
+        let (first, rest) = SMALL.split_at(at);
+        format!("{first}{}\n{rest}", damper.repeat(count))
+    };
+    write(folder, "m.toml", &with(20));
+    let told = printed(&jostle(folder, &["check", "m.toml"]));
+    assert!(
+        told.contains("20 links and dampers solved together in every step"),
+        "{told}"
+    );
+    for part in [
+        " of computing on this machine, about ",
+        " MB of memory, ",
+        " rows of histories (history.parquet about ",
+    ] {
+        assert!(told.contains(part), "{part}: {told}");
+    }
+    // A run of 400 hours.
+    let long = with(300).replace("duration = \"0.8 s\"", "duration = \"3000 s\"");
+    write(folder, "long.toml", &long);
+    let refused = complained(&jostle(folder, &["check", "long.toml"]));
+    assert!(
+        refused.contains("hours of computing: 300 links and dampers take")
+            && refused.contains("long.toml:"),
+        "{refused}"
+    );
+    let rows = "[output]\ninterval = \"0.1 ms\"\n[[building]]\nname = \"A\"";
+    let much = SMALL.replace("duration = \"0.8 s\"", "duration = \"3600 s\"");
+    let much = much.replacen("[[building]]\nname = \"A\"", rows, 1);
+    write(folder, "much.toml", &much);
+    for command in ["check", "run"] {
+        let refused = complained(&jostle(folder, &[command, "much.toml"]));
+        for part in [
+            "much.toml:",
+            "GB of memory, more than 8.0 GB",
+            "under [output] for fewer rows",
+        ] {
+            assert!(refused.contains(part), "{part}: {refused}");
+        }
+        let longer = refused
+            .split("write interval = \"")
+            .nth(1)
+            .and_then(|rest| rest.split('"').next());
+        let fits = much.replace("0.1 ms", longer.expect("an interval"));
+        write(folder, "fits.toml", &fits);
+        printed(&jostle(folder, &["check", "fits.toml"]));
+    }
+}
+
+/// Names in a folder that begin with a dot: what is being written, and claims.
+fn hidden(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    entries
+        .map(|entry| entry.file_name().to_string_lossy().into_owned())
+        .filter(|name| name.starts_with('.'))
+        .collect()
+}
+
+/// The summary of a folder without the time that the run took.
+fn summary(folder: &Path) -> serde_json::Value {
+    let text = std::fs::read_to_string(folder.join("summary.json")).expect("a summary");
+    let mut summary: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    summary["work"]["wall_s"] = 0.into();
+    summary
+}
+
+/// Runs at the same time into one folder: each writes all of its files or is refused, and the files are those of one run.
+#[test]
+fn runs_at_once_do_not_mix_their_files() {
+    let held = folder();
+    let folder = held.path();
+    write(folder, "m.toml", SMALL);
+    let gaps = ["10 mm", "15 mm", "20 mm"];
+    for (index, gap) in gaps.iter().enumerate() {
+        let out = format!("alone{index}");
+        let output = jostle(folder, &["run", "m.toml", "--gap", gap, "--out", &out]);
+        assert!(output.status.success(), "{}", complained(&output));
+    }
+    for _ in 0..3 {
+        let start = |gap: &&str| {
+            let arguments = ["run", "m.toml", "--gap", gap, "--out", "both"];
+            let mut command = program(folder, &arguments);
+            command.stdout(Stdio::null()).spawn().expect("it starts")
+        };
+        let children: Vec<_> = gaps.iter().map(start).collect();
+        let mut finished = 0;
+        for child in children {
+            let output = child.wait_with_output().expect("its end");
+            let refused = complained(&output).contains("another run is writing into both");
+            assert!(
+                output.status.success() || refused,
+                "{}",
+                complained(&output)
+            );
+            finished += usize::from(output.status.success());
+        }
+        assert!(finished > 0);
+        let found = summary(&folder.join("both"));
+        let own =
+            (0..gaps.len()).find(|index| summary(&folder.join(format!("alone{index}"))) == found);
+        let own = folder.join(format!("alone{}", own.expect("one of the runs")));
+        for name in ["history.parquet", "impacts.parquet", "floors.parquet"] {
+            let [one, other] =
+                [&own, &folder.join("both")].map(|f| std::fs::read(f.join(name)).expect("a table"));
+            assert!(one == other, "{name}");
+        }
+        assert_eq!(hidden(&folder.join("both")), Vec::<String>::new());
+    }
+}
+
+/// A run that is killed at any instant leaves nothing that stays: the next run removes it.
+#[test]
+fn killed_runs_leave_nothing() {
+    let held = folder();
+    let folder = held.path();
+    write(folder, "m.toml", &SMALL.replace("0.8 s", "20 s"));
+    let arguments = ["run", "m.toml", "--out", "out"];
+    let mut left = 0;
+    for delay in [10, 30, 60, 90, 120, 160, 200, 300] {
+        let mut command = program(folder, &arguments);
+        let mut child = command.stdout(Stdio::null()).spawn().expect("it starts");
+        std::thread::sleep(Duration::from_millis(delay));
+        child.kill().expect("a kill");
+        child.wait().expect("its end");
+        left += hidden(&folder.join("out")).len();
+    }
+    // Claims at least: otherwise nothing was tried.
+    assert!(left > 0);
+    let output = jostle(folder, &arguments);
+    assert!(output.status.success(), "{}", complained(&output));
+    assert_eq!(hidden(&folder.join("out")), Vec::<String>::new());
+    assert!(folder.join("out/report.html").exists());
+}
+
+/// Ctrl-C in the second record of a curve keeps the curve of the first.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_curve_keeps_what_is_done() {
+    let held = folder();
+    let folder = held.path();
+    let mut long = String::from("# unit = m/s2\n");
+    for step in 0..400_000 {
+        long += &format!(
+            "{:.2},{}\n",
+            0.01 * f64::from(step),
+            if step % 40 < 20 { 2 } else { -2 }
+        );
+    }
+    write(folder, "long.csv", &long);
+    let start = SMALL.find("kind = \"sine\"").expect("the motion");
+    let end = SMALL.find("[[building]]").expect("a building");
+    let records = "record = [\"el-centro-1940-ns\", \"long.csv\"]\n";
+    write(
+        folder,
+        "m.toml",
+        &format!("{}{records}{}", &SMALL[..start], &SMALL[end..]),
+    );
+    let arguments = ["gap", "m.toml", "--curve", "12", "--out", "curve"];
+    let mut child = program(folder, &arguments)
+        .stdout(Stdio::null())
+        .spawn()
+        .expect("it starts");
+    std::thread::sleep(Duration::from_secs(4));
+    if let Some(status) = child.try_wait().expect("its state") {
+        let output = child.wait_with_output().expect("its end");
+        panic!("it ended early: {status}: {}", complained(&output));
+    }
+    let id = child.id().to_string();
+    assert!(
+        Command::new("kill")
+            .args(["-INT", &id])
+            .status()
+            .expect("kill")
+            .success()
+    );
+    let output = child.wait_with_output().expect("its end");
+    assert_eq!(output.status.code(), Some(130), "{}", complained(&output));
+    assert!(
+        complained(&output).contains("the curves of the records before are in"),
+        "{}",
+        complained(&output)
+    );
+    let table = std::fs::read_to_string(folder.join("curve/gap_curve.csv")).expect("a table");
+    assert_eq!(table.lines().count(), 1 + 12, "{table:.300}");
+}
+
+/// Summaries, manifests and pages name the version, and the commit of builds that know theirs.
+#[test]
+fn results_name_the_build() {
+    let held = folder();
+    let folder = held.path();
+    write(folder, "m.toml", SMALL);
+    write(folder, "s.toml", STUDY);
+    for arguments in [
+        &["run", "m.toml", "--out", "run"][..],
+        &["study", "s.toml", "--out", "study"],
+    ] {
+        let output = jostle(folder, arguments);
+        assert!(output.status.success(), "{}", complained(&output));
+    }
+    let read = |name: &str| std::fs::read_to_string(folder.join(name)).expect("a file");
+    let json =
+        |name: &str| -> serde_json::Value { serde_json::from_str(&read(name)).expect("JSON") };
+    let (run, study) = (json("run/summary.json"), json("study/manifest.json"));
+    let version = env!("CARGO_PKG_VERSION");
+    assert_eq!(
+        (&run["jostle"], &study["jostle"]),
+        (&version.into(), &version.into())
+    );
+    let shown = match run["build"].as_str() {
+        Some(build) => {
+            assert_eq!(study["builds"], serde_json::json!([build]));
+            build.to_owned()
+        }
+        None => version.to_owned(),
+    };
+    for page in ["run/report.html", "study/report.html"] {
+        assert!(read(page).contains(&shown), "{page}: {shown}");
+    }
+}
+
+/// Results have the same bits on a processor without fused multiply-add, which the mathematical library of the system uses if it is
+/// there.
+#[cfg(all(target_os = "linux", target_env = "gnu", target_arch = "x86_64"))]
+#[test]
+fn bits_do_not_depend_on_the_processor() {
+    let held = folder();
+    let folder = held.path();
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
+    for name in ["two_towers_on_soil.toml", "yielding_space_frames.toml"] {
+        let model = examples.join(name);
+        let model = model.to_str().expect("a path");
+        let [usual, masked] = ["", "glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2"].map(|masked| {
+            let out = if masked.is_empty() { "usual" } else { "masked" };
+            let mut command = program(folder, &["run", model, "--out", out, "--no-report"]);
+            command.env("GLIBC_TUNABLES", masked).stdout(Stdio::null());
+            let output = command.output().expect("it starts");
+            assert!(output.status.success(), "{}", complained(&output));
+            summary(&folder.join(out))
+        });
+        assert!(usual == masked, "{name}");
+    }
+    for recipe in [&["motion", "synth", "noise", "--seed", "3", "--pga", "0.2g"][..]] {
+        let [usual, masked] = ["", "glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2"].map(|masked| {
+            let out = if masked.is_empty() {
+                "usual.csv"
+            } else {
+                "masked.csv"
+            };
+            let mut command = program(folder, &[recipe, &["--out", out]].concat());
+            command.env("GLIBC_TUNABLES", masked).stdout(Stdio::null());
+            let output = command.output().expect("it starts");
+            assert!(output.status.success(), "{}", complained(&output));
+            std::fs::read(folder.join(out)).expect("a wave")
+        });
+        assert!(usual == masked);
+    }
+}

@@ -644,7 +644,8 @@ fn read_modes(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Modes> {
 /// uniform shear building has left, ω_j ∝ s_j = sin((2j − 1)π/(4N + 2)). A floor that is hit gives way by their flexibilities together,
 /// s_n²/s_j² each, of which those nearest count most: 0.85 of their root mean square. 1 if none is left out.
 fn usual_remainder(modes: usize, floors: usize) -> f64 {
-    let s = |j: usize| ((2 * j - 1) as f64 * std::f64::consts::PI / (4 * floors + 2) as f64).sin();
+    let s =
+        |j: usize| libm::sin((2 * j - 1) as f64 * std::f64::consts::PI / (4 * floors + 2) as f64);
     let left = floors - modes;
     if left == 0 {
         return 1.0;

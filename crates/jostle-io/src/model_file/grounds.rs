@@ -227,7 +227,7 @@ pub(super) fn read_own(
 /// Positions of buildings with a plan that have none: how far waves have travelled to the centre of the lowest floor, from the one
 /// that they reach first \[m\].
 fn place_in_plan(own: &mut [OwnGroundSpec], model: &Model, wave_angle: f64) {
-    let (sin, cos) = wave_angle.sin_cos();
+    let (sin, cos) = libm::sincos(wave_angle);
     let passed = model.buildings.iter().map(|building| {
         let Structure::Tiers(tiers) = &building.structure else {
             return None;

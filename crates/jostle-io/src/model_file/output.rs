@@ -6,6 +6,7 @@ use super::capacity::{self, CapacityRequest};
 use super::floor_spectra::{self, FloorSpectraRequest};
 use super::reinforced::ReinforcedMember;
 use crate::keys::Section;
+use crate::quantity::Dimension;
 use crate::reader::{Field, Reader};
 use crate::tree::Value;
 
@@ -38,6 +39,18 @@ pub(super) fn link_motion(reader: &mut Reader<'_>, field: &Field<'_>) -> bool {
     let view = reader.reopen(field, &[Section::Output]);
     let links = view.and_then(|view| reader.get(&view, "links"));
     links.is_some_and(|field| reader.flag(&field).unwrap_or(false))
+}
+
+/// Time between rows of histories \[s\], if it is given.
+pub(super) fn interval(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<f64> {
+    let view = reader.reopen(field, &[Section::Output])?;
+    let field = reader.get(&view, "interval")?;
+    let interval = reader.quantity(&field, Dimension::Time)?;
+    if interval < 0.0 {
+        reader.bad(&field, format!("must not be negative, found {interval} s"));
+        return None;
+    }
+    Some(interval)
 }
 
 fn read_members(reader: &mut Reader<'_>, field: &Field<'_>) -> MemberRequest {

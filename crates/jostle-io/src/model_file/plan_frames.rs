@@ -146,7 +146,7 @@ fn read_direction(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<PlanPoin
         Some("y") => Some([0.0, 1.0]),
         _ => {
             let angle = reader.quantity(field, Dimension::Dimensionless)?;
-            Some([angle.cos(), angle.sin()])
+            Some([libm::cos(angle), libm::sin(angle)])
         }
     }
 }

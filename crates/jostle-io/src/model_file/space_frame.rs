@@ -32,7 +32,7 @@ impl Grid {
         let angle = reader
             .get(view, "angle")
             .and_then(|field| reader.quantity(&field, Dimension::Dimensionless));
-        let direction = angle.map_or([1.0, 0.0], |angle| [angle.cos(), angle.sin()]);
+        let direction = angle.map_or([1.0, 0.0], |angle| [libm::cos(angle), libm::sin(angle)]);
         Self { lines, direction }
     }
 
@@ -370,11 +370,11 @@ fn contains(plan: &[PlanPoint], [x, y]: PlanPoint) -> bool {
     let mut inside = false;
     for (a, b) in plan.iter().zip(next) {
         let along = [b[0] - a[0], b[1] - a[1]];
-        let length = along[0].hypot(along[1]);
+        let length = libm::hypot(along[0], along[1]);
         let from = [x - a[0], y - a[1]];
         let share = (from[0] * along[0] + from[1] * along[1]) / (length * length);
         let share = share.clamp(0.0, 1.0);
-        let away = (from[0] - share * along[0]).hypot(from[1] - share * along[1]);
+        let away = libm::hypot(from[0] - share * along[0], from[1] - share * along[1]);
         if away <= BESIDE {
             return true;
         }

@@ -106,13 +106,13 @@ fn of_system(model: &Model, system: &System) -> Vec<(String, String)> {
 /// Period of a single floor on a single storey of a uniform shear building with this first period \[s\].
 fn storey_period(first: f64, floors: usize) -> f64 {
     let angle = 0.5 * std::f64::consts::PI / (2.0 * floors as f64 + 1.0);
-    2.0 * angle.sin() * first
+    2.0 * libm::sin(angle) * first
 }
 
 /// A number with three significant digits, for messages.
 fn three_digits(value: f64) -> String {
     if (1e-3..1e4).contains(&value) {
-        let digits = (2.0 - value.log10().floor()).clamp(0.0, 5.0) as usize;
+        let digits = (2.0 - libm::log10(value).floor()).clamp(0.0, 5.0) as usize;
         format!("{value:.digits$}")
     } else {
         format!("{value:.2e}")

@@ -149,7 +149,7 @@ fn lognormal(
     units: &mut Units,
 ) -> Option<Shape> {
     let dispersion = match positive_number(reader, view, "cov")? {
-        Some(cov) => cov.mul_add(cov, 1.0).ln().sqrt(),
+        Some(cov) => libm::log(cov.mul_add(cov, 1.0)).sqrt(),
         None => match positive_number(reader, view, "dispersion")? {
             Some(dispersion) => dispersion,
             None => {
@@ -163,7 +163,7 @@ fn lognormal(
         },
     };
     let median = match units.optional(reader, view, "mean")? {
-        Some(mean) => mean * (-0.5 * dispersion * dispersion).exp(),
+        Some(mean) => mean * libm::exp(-0.5 * dispersion * dispersion),
         None => units.required(reader, view, "median")?,
     };
     if median <= 0.0 {

@@ -1,8 +1,10 @@
 //! `[[vary]]` of a study file: what varies, and through which values.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use super::distribution::{self, Distribution};
+use super::table::{InputTable, TableColumn};
 use crate::builtin;
 use crate::keys::{KEYS, Kind, SPACINGS, Section};
 use crate::model_tree::{ModelTree, TreeValue, quantity_text};
@@ -27,6 +29,8 @@ pub struct Factor {
     pub unit: String,
     /// Whether it is the list of records of the base model, and not an entry of the study file.
     pub from_model: bool,
+    /// Number of its `[[vary]]`; the columns of a table share one.
+    pub entry: usize,
     pub(crate) span: Span,
 }
 
@@ -37,6 +41,7 @@ impl Factor {
         let is_numeric = match &self.values {
             FactorValues::Listed(levels) => levels.iter().all(|level| level.number.is_some()),
             FactorValues::Drawn(_) => true,
+            FactorValues::Table(column) => column.is_numeric,
         };
         is_numeric && !self.multiplies && self.paths.iter().any(|path| path == ANGLE)
     }
@@ -55,6 +60,20 @@ pub enum FactorValues {
     Listed(Vec<Level>),
     /// Drawn from a distribution.
     Drawn(Distribution),
+    /// The rows of a table; those of all its columns go together.
+    Table(TableColumn),
+}
+
+impl FactorValues {
+    /// Number of values; `None` if they are drawn.
+    #[must_use]
+    pub fn count(&self) -> Option<usize> {
+        match self {
+            Self::Listed(levels) => Some(levels.len()),
+            Self::Drawn(_) => None,
+            Self::Table(column) => usize::try_from(column.table.rows()).ok(),
+        }
+    }
 }
 
 /// One value of a factor.
@@ -95,22 +114,122 @@ pub(super) fn read_all(
         return None;
     };
     let mut factors: Vec<Factor> = Vec::new();
-    for entry in &entries {
-        let Some(factor) = read(reader, entry, folder) else {
+    let mut whole = true;
+    for (index, entry) in entries.iter().enumerate() {
+        let Some(found) = read(reader, entry, index, folder) else {
+            whole = false;
             continue;
         };
-        if factors.iter().any(|known| known.name == factor.name) {
-            let problem = format!("a second factor is named \"{}\"", factor.name);
-            *reader.bad(entry, problem) = Some("give one of them another name = \"…\"".into());
-            continue;
+        for factor in found {
+            if factors.iter().any(|known| known.name == factor.name) {
+                let problem = format!("a second factor is named \"{}\"", factor.name);
+                *reader.bad(entry, problem) = Some("give one of them another name = \"…\"".into());
+                whole = false;
+                continue;
+            }
+            factors.push(factor);
         }
-        factors.push(factor);
     }
-    (factors.len() == entries.len()).then_some(factors)
+    whole.then_some(factors)
 }
 
-fn read(reader: &mut Reader<'_>, field: &Field<'_>, folder: &Path) -> Option<Factor> {
+/// The factors of a table, one for each of its columns.
+fn read_table(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    field: &Field<'_>,
+    entry: usize,
+    folder: &Path,
+) -> Option<Vec<Factor>> {
+    for key in [
+        "path",
+        "name",
+        "multiply",
+        "values",
+        "range",
+        "distribution",
+        "files",
+    ] {
+        if let Some(other) = reader.get(view, key) {
+            *reader.bad(&other, "cannot be combined with table") =
+                Some("the columns of the table are named as the keys of the model".into());
+            return None;
+        }
+    }
+    let name = reader.text(field)?;
+    let table = match InputTable::open(&folder.join(&name)) {
+        Ok(table) => Arc::new(table),
+        Err(problem) => {
+            *reader.bad(field, format!("{name}: {problem}")) = Some(
+                "a table is a CSV file, or a Parquet file without compression or with LZ4 or Snappy; its columns are named as the keys of the model, such as gap[0].width".into(),
+            );
+            return None;
+        }
+    };
+    let wanted = match reader.get(view, "columns") {
+        Some(columns) => {
+            let wanted = super::wanted::texts(reader, &columns)?;
+            if let Some(missing) = wanted.iter().find(|wanted| !table.names().contains(wanted)) {
+                let problem = format!(
+                    "{name} has no column \"{missing}\"; it has {}",
+                    table.names().join(", ")
+                );
+                reader.bad(&columns, problem);
+                return None;
+            }
+            wanted
+        }
+        None => table.names().to_vec(),
+    };
+    let mut factors = Vec::new();
+    for path in wanted {
+        let column = table.names().iter().position(|name| *name == path)?;
+        let dimension = dimension_of(&path);
+        let is_numeric = match table.is_numeric(column, dimension) {
+            Ok(is_numeric) => is_numeric,
+            Err(problem) => {
+                reader.bad(field, problem);
+                return None;
+            }
+        };
+        let values = FactorValues::Table(TableColumn {
+            table: Arc::clone(&table),
+            column,
+            is_numeric,
+            dimension,
+        });
+        factors.push(Factor {
+            unit: if is_numeric {
+                unit_suffix(&values, dimension)
+            } else {
+                String::new()
+            },
+            name: path.clone(),
+            paths: vec![path],
+            multiplies: false,
+            values,
+            from_model: false,
+            entry,
+            span: field.node.span.clone(),
+        });
+    }
+    Some(factors)
+}
+
+fn read(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    entry: usize,
+    folder: &Path,
+) -> Option<Vec<Factor>> {
     let view = reader.open(field, &[Section::Vary])?;
+    if let Some(field) = reader.get(&view, "table") {
+        return read_table(reader, &view, &field, entry, folder);
+    }
+    if let Some(field) = reader.get(&view, "columns") {
+        *reader.bad(&field, "goes with table only") = Some("remove it".into());
+        return None;
+    }
     let paths = match reader.get(&view, "path") {
         Some(field) if field.entries().is_some() => super::wanted::texts(reader, &field)?,
         Some(field) => vec![reader.text(&field)?],
@@ -160,16 +279,17 @@ fn read(reader: &mut Reader<'_>, field: &Field<'_>, folder: &Path) -> Option<Fac
             .iter_mut()
             .for_each(|level| find_record(level, folder));
     }
-    let unit = unit_suffix(&values, dimension, &at, reader);
-    Some(Factor {
+    let unit = unit_suffix(&values, dimension);
+    Some(vec![Factor {
         name,
         paths,
         multiplies,
         values,
         unit,
         from_model: false,
+        entry,
         span: at,
-    })
+    }])
 }
 
 /// The records that a model lists, as a factor; `None` unless there are several.
@@ -190,6 +310,7 @@ pub(super) fn of_records(model: &ModelTree) -> Option<Factor> {
         values: FactorValues::Listed(records.into_iter().map(level).collect()),
         unit: String::new(),
         from_model: true,
+        entry: usize::MAX,
         span: 0..0,
     })
 }
@@ -286,12 +407,15 @@ fn number_of(node: &Node, dimension: Option<Dimension>) -> Option<f64> {
     match &node.value {
         Value::Integer(value) => Some(*value as f64),
         Value::Number(value) => Some(*value),
-        Value::Text(text) => {
-            let (number, unit) = split_number(text)?;
-            Some(number * size_of(unit, dimension)?)
-        }
+        Value::Text(text) => number_of_text(text, dimension),
         _ => None,
     }
+}
+
+/// The number of a text with a unit in SI, if it is one.
+pub(super) fn number_of_text(text: &str, dimension: Option<Dimension>) -> Option<f64> {
+    let (number, unit) = split_number(text)?;
+    Some(number * size_of(unit, dimension)?)
 }
 
 fn size_of(unit: &str, dimension: Option<Dimension>) -> Option<f64> {
@@ -351,7 +475,7 @@ fn range(
         }
         let share = index as f64;
         match spacing {
-            "log" => from.number * (to.number / from.number).powf(share / last),
+            "log" => from.number * libm::pow(to.number / from.number, share / last),
             _ => from.number + (to.number - from.number) * share / last,
         }
     };
@@ -490,12 +614,7 @@ fn dimension_of(path: &str) -> Option<Dimension> {
 }
 
 /// The SI unit of the numbers of a factor as the end of a column name.
-fn unit_suffix(
-    values: &FactorValues,
-    dimension: Option<Dimension>,
-    _at: &Span,
-    _reader: &mut Reader<'_>,
-) -> String {
+fn unit_suffix(values: &FactorValues, dimension: Option<Dimension>) -> String {
     let spell = |dimension: Dimension| -> String {
         match dimension {
             Dimension::Dimensionless => String::new(),
@@ -514,6 +633,12 @@ fn unit_suffix(
         FactorValues::Drawn(distribution) => distribution.unit.clone(),
         FactorValues::Listed(levels) => match levels.first().map(|level| &level.value) {
             Some(TreeValue::Text(text)) => split_number(text)
+                .map(|(_, unit)| unit.trim().to_owned())
+                .unwrap_or_default(),
+            _ => String::new(),
+        },
+        FactorValues::Table(column) => match column.level(0) {
+            Ok(Some(Level { label, .. })) => split_number(&label)
                 .map(|(_, unit)| unit.trim().to_owned())
                 .unwrap_or_default(),
             _ => String::new(),

@@ -19,6 +19,7 @@ mod mutate;
 mod plain_files;
 mod plans;
 mod records;
+mod scan;
 mod shear_failure;
 mod shipped_files;
 mod soil;

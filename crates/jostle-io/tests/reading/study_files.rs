@@ -54,7 +54,7 @@ fn values_are_kept_in_si_and_as_written() {
     let study = read(STUDY).unwrap_or_else(|error| panic!("{error}"));
     let listed = |factor: usize| match &study.factors[factor].values {
         FactorValues::Listed(levels) => levels.clone(),
-        FactorValues::Drawn(drawn) => panic!("{drawn:?}"),
+        other => panic!("{other:?}"),
     };
     let gaps = listed(0);
     assert_eq!(gaps[0].value, TreeValue::Text("5.0 mm".into()));

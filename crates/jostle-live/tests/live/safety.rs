@@ -7,13 +7,13 @@ use std::time::Duration;
 
 use jostle_live::{Engine, Server};
 
-struct Live {
+pub(crate) struct Live {
     server: Server,
     port: u16,
     token: String,
 }
 
-fn live() -> Live {
+pub(crate) fn live() -> Live {
     let server = Server::start(Engine::open(Path::new("paper")).unwrap(), 0).unwrap();
     let address = server.address();
     let rest = address.strip_prefix("http://127.0.0.1:").unwrap();
@@ -46,7 +46,7 @@ impl Live {
         format!("127.0.0.1:{}", self.port)
     }
 
-    fn page(&self) -> String {
+    pub(crate) fn page(&self) -> String {
         self.get(&format!("/?token={}", self.token), &self.host(), "")
     }
 
@@ -66,7 +66,7 @@ impl Live {
     }
 }
 
-fn status(answer: &str) -> u16 {
+pub(crate) fn status(answer: &str) -> u16 {
     let line = answer.lines().next().unwrap_or("");
     line.split(' ')
         .nth(1)
@@ -226,7 +226,7 @@ fn large_slow_and_strange_requests_are_refused() {
 }
 
 /// Connects as the page does, and reads the first message.
-fn connect(live: &Live) -> tungstenite::WebSocket<TcpStream> {
+pub(crate) fn connect(live: &Live) -> tungstenite::WebSocket<TcpStream> {
     let address = live
         .server
         .address()

@@ -1,6 +1,6 @@
 //! Motions at some distance from a record, which lose coherency with it.
 
-use rustfft::num_complex::Complex64;
+use num_complex::Complex64;
 
 use super::random::Random;
 use crate::Accelerogram;
@@ -34,7 +34,7 @@ impl Coherency {
     /// |γ| at a frequency \[Hz\] and a distance \[m\].
     #[must_use]
     pub fn at(&self, frequency: f64, distance: f64) -> f64 {
-        (-self.exponent(frequency) * distance * distance).exp()
+        libm::exp(-self.exponent(frequency) * distance * distance)
     }
 
     /// (α ω/V_s)² \[1/m²\].
@@ -137,13 +137,13 @@ fn factorize(factor: &mut [Vec<f64>], places: &[f64], s: f64) {
     let entry = |i: usize, j: usize| {
         let (x, y) = (places[i], places[j]);
         // Without overflow at high frequencies.
-        (-s * (x - y).powi(2)).exp() - (-s * (x * x + y * y)).exp()
+        libm::exp(-s * (x - y).powi(2)) - libm::exp(-s * (x * x + y * y))
     };
     let exact = |i: usize, j: usize| {
         let (x, y) = (places[i], places[j]);
         let exponent = 2.0 * s * x * y;
         if exponent.abs() < 1.0 {
-            (-s * (x * x + y * y)).exp() * exponent.exp_m1()
+            libm::exp(-s * (x * x + y * y)) * libm::expm1(exponent)
         } else {
             entry(i, j)
         }

@@ -54,14 +54,14 @@ impl Envelope {
         let fade = if left >= 1.0 {
             1.0
         } else {
-            0.5 - 0.5 * (std::f64::consts::PI * left.max(0.0)).cos()
+            0.5 - 0.5 * libm::cos(std::f64::consts::PI * left.max(0.0))
         };
         fade * if t < self.rise {
             (t / self.rise).powi(2)
         } else if t <= self.decay {
             1.0
         } else {
-            (-self.rate * (t - self.decay)).exp()
+            libm::exp(-self.rate * (t - self.decay))
         }
     }
 }

@@ -114,7 +114,7 @@ impl MatchSettings {
     /// The checked periods.
     fn grid(&self) -> Vec<f64> {
         let [first, last] = self.periods;
-        let parts = ((last / first).ln() / SPACING).ceil().max(1.0) as usize;
+        let parts = (libm::log(last / first) / SPACING).ceil().max(1.0) as usize;
         spaced_periods(first, last, parts + 1)
     }
 }
@@ -296,15 +296,16 @@ fn first_guess(
 ) -> Result<Accelerogram, MotionFault> {
     let responses = peak_responses(seed, oscillators);
     let logarithms = responses.iter().zip(wanted).map(|(response, wanted)| {
-        (wanted
-            / response
-                .pseudo_acceleration
-                .value
-                .abs()
-                .max(f64::MIN_POSITIVE))
-        .ln()
+        libm::log(
+            wanted
+                / response
+                    .pseudo_acceleration
+                    .value
+                    .abs()
+                    .max(f64::MIN_POSITIVE),
+        )
     });
-    seed.scaled((logarithms.sum::<f64>() / wanted.len() as f64).exp())
+    seed.scaled(libm::exp(logarithms.sum::<f64>() / wanted.len() as f64))
 }
 
 /// An oscillator, its peak, and the magnitude that this should have.
@@ -387,7 +388,7 @@ fn strength(motion: &Accelerogram) -> Vec<f64> {
     let squares: Vec<f64> = (0..a.len()).map(square).collect();
     let largest = squares.iter().fold(f64::MIN_POSITIVE, |m, s| m.max(*s));
     let last = (a.len() - 1) as f64;
-    let end = |i: usize| (20.0 * (std::f64::consts::PI * i as f64 / last).sin()).clamp(0.0, 1.0);
+    let end = |i: usize| (20.0 * libm::sin(std::f64::consts::PI * i as f64 / last)).clamp(0.0, 1.0);
     squares
         .iter()
         .enumerate()

@@ -62,13 +62,13 @@ impl PulseShape {
         match self {
             Self::Mavroeidis(Mavroeidis { gamma, phase }) => {
                 let x = theta - PI * gamma;
-                0.5 * (1.0 + (x / gamma).cos()) * (x + phase).cos()
+                0.5 * (1.0 + libm::cos(x / gamma)) * libm::cos(x + phase)
             }
-            Self::Makris(Makris::A) => 0.5 * (1.0 - theta.cos()),
-            Self::Makris(Makris::B) => theta.sin(),
+            Self::Makris(Makris::A) => 0.5 * (1.0 - libm::cos(theta)),
+            Self::Makris(Makris::B) => libm::sin(theta),
             Self::Makris(Makris::C(n)) => {
                 let phi = cycloid_phase(*n);
-                (theta + phi).sin() - phi.sin()
+                libm::sin(theta + phi) - libm::sin(phi)
             }
         }
     }
@@ -123,7 +123,8 @@ impl PulseShape {
 /// Smallest positive φ of a pulse `C_n` \[rad\], by bisection: the function is negative at zero, positive at π/6.
 fn cycloid_phase(n: u32) -> f64 {
     let whole = (2.0 * f64::from(n) + 1.0) * PI;
-    let f = |phi: f64| (whole - phi).cos() + (whole - 2.0 * phi) * phi.sin() - phi.cos();
+    let f =
+        |phi: f64| libm::cos(whole - phi) + (whole - 2.0 * phi) * libm::sin(phi) - libm::cos(phi);
     let (mut low, mut high) = (0.0, PI / 6.0);
     for _ in 0..60 {
         let middle = 0.5 * (low + high);

@@ -22,8 +22,8 @@ impl Random {
 
     /// Two independent standard normal numbers (Box and Muller 1958).
     pub(crate) fn normal_pair(&mut self) -> [f64; 2] {
-        let radius = (-2.0 * (1.0 - self.uniform()).ln()).sqrt();
-        let (sine, cosine) = (std::f64::consts::TAU * self.uniform()).sin_cos();
+        let radius = (-2.0 * libm::log(1.0 - self.uniform())).sqrt();
+        let (sine, cosine) = libm::sincos(std::f64::consts::TAU * self.uniform());
         [radius * cosine, radius * sine]
     }
 }

@@ -7,7 +7,7 @@
 //! D. A. Gasparini, E. H. Vanmarcke (1976), Simulated earthquake motions compatible with prescribed response
 //! spectra, MIT R76-4. [`super::match_spectrum`] removes the misfit that remains after some iterations.
 
-use rustfft::num_complex::Complex64;
+use num_complex::Complex64;
 
 use super::matching::{MatchSettings, Matched, match_above, without_long_waves};
 use super::random::Random;
@@ -135,7 +135,10 @@ fn draw(
         let spectrum: Vec<Complex64> = amplitudes
             .iter()
             .zip(&phases)
-            .map(|(a, phase)| Complex64::from_polar(*a, *phase))
+            .map(|(a, phase)| {
+                let (sine, cosine) = libm::sincos(*phase);
+                Complex64::new(a * cosine, a * sine)
+            })
             .collect();
         let mut wave = inverse(&spectrum, n);
         wave.iter_mut().zip(&envelope).for_each(|(a, e)| *a *= e);
@@ -165,6 +168,6 @@ fn interpolate(periods: &[f64], values: &[f64], period: f64) -> f64 {
         .partition_point(|t| *t <= period)
         .clamp(1, periods.len() - 1);
     let (t0, t1) = (periods[after - 1], periods[after]);
-    let share = (period / t0).ln() / (t1 / t0).ln();
+    let share = libm::log(period / t0) / libm::log(t1 / t0);
     values[after - 1] + share * (values[after] - values[after - 1])
 }

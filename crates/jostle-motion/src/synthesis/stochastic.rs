@@ -1,6 +1,6 @@
 //! Filtered white noise under an envelope.
 
-use rustfft::num_complex::Complex64;
+use num_complex::Complex64;
 
 use super::random::Random;
 use super::{Envelope, points};

@@ -28,11 +28,11 @@ impl Wavelet {
         let last = (((centre + right) / step).floor() as usize).min(points - 1);
         let arch = |t: f64| {
             let side = if t < 0.0 { left } else { right };
-            (0.5 * PI * t / side).cos().powi(2)
+            libm::cos(0.5 * PI * t / side).powi(2)
         };
         let times = || (first..=last).map(|m| step * m as f64 - centre);
         let mut values: Vec<f64> = times()
-            .map(|t| arch(t) * (TAU * t / period).cos())
+            .map(|t| arch(t) * libm::cos(TAU * t / period))
             .collect();
         // Between first and last all samples count fully: Σ w leaves a velocity, Σ w t a displacement.
         let sums = |weights: &[f64]| {

@@ -130,9 +130,9 @@ impl Gb50011 {
         } else if t <= tg {
             eta2
         } else if t <= 5.0 * tg {
-            (tg / t).powf(gamma) * eta2
+            libm::pow(tg / t, gamma) * eta2
         } else {
-            eta2 * 0.2_f64.powf(gamma) - eta1 * (t - 5.0 * tg)
+            eta2 * libm::pow(0.2_f64, gamma) - eta1 * (t - 5.0 * tg)
         };
         shape * self.largest_coefficient()
     }

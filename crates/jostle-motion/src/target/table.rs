@@ -67,8 +67,8 @@ impl SpectrumTable {
         let after = after.clamp(1, self.points.len() - 1);
         let ([t0, a0], [t1, a1]) = (self.points[after - 1], self.points[after]);
         Ok(if t0 > 0.0 {
-            let share = (period / t0).ln() / (t1 / t0).ln();
-            a0 * (a1 / a0).powf(share)
+            let share = libm::log(period / t0) / libm::log(t1 / t0);
+            a0 * libm::pow(a1 / a0, share)
         } else {
             a0 + (a1 - a0) * (period - t0) / (t1 - t0)
         })

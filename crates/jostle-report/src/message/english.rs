@@ -1141,6 +1141,11 @@ messages! {
     sobol_indices_remark = "Shares of the variance (Sobol indices): by itself, and together with all others; lines are 90 % limits of resampled estimates.";
     morris_remark = "Elementary effects of moving a factor over its range (Morris): mean of absolute values, and standard deviation, which shows interactions and curvature.";
     tornado_remark(low, high) = "Tornado: every factor by itself at its {low} % and {high} % quantile, the others in the middle.";
+    given_data_remark = "First order: share of the variance that the means over classes of one input explain, at most 20 classes with equally many cases, without its bias. Rank correlation (Spearman): sign and strength of a monotonic trend.";
+    results_over_inputs = "Results over inputs";
+    dots_mean_and_band = "Dots: cases. Line: mean over classes of the input with equally many cases; band: 16th to 84th percentile.";
+    result_over_input(result, input) = "{result} over {input}";
+    figures_show_some_cases(shown, cases) = "Figures show {shown} of {cases} cases; counts, the greatest force and cases/*.parquet are of all.";
     nothing_to_rank_in(names) = " Nothing to rank in {names}: it does not vary, or is absent.";
     greatest_and_least_over_angle = "greatest and least value over the angle, quantity by quantity";
     over_the_angle = "Over the angle of incidence";

@@ -126,7 +126,7 @@ pub(super) fn four(value: f64) -> String {
     if value == 0.0 {
         return "0".into();
     }
-    let magnitude = value.abs().log10().floor() as i32;
+    let magnitude = libm::log10(value.abs()).floor() as i32;
     if !(-4..6).contains(&magnitude) {
         return format!("{value:.3e}");
     }

@@ -153,13 +153,13 @@ fn en1998_ultimate(member: &RatedMember<'_>, compression: f64) -> f64 {
         / strength;
     let axial = section.axial_ratio(compression).max(0.0);
     let common = 0.016
-        * 0.3_f64.powf(axial)
-        * (member.shear_span() / section.depth).min(9.0).powf(0.35)
-        * 25.0_f64.powf(confinement)
+        * libm::pow(0.3_f64, axial)
+        * libm::pow((member.shear_span() / section.depth).min(9.0), 0.35)
+        * libm::pow(25.0_f64, confinement)
         / ELEMENT_FACTOR;
     let of = |tension: f64, opposite: f64| {
         let bars = ratio(opposite).max(0.01) / ratio(tension + between).max(0.01);
-        common * (bars * MPA * strength).powf(0.225)
+        common * libm::pow(bars * MPA * strength, 0.225)
     };
     of(faces[0], faces[1]).min(of(faces[1], faces[0]))
 }

@@ -18,7 +18,7 @@ const CRACK_ANGLE: f64 = 65.0;
 pub fn drift_at_axial_failure(section: &Section, compression: f64) -> Option<f64> {
     let ties = section.ties?;
     let (_, core) = law::core(section);
-    let tangent = CRACK_ANGLE.to_radians().tan();
+    let tangent = libm::tan(CRACK_ANGLE.to_radians());
     let friction = ties.area() * section.steel.yield_strength * core / ties.spacing;
     let load = compression.max(0.0) / (friction * tangent);
     Some(0.04 * (1.0 + tangent * tangent) / (tangent + load))

@@ -73,6 +73,7 @@ impl Manifest {
                 "values": match &factor.values {
                     FactorValues::Listed(levels) => json!(levels.len()),
                     FactorValues::Drawn(distribution) => json!(format!("{distribution:?}")),
+                    FactorValues::Table(column) => json!(column.table.rows()),
                 },
             })
         });
@@ -224,14 +225,20 @@ impl Manifest {
 /// # Errors
 /// [`StudyError::Folder`] when it holds another study, [`StudyError::Output`] when it cannot be written.
 pub fn settle(study: &Study, folder: &Path) -> Result<(), StudyError> {
+    settle_for_part(study, folder)?;
+    for inner in [folder.to_owned(), folder.join("cases")] {
+        // What another machine is writing is younger.
+        jostle_io::remove_leftovers(&inner, LEFT);
+    }
+    Ok(())
+}
+
+/// The same without a look at the other files of the folder.
+pub(crate) fn settle_for_part(study: &Study, folder: &Path) -> Result<(), StudyError> {
     for inner in ["cases", "under-way"] {
         let path = folder.join(inner);
         std::fs::create_dir_all(&path)
             .map_err(|error| StudyError::Output(format!("{}: {error}", path.display())))?;
-    }
-    for inner in [folder.to_owned(), folder.join("cases")] {
-        // What another machine is writing is younger.
-        jostle_io::remove_leftovers(&inner, LEFT);
     }
     let own = Manifest::new(study);
     let mut found = Manifest::load(folder)?;

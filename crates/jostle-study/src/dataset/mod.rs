@@ -9,10 +9,11 @@ mod set_aside;
 use std::path::{Path, PathBuf};
 
 pub(crate) use journal::{Claim, Journal, no_journal, owner_of};
+pub(crate) use manifest::settle_for_part;
 pub use manifest::{of_folder, settle};
 pub(crate) use part::{PartFault, cases_of, verify, write as write_part};
-pub(crate) use reading::read_part;
 pub use reading::{Table, missing_parts, read_columns};
+pub(crate) use reading::{read_part, visit_parts};
 pub(crate) use set_aside::{keep_copy, set_aside, strangers};
 
 /// Where the parts of a table of cases lie.

@@ -17,6 +17,7 @@ use super::reading::read_rows;
 use super::{Table, part_path};
 use crate::row::Row;
 use crate::study::{Study, StudyError, hex};
+use crate::verified::Stamp;
 
 /// Largest part \[bytes\].
 const LARGEST: usize = 1 << 30;
@@ -115,21 +116,28 @@ pub(crate) fn write(
     Ok(())
 }
 
-/// The file of a part, if it is whole, of this study, and that part.
-pub(crate) fn verify(study: &Study, folder: &Path, part: u64) -> Result<Bytes, PartFault> {
+/// Whether the file of a part is whole, of this study, and that part. What was verified and has not changed since is not read again.
+pub(crate) fn verify(study: &Study, folder: &Path, part: u64) -> Result<(), PartFault> {
     let path = part_path(folder, study.part(part).start);
-    match read_file(&path, LARGEST) {
+    let stamp = Stamp::of(&path);
+    if study.verified.holds(&path, stamp) {
+        return Ok(());
+    }
+    let checked = match read_file(&path, LARGEST) {
         Ok(bytes) => check(study, part, bytes.into()),
         Err(FileError::Io(error)) if error.kind() == io::ErrorKind::NotFound => {
             Err(PartFault::Absent)
         }
         Err(FileError::Io(error)) => Err(PartFault::Unreadable(error)),
         Err(other) => Err(PartFault::Damaged(format!("it {other}"))),
-    }
+    };
+    checked?;
+    study.verified.note(path, stamp);
+    Ok(())
 }
 
-/// The bytes of a part, if they are whole, of this study, and that part.
-fn check(study: &Study, part: u64, bytes: Bytes) -> Result<Bytes, PartFault> {
+/// Whether bytes are whole, of this study, and that part.
+fn check(study: &Study, part: u64, bytes: Bytes) -> Result<(), PartFault> {
     let damaged = |why: &str| Err(PartFault::Damaged(why.to_owned()));
     if bytes.is_empty() {
         return damaged("it is empty");
@@ -161,7 +169,7 @@ fn check(study: &Study, part: u64, bytes: Bytes) -> Result<Bytes, PartFault> {
             wanted: cases_of(study, part),
         });
     }
-    Ok(bytes)
+    Ok(())
 }
 
 /// Metadata of a file.
@@ -179,7 +187,7 @@ fn contents(bytes: &Bytes) -> Result<Contents, ParquetError> {
         .find(|note| note.key == STUDY)
         .and_then(|note| note.value.clone());
     let mut table = Table::default();
-    read_rows(bytes, &["case"], &mut table)?;
+    read_rows(bytes.clone(), &["case"], &mut table)?;
     Ok(Contents {
         study,
         cases: table.column("case").to_vec(),

@@ -3,10 +3,9 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use bytes::Bytes;
 use parquet::column::reader::ColumnReader;
 use parquet::errors::ParquetError;
-use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::file::reader::{ChunkReader, FileReader, SerializedFileReader};
 
 use super::{PartFault, part_path, verify};
 use crate::study::{Study, StudyError};
@@ -28,6 +27,22 @@ impl Table {
     pub fn column(&self, name: &str) -> &[Option<f64>] {
         self.numbers.get(name).map_or(&[], |values| values)
     }
+
+    /// Adds some rows of another table.
+    pub(crate) fn take_rows(&mut self, other: &Self, rows: &[usize]) {
+        for (name, values) in &other.numbers {
+            let own = self.numbers.entry(name.clone()).or_default();
+            own.extend(rows.iter().map(|row| values.get(*row).copied().flatten()));
+        }
+        for (name, values) in &other.texts {
+            let own = self.texts.entry(name.clone()).or_default();
+            own.extend(
+                rows.iter()
+                    .map(|row| values.get(*row).cloned().unwrap_or_default()),
+            );
+        }
+        self.rows += rows.len();
+    }
 }
 
 /// Reads columns of all parts, in the order of the cases.
@@ -40,6 +55,21 @@ pub fn read_columns(study: &Study, folder: &Path, wanted: &[&str]) -> Result<Tab
         read_part(study, folder, part, wanted, &mut table)?;
     }
     Ok(table)
+}
+
+/// Reads columns part by part; `visit` is called with the first case of a part and its rows.
+pub(crate) fn visit_parts(
+    study: &Study,
+    folder: &Path,
+    wanted: &[&str],
+    visit: &mut dyn FnMut(u64, Table),
+) -> Result<(), StudyError> {
+    for part in 0..study.parts() {
+        let mut table = Table::default();
+        read_part(study, folder, part, wanted, &mut table)?;
+        visit(study.part(part).start, table);
+    }
+    Ok(())
 }
 
 /// Numbers of the parts that a folder does not hold: absent, damaged, or not of this study.
@@ -61,17 +91,19 @@ pub(crate) fn read_part(
     let path = part_path(folder, study.part(part).start);
     let wrong =
         |fault: &dyn std::fmt::Display| StudyError::Output(format!("{} {fault}", path.display()));
-    let bytes = verify(study, folder, part).map_err(|fault| wrong(&fault))?;
-    read_rows(&bytes, wanted, table).map_err(|error| wrong(&PartFault::Damaged(error.to_string())))
+    verify(study, folder, part).map_err(|fault| wrong(&fault))?;
+    // Only these columns are read.
+    let file = jostle_io::open_file(&path).map_err(|error| wrong(&format!("{error}")))?;
+    read_rows(file, wanted, table).map_err(|error| wrong(&PartFault::Damaged(error.to_string())))
 }
 
 /// Adds the rows of a Parquet file to a table.
-pub(super) fn read_rows(
-    bytes: &Bytes,
+pub(super) fn read_rows<R: ChunkReader + 'static>(
+    file: R,
     wanted: &[&str],
     table: &mut Table,
 ) -> Result<(), ParquetError> {
-    let reader = SerializedFileReader::new(bytes.clone())?;
+    let reader = SerializedFileReader::new(file)?;
     for group in 0..reader.num_row_groups() {
         let group = reader.get_row_group(group)?;
         let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);

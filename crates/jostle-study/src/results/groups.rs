@@ -14,7 +14,9 @@ impl Results<'_> {
         let study = self.study;
         let mut groups: BTreeMap<Vec<usize>, Vec<usize>> = BTreeMap::new();
         for case in 0..self.table.rows {
-            let choices = study.design.choices(case as u64, &study.file.factors);
+            let choices = study
+                .design
+                .choices(self.sample.case(case), &study.file.factors);
             let key: Vec<usize> = factors
                 .iter()
                 .map(|factor| match choices[*factor] {
@@ -38,7 +40,7 @@ impl Results<'_> {
                             format!("{} {label}", factor.name)
                         }
                     }
-                    FactorValues::Drawn(_) => factor.name.clone(),
+                    FactorValues::Drawn(_) | FactorValues::Table(_) => factor.name.clone(),
                 }
             });
             parts.collect::<Vec<_>>().join(", ")

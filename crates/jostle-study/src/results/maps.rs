@@ -51,10 +51,12 @@ impl Results<'_> {
                 Cell {
                     value: (!present.is_empty()).then_some(size * mean),
                     cases: match &cases[..] {
-                        [case] => message::case_of_number(case),
+                        [row] => message::case_of_number(self.sample.case(*row)),
                         all => message::mean_of_cases(all.len()),
                     },
-                    link: cases.iter().find_map(|case| self.link(*case as u64)),
+                    link: cases
+                        .iter()
+                        .find_map(|case| self.link(self.sample.case(*case))),
                 }
             };
             Some(HeatMap {

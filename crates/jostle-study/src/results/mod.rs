@@ -7,10 +7,12 @@ mod maps;
 mod needed;
 mod rankings;
 mod roses;
+mod sample;
+mod sampled;
 mod selection;
 mod words;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
 use std::path::Path;
 
@@ -18,11 +20,12 @@ use jostle_io::{FactorValues, Values, csv_field, write_atomically, write_values_
 use jostle_report::message;
 use jostle_report::{Section, StudyPage, render_study};
 
-use crate::dataset::{Table, read_columns};
+use crate::dataset::{Table, visit_parts};
 use crate::layout::Kind;
 use crate::runner::run_folder;
 use crate::study::{Study, StudyError};
 use crate::varied::varied;
+use sample::{MOST_DRAWN, Sample};
 
 /// Columns that every page uses.
 const ALWAYS: [&str; 7] = [
@@ -39,11 +42,13 @@ const MOST_IN_CSV: u64 = 200_000;
 /// Failed cases named on the page.
 const NAMED_FAILURES: usize = 20;
 
-/// A finished study with the columns that its figures need.
+/// A finished study with the columns that its figures need, of the cases that are drawn.
 struct Results<'a> {
     study: &'a Study,
     folder: &'a Path,
     table: Table,
+    sample: Sample,
+    counts: Counts,
     /// Cases whose histories are kept.
     kept: BTreeSet<u64>,
     /// Tables written so far: name and what it holds.
@@ -52,12 +57,50 @@ struct Results<'a> {
     said: Vec<String>,
 }
 
-/// Writes `report.html`, the tables of its figures and, unless there are very many cases, `cases.csv`. Returns what
-/// was written, in words.
+/// What the head of the page says of all cases.
+#[derive(Default)]
+struct Counts {
+    /// Cases with results, and those of them with an impact.
+    known: usize,
+    touched: usize,
+    /// Greatest force \[N\].
+    most: f64,
+    failed: usize,
+    failures: Vec<(u64, String)>,
+}
+
+impl Counts {
+    /// Adds the rows of a part that begins with a case.
+    fn add(&mut self, first: u64, rows: &Table) {
+        let impacts = rows.column("impact_count").iter().flatten();
+        self.known += impacts.clone().count();
+        self.touched += impacts.filter(|count| **count > 0.0).count();
+        let forces = rows.column("peak_force_n").iter().flatten();
+        self.most = forces.copied().fold(self.most, f64::max);
+        let text = |name: &str, row: usize| {
+            let texts = rows.texts.get(name).and_then(|texts| texts.get(row));
+            texts.map_or("", |text| &text[..])
+        };
+        for row in 0..rows.rows {
+            if text("status", row) == "completed" {
+                continue;
+            }
+            self.failed += 1;
+            if self.failures.len() < NAMED_FAILURES {
+                let reason = text("reason", row).to_owned();
+                self.failures.push((first + row as u64, reason));
+            }
+        }
+    }
+}
+
+/// Writes `report.html`, the tables of its figures and, unless there are more than 200 000 cases, `cases.csv`; with `csv` in any
+/// case. Returns what was written, in words. Figures of more cases than that are drawn from a part of them, so that memory does not
+/// grow with the number of cases.
 ///
 /// # Errors
 /// [`StudyError`] when a part is absent or a file cannot be written.
-pub fn finish(study: &Study, folder: &Path) -> Result<String, StudyError> {
+pub fn finish(study: &Study, folder: &Path, csv: bool) -> Result<String, StudyError> {
     let mut wanted: Vec<&str> = ALWAYS.to_vec();
     wanted.extend(study.layout.inputs.iter().map(|column| &column.name[..]));
     let own = needed::columns(study);
@@ -72,16 +115,24 @@ pub fn finish(study: &Study, folder: &Path) -> Result<String, StudyError> {
     wanted.extend(over_angle.iter().map(|name| &name[..]));
     let responses = rankings::responses(study);
     wanted.extend(responses.iter().map(|name| &name[..]));
-    let table = read_columns(study, folder, &wanted)?;
+    let sample = Sample::new(study, MOST_DRAWN);
+    let (mut table, mut counts) = (Table::default(), Counts::default());
+    visit_parts(study, folder, &wanted, &mut |first, rows| {
+        counts.add(first, &rows);
+        let held = (0..rows.rows).filter(|row| sample.holds(first + *row as u64));
+        table.take_rows(&rows, &held.collect::<Vec<_>>());
+    })?;
     let mut results = Results {
         study,
         folder,
         table,
+        sample,
+        counts,
         kept: kept(folder),
         files: vec![("cases/*.parquet".into(), message::one_row_a_case().into())],
         said: Vec::new(),
     };
-    if study.design.cases <= MOST_IN_CSV {
+    if csv || study.design.cases <= MOST_IN_CSV {
         write_csv(study, folder)?;
         results
             .files
@@ -95,6 +146,7 @@ pub fn finish(study: &Study, folder: &Path) -> Result<String, StudyError> {
     sections.extend(results.needed_gap());
     sections.extend(results.idas()?);
     sections.extend(results.fragilities()?);
+    sections.extend(results.scatter(&responses));
     sections.extend(results.rankings(&responses)?);
     sections.extend(results.selection()?);
     let page = results.page(maps, sections);
@@ -114,14 +166,17 @@ impl Results<'_> {
         let Some(texts) = self.table.texts.get(&column.name) else {
             return Vec::new();
         };
-        let FactorValues::Listed(levels) = &self.study.file.factors[factor].values else {
-            return Vec::new();
-        };
+        if let FactorValues::Listed(levels) = &self.study.file.factors[factor].values {
+            let place = |text: &String| levels.iter().position(|level| level.label == *text);
+            return texts.iter().map(|text| Some(place(text)? as f64)).collect();
+        }
+        // Numbers of different texts in the order in which they occur.
+        let mut known: BTreeMap<&str, usize> = BTreeMap::new();
         texts
             .iter()
             .map(|text| {
-                let at = levels.iter().position(|level| level.label == *text);
-                at.map(|at| at as f64)
+                let next = known.len();
+                Some(*known.entry(text).or_insert(next) as f64)
             })
             .collect()
     }
@@ -157,36 +212,33 @@ impl Results<'_> {
     }
 
     fn page(
-        self,
+        mut self,
         maps: Vec<(String, Vec<jostle_report::HeatMap>)>,
         sections: Vec<Section>,
     ) -> StudyPage {
         let study = self.study;
-        let status = self.table.texts.get("status").cloned().unwrap_or_default();
-        let reasons = self.table.texts.get("reason").cloned().unwrap_or_default();
-        let incomplete = status.iter().zip(&reasons).enumerate();
-        let incomplete = incomplete.filter(|(_, (status, _))| *status != "completed");
-        let failed = incomplete.clone().count();
-        let failures = incomplete
-            .take(NAMED_FAILURES)
-            .map(|(case, (_, reason))| (case as u64, reason.clone()));
-        let pounding = self.table.column("impact_count");
-        let touched = pounding
-            .iter()
-            .flatten()
-            .filter(|count| **count > 0.0)
-            .count();
+        let failures = std::mem::take(&mut self.counts.failures);
+        let Counts {
+            known,
+            touched,
+            most,
+            failed,
+            ..
+        } = self.counts;
         let mut headline = Vec::new();
-        let known = pounding.iter().flatten().count();
         if known > 0 {
-            let force = self.table.column("peak_force_n").iter().flatten();
-            let most = force.copied().fold(0.0, f64::max);
             let forces = if touched == 0 {
                 String::new()
             } else {
                 message::greatest_force_of_cases(format_args!("{:.0}", 1e-3 * most))
             };
             headline.push(message::buildings_pound_in_cases(touched, known, forces));
+        }
+        if self.sample.rows < study.design.cases {
+            headline.push(message::figures_show_some_cases(
+                self.sample.rows,
+                study.design.cases,
+            ));
         }
         headline.extend(self.said.iter().cloned());
         let mut facts = vec![
@@ -234,7 +286,7 @@ impl Results<'_> {
             facts,
             maps,
             sections,
-            failures: failures.collect(),
+            failures,
             failed,
             runs: runs.collect(),
             // The folder knows its study and its model, wherever these came from.

@@ -1,13 +1,24 @@
 //! Which factors matter: Sobol indices, elementary effects, tornado.
 
 use jostle::linear::sort_by;
-use jostle_io::{DesignKind, Values};
+use jostle_io::{DesignKind, FactorValues, Values};
 use jostle_report::message;
 use jostle_report::{Axis, Bar, Bars, Section};
 
 use super::{Results, words};
-use crate::statistics::{elementary_effects, sobol_indices};
+use crate::layout::Kind;
+use crate::statistics::{elementary_effects, given_data, sobol_indices};
 use crate::study::{Study, StudyError};
+
+/// Whether cases are drawn, all factors together, or are rows of a table.
+pub(super) fn is_sampled(study: &Study) -> bool {
+    let rows = |factor: &jostle_io::Factor| matches!(factor.values, FactorValues::Table(_));
+    study.file.factors.iter().any(rows)
+        || matches!(
+            study.file.design.kind,
+            DesignKind::LatinHypercube | DesignKind::Sobol | DesignKind::Random
+        )
+}
 
 /// Columns whose sensitivity is shown, where the design shows any.
 pub(super) fn responses(study: &Study) -> Vec<String> {
@@ -15,7 +26,7 @@ pub(super) fn responses(study: &Study) -> Vec<String> {
         study.file.design.kind,
         DesignKind::Saltelli | DesignKind::Morris | DesignKind::OneAtATime
     );
-    if !sensitive {
+    if !sensitive && !is_sampled(study) {
         return Vec::new();
     }
     if !study.file.responses.is_empty() {
@@ -45,9 +56,11 @@ impl Results<'_> {
         let file = &self.study.file;
         let (k, seed) = (file.factors.len(), file.design.seed);
         let kind = file.design.kind;
+        let sampled = is_sampled(self.study);
         let legend = match kind {
             DesignKind::Saltelli => ["first_order", "total"],
             DesignKind::Morris => ["mean_absolute_effect", "deviation"],
+            _ if sampled => ["first_order", "rank_correlation"],
             _ => ["low", "high"],
         };
         let mut lines: Vec<Line> = Vec::new();
@@ -88,6 +101,15 @@ impl Results<'_> {
                         }
                     }
                 }
+                _ if sampled => {
+                    for factor in 0..k {
+                        let ordered = self.study.layout.inputs[factor].kind != Kind::Text;
+                        let found = given_data(&self.input(factor), &values, ordered);
+                        if let Some(found) = found {
+                            push(factor, [found.first_order, found.rank_correlation], None);
+                        }
+                    }
+                }
                 _ => {
                     centre = values.first().copied().flatten().unwrap_or(0.0);
                     for factor in 0..k {
@@ -105,17 +127,15 @@ impl Results<'_> {
             let weight = |line: &Line| match kind {
                 DesignKind::OneAtATime => (line.numbers[1] - line.numbers[0]).abs(),
                 DesignKind::Saltelli => line.numbers[1],
+                _ if sampled => line.numbers[0],
                 _ => line.numbers[0],
             };
             sort_by(&mut own, |a, b| weight(b).total_cmp(&weight(a)));
-            let size = if kind == DesignKind::Saltelli {
-                1.0
-            } else {
-                size
-            };
+            let shares = sampled || kind == DesignKind::Saltelli;
+            let size = if shares { 1.0 } else { size };
             bars.push(Bars {
                 title: axis.name.clone(),
-                value: if kind == DesignKind::Saltelli {
+                value: if shares {
                     Axis {
                         name: message::share_of_the_variance().into(),
                         unit: String::new(),
@@ -166,6 +186,7 @@ impl Results<'_> {
         let mut remark = match kind {
             DesignKind::Saltelli => message::sobol_indices_remark().to_owned(),
             DesignKind::Morris => message::morris_remark().to_owned(),
+            _ if sampled => message::given_data_remark().to_owned(),
             _ => {
                 let [low, high] = file
                     .design

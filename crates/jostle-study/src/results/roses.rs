@@ -212,7 +212,13 @@ impl Results<'_> {
         let curves = groups.into_iter().map(|(group, cases)| {
             let known = cases.into_iter().filter(|case| self.completed(*case));
             let mut points: Vec<(f64, f64, usize)> = known
-                .filter_map(|case| Some((angles[case]?, values[case]?, case)))
+                .filter_map(|case| {
+                    Some((
+                        angles[case]?,
+                        values[case]?,
+                        self.sample.case(case) as usize,
+                    ))
+                })
                 .collect();
             sort_by(&mut points, |a, b| a.0.total_cmp(&b.0));
             Curve {

@@ -204,7 +204,7 @@ impl SizeProblem {
             || vec![String::new()],
             |factor| match &factor.values {
                 FactorValues::Listed(levels) => levels.iter().map(|l| l.label.clone()).collect(),
-                FactorValues::Drawn(_) => vec![String::new()],
+                FactorValues::Drawn(_) | FactorValues::Table(_) => vec![String::new()],
             },
         );
         let study = Study::new(file).map_err(moved)?;

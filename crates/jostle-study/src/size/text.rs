@@ -29,7 +29,7 @@ pub(super) fn number(value: f64, suffix: &str) -> String {
     let text = if value == 0.0 {
         "0".to_owned()
     } else {
-        let magnitude = value.abs().log10().floor() as i32;
+        let magnitude = libm::log10(value.abs()).floor() as i32;
         if (-4..7).contains(&magnitude) {
             let decimals = usize::try_from(4 - magnitude).unwrap_or(0);
             let text = format!("{value:.decimals$}");

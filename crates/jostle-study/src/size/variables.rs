@@ -162,7 +162,7 @@ pub(super) fn at(distribution: &Distribution, share: f64) -> f64 {
         return crate::sampling::quantile(distribution, share);
     };
     let number = if by_ratios(from, to) {
-        from * (to / from).powf(share)
+        from * libm::pow(to / from, share)
     } else {
         from + (to - from) * share
     };

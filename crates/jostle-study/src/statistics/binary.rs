@@ -22,10 +22,12 @@ impl Link {
     /// ln F(z), also far below zero.
     fn ln_share(self, z: f64) -> f64 {
         match self {
-            Self::Probit if z > -30.0 => normal_cdf(z).ln(),
-            Self::Probit => -0.5 * z * z - (-z).ln() - 0.5 * (2.0 * std::f64::consts::PI).ln(),
-            Self::Logit if z > 0.0 => -(-z).exp().ln_1p(),
-            Self::Logit => z - z.exp().ln_1p(),
+            Self::Probit if z > -30.0 => libm::log(normal_cdf(z)),
+            Self::Probit => {
+                -0.5 * z * z - libm::log(-z) - 0.5 * libm::log(2.0 * std::f64::consts::PI)
+            }
+            Self::Logit if z > 0.0 => -libm::log1p(libm::exp(-z)),
+            Self::Logit => z - libm::log1p(libm::exp(z)),
         }
     }
 
@@ -33,10 +35,10 @@ impl Link {
     fn slope(self, z: f64) -> f64 {
         match self {
             Self::Probit => {
-                let ln_density = -0.5 * z * z - 0.5 * (2.0 * std::f64::consts::PI).ln();
-                (ln_density - self.ln_share(z)).exp()
+                let ln_density = -0.5 * z * z - 0.5 * libm::log(2.0 * std::f64::consts::PI);
+                libm::exp(ln_density - self.ln_share(z))
             }
-            Self::Logit => self.ln_share(-z).exp(),
+            Self::Logit => libm::exp(self.ln_share(-z)),
         }
     }
 
@@ -44,7 +46,7 @@ impl Link {
     fn inverse(self, p: f64) -> f64 {
         match self {
             Self::Probit => normal_quantile(p),
-            Self::Logit => (p / (1.0 - p)).ln(),
+            Self::Logit => libm::log(p / (1.0 - p)),
         }
     }
 }
@@ -57,7 +59,7 @@ pub(super) fn regress(outcomes: &[(f64, bool)], link: Link) -> Result<[f64; 2], 
     let used: Vec<(f64, bool)> = outcomes
         .iter()
         .filter(|(x, _)| *x > 0.0 && x.is_finite())
-        .map(|(x, event)| (x.ln(), *event))
+        .map(|(x, event)| (libm::log(*x), *event))
         .collect();
     let events = used.iter().filter(|(_, event)| *event).count();
     if used.len() < 3 {
@@ -77,8 +79,8 @@ pub(super) fn regress(outcomes: &[(f64, bool)], link: Link) -> Result<[f64; 2], 
     );
     if below < above {
         return Err(FitError::Separated {
-            below: below.exp(),
-            above: above.exp(),
+            below: libm::exp(below),
+            above: libm::exp(above),
         });
     }
     // Standardised abscissas keep the equations well conditioned.

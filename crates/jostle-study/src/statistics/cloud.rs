@@ -23,7 +23,7 @@ pub fn fit_cloud(cloud: &[(f64, f64)]) -> Result<CloudFit, FitError> {
     let used: Vec<(f64, f64)> = cloud
         .iter()
         .filter(|(x, d)| *x > 0.0 && *d > 0.0 && x.is_finite() && d.is_finite())
-        .map(|(x, d)| (x.ln(), d.ln()))
+        .map(|(x, d)| (libm::log(*x), libm::log(*d)))
         .collect();
     if used.len() < 3 {
         return Err(FitError::TooFew { cases: used.len() });
@@ -65,7 +65,7 @@ impl CloudFit {
             return Err(FitError::NoMaximum);
         }
         Ok(Lognormal {
-            median: ((threshold.ln() - self.intercept) / self.slope).exp(),
+            median: libm::exp((libm::log(threshold) - self.intercept) / self.slope),
             dispersion: self.scatter / self.slope,
         })
     }

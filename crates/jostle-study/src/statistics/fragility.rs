@@ -19,13 +19,13 @@ impl Lognormal {
         if intensity <= 0.0 {
             return 0.0;
         }
-        normal_cdf((intensity / self.median).ln() / self.dispersion)
+        normal_cdf(libm::log(intensity / self.median) / self.dispersion)
     }
 
     /// Intensity at which the event has this probability, between 0 and 1.
     #[must_use]
     pub fn intensity(&self, probability: f64) -> f64 {
-        self.median * (self.dispersion * normal_quantile(probability)).exp()
+        self.median * libm::exp(self.dispersion * normal_quantile(probability))
     }
 }
 
@@ -89,7 +89,7 @@ pub enum FitError {
 pub fn fit_lognormal(outcomes: &[(f64, bool)]) -> Result<Lognormal, FitError> {
     let [a, b] = regress(outcomes, Link::Probit)?;
     Ok(Lognormal {
-        median: (-a / b).exp(),
+        median: libm::exp(-a / b),
         dispersion: 1.0 / b,
     })
 }

@@ -18,7 +18,7 @@ impl Logistic {
     /// Probability at an intensity ≥ 0.
     #[must_use]
     pub fn probability(&self, intensity: f64) -> f64 {
-        1.0 / (1.0 + (-(self.intercept + self.slope * intensity.ln())).exp())
+        1.0 / (1.0 + libm::exp(-(self.intercept + self.slope * libm::log(intensity))))
     }
 }
 
@@ -110,7 +110,7 @@ impl ModifiedCloud {
         let (low, median, high) = (at(1.0 - ONE_DEVIATION)?, at(0.5)?, at(ONE_DEVIATION)?);
         curve.equivalent = Lognormal {
             median,
-            dispersion: 0.5 * (high / low).ln(),
+            dispersion: 0.5 * libm::log(high / low),
         };
         Ok(curve)
     }
@@ -132,8 +132,8 @@ impl MixedCurve {
 
     /// Intensity at which the event has a probability between 0 and 1: the curve rises all the way.
     fn intensity(&self, probability: f64) -> Option<f64> {
-        let start = self.exceeding.median.ln();
-        let p = |ln: f64| self.probability(ln.exp());
+        let start = libm::log(self.exceeding.median);
+        let p = |ln: f64| self.probability(libm::exp(ln));
         let (mut low, mut high, mut reach) = (start, start, 1.0);
         while p(low) > probability && reach < 1e3 {
             low -= reach;
@@ -155,7 +155,7 @@ impl MixedCurve {
                 high = middle;
             }
         }
-        Some((0.5 * (low + high)).exp())
+        Some(libm::exp(0.5 * (low + high)))
     }
 }
 

@@ -200,7 +200,7 @@ fn the_page_has_roses_and_the_worst_angles() {
     let folder = tempfile::tempdir().expect("a folder");
     let study = made(&pair(false), &every(45.0));
     let [force] = results(&study, folder.path(), ["peak_force_n"]);
-    finish(&study, folder.path()).unwrap_or_else(|error| panic!("{error}"));
+    finish(&study, folder.path(), false).unwrap_or_else(|error| panic!("{error}"));
     let read = |name: &str| {
         let text = std::fs::read_to_string(folder.path().join(name));
         text.unwrap_or_else(|error| panic!("{name}: {error}"))
@@ -241,7 +241,7 @@ fn quantities_of_roses_may_be_chosen() {
     let study = made(&pair(false), &wanted);
     assert_eq!(study.design.cases, 3);
     let _ = results(&study, folder.path(), ["angle_rad"]);
-    finish(&study, folder.path()).unwrap_or_else(|error| panic!("{error}"));
+    finish(&study, folder.path(), false).unwrap_or_else(|error| panic!("{error}"));
     let page = std::fs::read_to_string(folder.path().join("report.html")).expect("a page");
     assert_eq!(page.matches("study-rose\"").count(), 1);
     assert!(page.contains("Rotation max [mrad]"));

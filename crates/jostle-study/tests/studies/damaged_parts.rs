@@ -56,6 +56,7 @@ fn shard(shard: u64, shards: u64) -> RunSettings {
         jobs: Some(2),
         shard,
         shards,
+        only: None,
     }
 }
 

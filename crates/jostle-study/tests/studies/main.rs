@@ -3,9 +3,12 @@
 mod angles;
 mod capacity_columns;
 mod damaged_parts;
+mod inputs;
 mod isolation_columns;
+mod large;
 mod pages_in_another_language;
 mod ready_made;
+mod scan;
 mod size;
 mod studies;
 mod trends;

@@ -43,6 +43,18 @@ path = "motion.pga"
 distribution = { kind = "uniform", from = "100 cm/s2", to = "500 cm/s2" }
 "#;
 
+const SAMPLED: &str = r#"
+base = "towers.toml"
+[design]
+kind = "latin-hypercube"
+samples = 24
+seed = 1
+[[vary]]
+name = "gap"
+path = "gap[0].width"
+distribution = { kind = "uniform", from = "5 mm", to = "45 mm" }
+"#;
+
 /// Every text between brackets.
 static BRACKETED: LazyLock<Messages> = LazyLock::new(|| {
     Messages::from_english(|key, english| match key {
@@ -88,7 +100,7 @@ fn pages(text: &str) -> [BTreeSet<String>; 2] {
     )
     .unwrap_or_else(|error| panic!("{error}"));
     let page = || {
-        finish(&study, &out).unwrap_or_else(|error| panic!("{error}"));
+        finish(&study, &out, false).unwrap_or_else(|error| panic!("{error}"));
         let page = std::fs::read_to_string(out.join("report.html"));
         shown(&page.unwrap_or_else(|error| panic!("{error}")))
     };
@@ -105,7 +117,7 @@ fn no_text_of_a_study_stays_in_english() {
         .filter(|text| text.chars().count() > 5 && !text.contains('{'))
         .collect();
     let mut seen = 0;
-    for study in [GRID, ONE_AT_A_TIME] {
+    for study in [GRID, ONE_AT_A_TIME, SAMPLED] {
         let [english, bracketed] = pages(study);
         let left: Vec<&String> = bracketed.intersection(&texts).collect();
         assert!(left.is_empty(), "texts in English: {left:?}");

@@ -100,6 +100,7 @@ fn threads_shards_and_interruptions_leave_no_trace() {
             jobs: Some(2),
             shard,
             shards: 3,
+            only: None,
         };
         let done = go(&study, folder.path(), &settings);
         assert_eq!(done.complete, shard == 1, "shard {shard} of 3");

@@ -14,7 +14,6 @@ mod histories;
 mod in_plane;
 mod in_space;
 mod isolated;
-mod library;
 mod linked;
 mod numbers;
 mod on_grounds;
@@ -34,9 +33,6 @@ use families::{Case, FAMILIES, Family};
 use numbers::Entries;
 use recorded::{Recorded, pack, unpack};
 
-/// File of the digest of the mathematical library.
-const LIBRARY: &str = "library.txt";
-
 /// Names of the families of models.
 pub fn names() -> impl Iterator<Item = &'static str> {
     FAMILIES.iter().map(|family| family.name)
@@ -44,18 +40,13 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 
 /// Results of this program beside those on record.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Comparison {
-    /// Another mathematical library makes other bits: nothing can be compared.
-    OtherLibrary,
-    /// They were compared.
-    Compared {
-        /// Models, each under one solver.
-        results: usize,
-        /// Numbers, texts and digests on record.
-        values: usize,
-        /// Those that moved.
-        moved: Vec<Moved>,
-    },
+pub struct Comparison {
+    /// Models, each under one solver.
+    pub results: usize,
+    /// Numbers, texts and digests on record.
+    pub values: usize,
+    /// Those that moved.
+    pub moved: Vec<Moved>,
 }
 
 /// Compares the results of families with the files in a folder; of all families if none is named.
@@ -64,11 +55,6 @@ pub enum Comparison {
 /// A family that does not exist, or a file that cannot be read, in words.
 pub fn compare(folder: &Path, only: &[String]) -> Result<Comparison, String> {
     let chosen = chosen(only)?;
-    let known = folder.join(LIBRARY);
-    let known = std::fs::read_to_string(&known).map_err(|e| format!("{}: {e}", known.display()))?;
-    if known.trim() != library::library() {
-        return Ok(Comparison::OtherLibrary);
-    }
     let mut recorded = Vec::new();
     for family in &chosen {
         let file = folder.join(family.file());
@@ -92,7 +78,7 @@ pub fn compare(folder: &Path, only: &[String]) -> Result<Comparison, String> {
             .filter(|own| new.iter().all(|other| other.name != own.name));
         moved.extend(gone.filter_map(|own| Moved::find(&own.name, &own.entries, &nothing)));
     }
-    Ok(Comparison::Compared {
+    Ok(Comparison {
         results,
         values,
         moved,
@@ -102,21 +88,12 @@ pub fn compare(folder: &Path, only: &[String]) -> Result<Comparison, String> {
 /// Records the results of families in a folder; of all families if none is named. Returns the number of bytes written.
 ///
 /// # Errors
-/// A family that does not exist, another mathematical library beside families that stay, or a file that cannot be written.
+/// A family that does not exist, or a file that cannot be written.
 pub fn record(folder: &Path, only: &[String]) -> Result<usize, String> {
     let chosen = chosen(only)?;
-    let library = library::library() + "\n";
-    let place = folder.join(LIBRARY);
-    let known = std::fs::read_to_string(&place).ok();
-    if chosen.len() < FAMILIES.len() && known.is_some_and(|known| known != library) {
-        return Err(
-            "the mathematical library differs from the recorded one: record all families".into(),
-        );
-    }
     let write = |file: &str, bytes: &[u8]| {
         write_atomically(&folder.join(file), bytes).map_err(|error| error.to_string())
     };
-    write(LIBRARY, library.as_bytes())?;
     let mut written = 0;
     for (family, results) in chosen.iter().zip(compute(&chosen)) {
         let bytes = pack(&results).map_err(|error| error.to_string())?;

@@ -97,7 +97,7 @@ fn check_isolation_in_plan(faults: &mut Faults, path: &str, isolation: &Isolatio
     }
     let apart = |place: &PlanPoint| {
         let first = places[0];
-        (place[0] - first[0]).hypot(place[1] - first[1]) > LEAST_APART
+        libm::hypot(place[0] - first[0], place[1] - first[1]) > LEAST_APART
     };
     faults.require(
         places.is_empty() || places.iter().any(apart),

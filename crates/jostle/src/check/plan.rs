@@ -148,7 +148,7 @@ fn polygon_fault(plan: &[PlanPoint]) -> Option<String> {
     let next = |index: usize| plan[(index + 1) % n];
     for (index, corner) in plan.iter().enumerate() {
         let end = next(index);
-        if (end[0] - corner[0]).hypot(end[1] - corner[1]) < 1e-6 {
+        if libm::hypot(end[0] - corner[0], end[1] - corner[1]) < 1e-6 {
             return Some(format!(
                 "has two equal corners, {} and {}; remove one",
                 index + 1,
@@ -239,7 +239,7 @@ fn just_inside(plan: &[PlanPoint]) -> impl Iterator<Item = PlanPoint> {
     let next = plan.iter().cycle().skip(1);
     plan.iter().zip(next).map(|(a, b)| {
         let along = [b[0] - a[0], b[1] - a[1]];
-        let share = INSIDE / along[0].hypot(along[1]);
+        let share = INSIDE / libm::hypot(along[0], along[1]);
         [
             0.5 * (a[0] + b[0]) - share * along[1],
             0.5 * (a[1] + b[1]) + share * along[0],

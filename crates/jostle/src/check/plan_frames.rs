@@ -76,7 +76,7 @@ fn check_one(faults: &mut Faults, at: &str, own: &PlanFrame, tiers: &Tiers) {
         || format!("must lie between 1 and {most}, and its storeys are the lowest ones of the building; found {storeys}"),
     );
     let finite = own.at.iter().chain(&own.direction).all(|v| v.is_finite());
-    let length = own.direction[0].hypot(own.direction[1]);
+    let length = libm::hypot(own.direction[0], own.direction[1]);
     faults.require(
         finite && (length - 1.0).abs() < 1e-9,
         format!("{at}.direction"),

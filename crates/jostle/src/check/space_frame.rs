@@ -118,7 +118,7 @@ fn check_lines(faults: &mut Faults, path: &str, frame: &SpaceFrame, floors: usiz
             "gives {joints} joints with lines_y and all floors; at most {MOST_JOINTS} are possible"
         )
     });
-    let length = frame.direction[0].hypot(frame.direction[1]);
+    let length = libm::hypot(frame.direction[0], frame.direction[1]);
     let finite = frame.at.iter().all(|value| value.is_finite());
     faults.require(
         finite && (length - 1.0).abs() < 1e-9,

@@ -69,7 +69,7 @@ impl Slab {
 /// `density` > 0 \[kg/m³\].
 #[must_use]
 pub fn effective_radius(mass: f64, density: f64) -> f64 {
-    (3.0 * mass / (4.0 * PI * density)).cbrt()
+    libm::cbrt(3.0 * mass / (4.0 * PI * density))
 }
 
 /// Stiffness of Hertz's law between two spheres of the masses of two floors \[N/m^1.5\]:
@@ -207,14 +207,14 @@ pub fn spring_of_force(effective_mass: f64, speed: f64, peak_force: f64) -> f64 
 #[must_use]
 pub fn hertz_of_force(effective_mass: f64, speed: f64, peak_force: f64) -> f64 {
     let energy = 1.25 * effective_mass * speed * speed;
-    peak_force.powf(2.5) / energy.powf(1.5)
+    libm::pow(peak_force, 2.5) / libm::pow(energy, 1.5)
 }
 
 /// Peak force of a collision by Hertz's law without damping, F = k^0.4 (5 m v²/4)^0.6 \[N\].
 #[must_use]
 pub fn hertz_peak_force(stiffness: f64, effective_mass: f64, speed: f64) -> f64 {
     let energy = 1.25 * effective_mass * speed * speed;
-    stiffness.powf(0.4) * energy.powf(0.6)
+    libm::pow(stiffness, 0.4) * libm::pow(energy, 0.6)
 }
 
 /// Stiffness of the Hertz laws that studies use if they state nothing (Muthukumar and DesRoches 2006) \[N/m^1.5\].

@@ -83,11 +83,11 @@ pub(super) fn approach_restitution(ratio: f64) -> f64 {
     let quotient = if (z - 1.0).abs() < 1e-6 {
         1.0 + (1.0 - z) / 3.0
     } else if z < 1.0 {
-        z.acos() / (1.0 - z * z).sqrt()
+        libm::acos(z) / (1.0 - z * z).sqrt()
     } else {
-        z.acosh() / (z * z - 1.0).sqrt()
+        libm::acosh(z) / (z * z - 1.0).sqrt()
     };
-    (-z * quotient).exp()
+    libm::exp(-z * quotient)
 }
 
 /// The damping ratio with which free masses rebound with e: the inverse of [`approach_restitution`].

@@ -64,11 +64,11 @@ impl Bilinear {
         let speed = shape.design_speed.unwrap_or(1.0);
         let energy = effective_mass * speed * speed;
         let share = if realised { 0.5 * (1.0 + e * e) } else { 1.25 };
-        let depth = (share * energy / stiffness).powf(0.4);
+        let depth = libm::pow(share * energy / stiffness, 0.4);
         let loss = if realised {
             0.5 * energy * (1.0 - e * e)
         } else {
-            0.4 * stiffness * depth.powf(2.5) * (1.0 - e * e)
+            0.4 * stiffness * libm::pow(depth, 2.5) * (1.0 - e * e)
         };
         let secant = stiffness * depth.sqrt();
         let a = shape.yield_share;
@@ -87,7 +87,7 @@ impl Bilinear {
     #[must_use]
     pub(super) fn scale(&self, impact_speed: f64) -> f64 {
         if self.follows_speed {
-            impact_speed.max(SLOWEST_DESIGN).powf(0.4)
+            libm::pow(impact_speed.max(SLOWEST_DESIGN), 0.4)
         } else {
             1.0
         }

@@ -152,7 +152,7 @@ impl<'a> Walk<'a> {
                 continue;
             }
             let stretched = Point {
-                time: self.point.time.powf(0.25),
+                time: libm::pow(self.point.time, 0.25),
                 ..self.point
             };
             let mut steps = Vec::new();

@@ -287,7 +287,11 @@ impl ForceLaw {
             | Self::DampedLinear { stiffness, .. }
             | Self::Restitution { stiffness, .. } => linear(*stiffness),
             Self::Hertz { stiffness, .. } | Self::Jankowski { stiffness, .. } => {
-                stiffness * hertz_indentation(*stiffness, effective_mass, impact_speed).powf(1.5)
+                stiffness
+                    * libm::pow(
+                        hertz_indentation(*stiffness, effective_mass, impact_speed),
+                        1.5,
+                    )
             }
             Self::Bilinear(bilinear) => {
                 linear(bilinear.second_stiffness * bilinear.scale(impact_speed))

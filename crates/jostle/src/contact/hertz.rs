@@ -65,7 +65,10 @@ pub const HERTZ_DURATION: f64 = 2.943_275_184_324_704_7;
 /// Greatest indentation of an elastic Hertz collision, (5 m v²/(4k))^(2/5) \[m\].
 #[must_use]
 pub fn hertz_indentation(stiffness: f64, effective_mass: f64, impact_speed: f64) -> f64 {
-    (1.25 * effective_mass * impact_speed * impact_speed / stiffness).powf(0.4)
+    libm::pow(
+        1.25 * effective_mass * impact_speed * impact_speed / stiffness,
+        0.4,
+    )
 }
 
 /// The d with which free masses rebound with e, for any n, k and masses: ln[(1 + d)/(1 − e d)] = d (1 + e)
@@ -75,7 +78,7 @@ pub fn hertz_damping(e: f64) -> f64 {
     if e >= 1.0 {
         return 0.0;
     }
-    let mismatch = |d: f64| ((1.0 + d) / (1.0 - e * d)).ln() - d * (1.0 + e);
+    let mismatch = |d: f64| libm::log((1.0 + d) / (1.0 - e * d)) - d * (1.0 + e);
     // d = 0 is a root as well; the required one lies between it and the pole 1/e, and near zero the residual is
     // −d²(1 − e²)/2.
     bisect(1e-3 * (1.0 - e), (1.0 - 1e-15) / e, mismatch)
@@ -87,7 +90,7 @@ pub fn hertz_restitution(d: f64) -> f64 {
     if d <= 0.0 {
         return 1.0;
     }
-    let energy = d - d.ln_1p();
+    let energy = d - libm::log1p(d);
     // −w − ln(1 − w) = d − ln(1 + d) with w = e d.
-    bisect(0.0, 1.0 - 1e-16, |w| -w - (-w).ln_1p() - energy) / d
+    bisect(0.0, 1.0 - 1e-16, |w| -w - libm::log1p(-w) - energy) / d
 }

@@ -30,19 +30,19 @@ pub(super) fn respond(
 
 /// Damping ratio of the Kelvin law from e, −ln e/√(π² + ln² e); exact while tension is allowed.
 pub(super) fn kelvin_damping_ratio(e: f64) -> f64 {
-    let ln = e.ln();
+    let ln = libm::log(e);
     -ln / (PI * PI + ln * ln).sqrt()
 }
 
 pub(super) fn kelvin_restitution(ratio: f64) -> f64 {
-    (-PI * ratio / (1.0 - ratio * ratio).sqrt()).exp()
+    libm::exp(-PI * ratio / (1.0 - ratio * ratio).sqrt())
 }
 
 /// Rebound of the Kelvin law cut at F = 0: the force vanishes at ω_d t = π − atan2(2ζ√(1−ζ²), 1−2ζ²).
 pub(super) fn clipped_kelvin_restitution(ratio: f64) -> f64 {
     let z = ratio;
     let root = (1.0 - z * z).sqrt();
-    (-z / root * (PI - (2.0 * z * root).atan2(1.0 - 2.0 * z * z))).exp()
+    libm::exp(-z / root * (PI - libm::atan2(2.0 * z * root, 1.0 - 2.0 * z * z)))
 }
 
 pub(super) fn clipped_kelvin_damping_ratio(e: f64) -> f64 {

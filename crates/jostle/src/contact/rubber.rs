@@ -59,7 +59,7 @@ impl Rubber {
             let force = self.stiffness * self.limit + slope * (indentation - self.limit);
             (force, slope)
         } else {
-            let power = share.powf(self.exponent - 1.0);
+            let power = libm::pow(share, self.exponent - 1.0);
             (
                 self.stiffness * indentation * power,
                 self.exponent * self.stiffness * power,
@@ -90,8 +90,11 @@ impl Rubber {
     pub(super) fn elastic_duration(&self, effective_mass: f64, impact_speed: f64) -> f64 {
         let p = self.exponent + 1.0;
         let energy = 0.5 * effective_mass * impact_speed * impact_speed;
-        let depth =
-            self.limit * (p * energy / (self.stiffness * self.limit * self.limit)).powf(1.0 / p);
+        let depth = self.limit
+            * libm::pow(
+                p * energy / (self.stiffness * self.limit * self.limit),
+                1.0 / p,
+            );
         if depth > self.limit {
             let tangent = self.exponent * self.stiffness;
             return std::f64::consts::PI * (effective_mass / tangent).sqrt();
@@ -101,7 +104,7 @@ impl Rubber {
         let sum: f64 = (0..PARTS)
             .map(|i| {
                 let s = (f64::from(i) + 0.5) / f64::from(PARTS);
-                2.0 * s / (1.0 - (1.0 - s * s).powf(p)).sqrt()
+                2.0 * s / (1.0 - libm::pow(1.0 - s * s, p)).sqrt()
             })
             .sum();
         2.0 * depth / impact_speed * sum / f64::from(PARTS)
@@ -114,7 +117,7 @@ impl Rubber {
         let most = self.stiffness * self.limit;
         let stored = most * self.limit / p;
         if energy <= stored {
-            return most * (energy / stored).powf(self.exponent / p);
+            return most * libm::pow(energy / stored, self.exponent / p);
         }
         let slope = self.exponent * self.stiffness;
         (most * most + 2.0 * slope * (energy - stored)).sqrt()
@@ -125,7 +128,7 @@ impl Rubber {
             return 1.0;
         }
         let energy = 0.5 * self.damping * self.damping;
-        bisect(0.0, 1.0 - 1e-16, |w| -w - (-w).ln_1p() - energy) / self.damping
+        bisect(0.0, 1.0 - 1e-16, |w| -w - libm::log1p(-w) - energy) / self.damping
     }
 }
 
@@ -136,6 +139,6 @@ fn rubber_damping(e: f64) -> f64 {
     }
     // Besides d = 0 there is a root before the pole 1/e; near zero the residual is −d²(1 − e²)/2.
     bisect(1e-3 * (1.0 - e), (1.0 - 1e-15) / e, |d| {
-        -e * d - (-e * d).ln_1p() - 0.5 * d * d
+        -e * d - libm::log1p(-e * d) - 0.5 * d * d
     })
 }

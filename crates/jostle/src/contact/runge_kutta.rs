@@ -93,7 +93,7 @@ pub(super) fn integrate(
         let (end, error) = step(point, h, &f);
         let smallest = 1e-12 * point.time.abs().max(first_step);
         if error > TOLERANCE && h > smallest {
-            h *= (0.9 * (TOLERANCE / error).powf(0.2)).clamp(0.1, 0.9);
+            h *= (0.9 * libm::pow(TOLERANCE / error, 0.2)).clamp(0.1, 0.9);
             continue;
         }
         if reached(&end) {
@@ -103,7 +103,7 @@ pub(super) fn integrate(
         }
         visit(point, end);
         point = end;
-        h *= (0.9 * (TOLERANCE / error.max(1e-18)).powf(0.2)).clamp(0.5, 2.0);
+        h *= (0.9 * libm::pow(TOLERANCE / error.max(1e-18), 0.2)).clamp(0.5, 2.0);
         h = h.min(MOST_PER_STEP);
     }
     point

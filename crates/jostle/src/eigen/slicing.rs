@@ -143,7 +143,7 @@ impl Search<'_> {
             if low.0 == 0.0 {
                 high.0 * part * 0.1
             } else if high.0 > 2.0 * low.0 {
-                low.0 * (high.0 / low.0).powf(part)
+                low.0 * libm::pow(high.0 / low.0, part)
             } else {
                 low.0 + part * (high.0 - low.0)
             }
@@ -310,7 +310,7 @@ fn turn_equal_ones(found: &mut [Found], driven_mass: &[f64]) {
             let along =
                 |shape: &[f64]| -> f64 { shape.iter().zip(driven_mass).map(|(s, m)| s * m).sum() };
             let (p, q) = (along(a), along(b));
-            let r = p.hypot(q);
+            let r = libm::hypot(p, q);
             if r > 0.0 {
                 let (cosine, sine) = (p / r, q / r);
                 for (a, b) in a.iter_mut().zip(b) {

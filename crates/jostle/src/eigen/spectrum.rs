@@ -82,7 +82,12 @@ impl Spectrum {
             } else {
                 -1.0
             },
-            logarithm: self.factor.pivots().iter().map(|d| d.abs().ln()).sum(),
+            logarithm: self
+                .factor
+                .pivots()
+                .iter()
+                .map(|d| libm::log(d.abs()))
+                .sum(),
         }
     }
 }

@@ -21,7 +21,8 @@ pub(super) fn eigen(diagonal: &[f64], next: &[f64], columns: &mut [f64]) -> Vec<
                 break;
             }
             let slope = (d[low + 1] - d[low]) / (2.0 * e[low]);
-            let mut g = d[high] - d[low] + e[low] / (slope + slope.hypot(1.0).copysign(slope));
+            let mut g =
+                d[high] - d[low] + e[low] / (slope + libm::hypot(slope, 1.0).copysign(slope));
             let (mut sine, mut cosine, mut passed) = (1.0, 1.0, 0.0);
             let mut split = false;
             for i in (low..high).rev() {
@@ -64,7 +65,7 @@ fn hypotenuse(a: f64, b: f64) -> f64 {
     if (1e-280..1e300).contains(&square) {
         square.sqrt()
     } else {
-        a.hypot(b)
+        libm::hypot(a, b)
     }
 }
 

@@ -131,8 +131,8 @@ impl CircularForce {
         let k = self.stiffness;
         let [first, last] = [rates.map(|own| own.before), rates.map(|own| own.after)];
         let per_deformation = rates[0].per_deformation;
-        let held = before[0].hypot(before[1]);
-        let start = strength.at(first[0].hypot(first[1]))[0];
+        let held = libm::hypot(before[0], before[1]);
+        let start = strength.at(libm::hypot(first[0], first[1]))[0];
         let slipped = held >= (1.0 - SLIPS) * start && dot(before, first) > 0.0;
         let turns = dot(before, first) > 0.0 && dot(before, last) < 0.0;
         let mut divided = None;
@@ -143,9 +143,9 @@ impl CircularForce {
                 share * step * (first[axis] + 0.5 * share * (last[axis] - first[axis]))
             });
             let speed = [0, 1].map(|axis| first[axis] + share * (last[axis] - first[axis]));
-            let there = strength.at(speed[0].hypot(speed[1]))[0];
+            let there = strength.at(libm::hypot(speed[0], speed[1]))[0];
             let elastic = [0, 1].map(|axis| before[axis] + k * until[axis]);
-            let reached = elastic[0].hypot(elastic[1]);
+            let reached = libm::hypot(elastic[0], elastic[1]);
             let force = if slipped {
                 Some(self.turn(before, until, [start, there]))
             } else {
@@ -158,10 +158,10 @@ impl CircularForce {
         }
         let turned = divided.is_some();
         let (before, path, start, stiffness) = divided.unwrap_or((before, path, start, k));
-        let speed = last[0].hypot(last[1]);
+        let speed = libm::hypot(last[0], last[1]);
         let [end, by_speed] = strength.at(speed);
         let trial = [0, 1].map(|axis| before[axis] + k * path[axis]);
-        if trial[0].hypot(trial[1]) <= end {
+        if libm::hypot(trial[0], trial[1]) <= end {
             return PlanAnswer::new(trial, [stiffness, 0.0, stiffness]);
         }
         let goes_on = slipped && !turned && dot(before, path) >= 0.0;
@@ -172,7 +172,7 @@ impl CircularForce {
             own.force = self.turn(before, path, [start, end]);
             own
         } else {
-            let held = before[0].hypot(before[1]);
+            let held = libm::hypot(before[0], before[1]);
             if held > end && dot(before, path) < 0.0 {
                 // The circle came inwards faster than the force: it follows along the radius.
                 return self.pulled_in(trial, end);
@@ -195,7 +195,7 @@ impl CircularForce {
 
     /// A force returned along the radius to a circle inside of it.
     fn pulled_in(&self, trial: [f64; 2], strength: f64) -> PlanAnswer {
-        let length = trial[0].hypot(trial[1]);
+        let length = libm::hypot(trial[0], trial[1]);
         let radius = trial.map(|force| force / length);
         let own = [0.0, 0.0, self.stiffness * strength / length];
         PlanAnswer::new(
@@ -206,15 +206,15 @@ impl CircularForce {
 
     /// A force that slides along a straight path, from one strength to another.
     fn turn(&self, before: [f64; 2], path: [f64; 2], [start, end]: [f64; 2]) -> [f64; 2] {
-        let length = path[0].hypot(path[1]);
-        let held = before[0].hypot(before[1]);
+        let length = libm::hypot(path[0], path[1]);
+        let held = libm::hypot(before[0], before[1]);
         if length == 0.0 || held == 0.0 {
             return before.map(|force| force * end / held.max(f64::MIN_POSITIVE));
         }
         let along = path.map(|value| value / length);
         let forward = dot(before, along);
         let aside = along[0] * before[1] - along[1] * before[0];
-        let faded = (-self.stiffness * length / (0.5 * (start + end))).exp();
+        let faded = libm::exp(-self.stiffness * length / (0.5 * (start + end)));
         let half = aside / (held + forward).max(f64::MIN_POSITIVE) * faded;
         let scale = end / (1.0 + half * half);
         let (p, q) = ((1.0 - half * half) * scale, 2.0 * half * scale);
@@ -224,8 +224,8 @@ impl CircularForce {
     fn slide(&self, before: [f64; 2], path: [f64; 2], strength: f64) -> PlanAnswer {
         let k = self.stiffness;
         let trial = [0, 1].map(|axis| before[axis] + k * path[axis]);
-        let length = path[0].hypot(path[1]);
-        if trial[0].hypot(trial[1]) <= strength || length == 0.0 {
+        let length = libm::hypot(path[0], path[1]);
+        if libm::hypot(trial[0], trial[1]) <= strength || length == 0.0 {
             return PlanAnswer::new(trial, [k, 0.0, k]);
         }
         // Components of the force along the path and at its left.
@@ -237,7 +237,7 @@ impl CircularForce {
         let reached = ((strength - aside) * (strength + aside)).sqrt();
         // Elastic up to the circle, then along it.
         let elastic = (reached - forward).max(0.0);
-        let faded = (-(k * length - elastic).max(0.0) / strength).exp();
+        let faded = libm::exp(-(k * length - elastic).max(0.0) / strength);
         let half = aside / (strength + reached) * faded;
         let scale = 1.0 / (1.0 + half * half);
         let (cos, sin) = ((1.0 - half * half) * scale, 2.0 * half * scale);
@@ -266,7 +266,7 @@ impl CircularForce {
             limit: at,
             ..
         } = *self;
-        let distance = to[0].hypot(to[1]);
+        let distance = libm::hypot(to[0], to[1]);
         let into = distance - at;
         if into <= 0.0 {
             return PlanAnswer::new([0.0; 2], [0.0; 3]);

@@ -32,7 +32,7 @@ impl Strength {
     /// At a speed, and its derivative by the speed \[N, N·s/m\].
     #[inline]
     pub(super) fn at(&self, speed: f64) -> [f64; 2] {
-        let missing = (self.fast - self.slow) * (-self.rate * speed).exp();
+        let missing = (self.fast - self.slow) * libm::exp(-self.rate * speed);
         [self.fast - missing, self.rate * missing]
     }
 

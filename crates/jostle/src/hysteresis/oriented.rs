@@ -219,7 +219,7 @@ pub(super) fn unloading_stiffness(
                 return least;
             }
             let at_yield = slope_to_opposite_cracking(backbone, side, yielding);
-            (at_yield * (yielding / peak).powf(exponent)).max(least)
+            (at_yield * libm::pow(yielding / peak, exponent)).max(least)
         }
     }
 }

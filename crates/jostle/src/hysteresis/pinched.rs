@@ -333,7 +333,7 @@ fn slope_from(backbone: &Backbone, pinching: &Pinching, side: Side, peak: f64) -
         return backbone.initial();
     }
     let ratio = curve.cracking.deformation / peak;
-    let falling = backbone.initial() * ratio.powf(pinching.unloading_exponent);
+    let falling = backbone.initial() * libm::pow(ratio, pinching.unloading_exponent);
     falling.max(curve.force_at(peak) / peak)
 }
 

@@ -61,7 +61,7 @@ impl LinkElement {
         match self.law {
             LinkLaw::Linear => self.force(shortening, rate),
             LinkLaw::Viscous { exponent } if self.stiffness == 0.0 => {
-                self.damping * rate.abs().powf(exponent).copysign(rate)
+                self.damping * libm::pow(rate.abs(), exponent).copysign(rate)
             }
             LinkLaw::Viscous { .. }
             | LinkLaw::Maxwell

@@ -93,7 +93,7 @@ fn cross(a: PlanPoint, b: PlanPoint) -> f64 {
 }
 
 fn unit(a: PlanPoint) -> PlanPoint {
-    let length = a[0].hypot(a[1]);
+    let length = libm::hypot(a[0], a[1]);
     a.map(|value| value / length)
 }
 
@@ -136,7 +136,7 @@ fn face(
     [outward, inward]: [PlanPoint; 2],
     contact: &PlanContact,
 ) -> Option<PlanFace> {
-    if -dot(outward, inward) <= FACING.cos() {
+    if -dot(outward, inward) <= libm::cos(FACING) {
         return None;
     }
     let normal = unit(minus(outward, inward));
@@ -199,14 +199,14 @@ fn corners(
         for (edge, ([a, b], outward)) in edges(other).enumerate() {
             let towards = outward.map(|value| -value);
             // The corner points at the edge: its direction lies between the normals of both edges of the corner.
-            let inside = FACING.sin();
+            let inside = libm::sin(FACING);
             if cross(before, towards) <= inside
                 || cross(towards, *after) <= inside
                 || dot(towards, before) + dot(towards, *after) <= 0.0
             {
                 continue;
             }
-            let length = minus(b, a)[0].hypot(minus(b, a)[1]);
+            let length = libm::hypot(minus(b, a)[0], minus(b, a)[1]);
             let along = unit(minus(b, a));
             let place = dot(minus(corner, a), along);
             let gap = dot(minus(corner, a), outward);
@@ -259,7 +259,7 @@ fn passing_corners(
     for own in Corner::all(first) {
         for other in Corner::all(second) {
             let apart = minus(other.at, own.at);
-            let distance = apart[0].hypot(apart[1]);
+            let distance = libm::hypot(apart[0], apart[1]);
             if !(0.0..=contact.reach).contains(&distance) || distance == 0.0 {
                 continue;
             }
@@ -270,7 +270,7 @@ fn passing_corners(
             let Some(upper) = nearer(own.outward[1], inward[1], apart, -1.0) else {
                 continue;
             };
-            if cross(lower, upper) <= FACING.sin() {
+            if cross(lower, upper) <= libm::sin(FACING) {
                 continue;
             }
             let normals = [lower, upper];
@@ -326,7 +326,7 @@ impl Corner {
 /// each other. `None` where the direction lies beyond one of them, so that another pair of corners, or a corner and an edge,
 /// are nearer. `sign` is 1 for normals clockwise of the direction, −1 for the others.
 fn nearer(a: PlanPoint, b: PlanPoint, apart: PlanPoint, sign: f64) -> Option<PlanPoint> {
-    let facing = dot(a, b) > FACING.cos();
+    let facing = dot(a, b) > libm::cos(FACING);
     // Edges that overlap by less than the least of a face still leave the corners to each other.
     let beyond = if facing { LEAST_OVERLAP } else { 0.0 };
     let [side_a, side_b] = [a, b].map(|normal| sign * cross(normal, apart));
@@ -358,7 +358,7 @@ pub(crate) fn lobatto(points: usize) -> Vec<(f64, f64)> {
     let mut rule: Vec<(f64, f64)> = (0..points)
         .map(|index| {
             // Chebyshev's points are close to the roots.
-            let mut x = -(PI * index as f64 / order).cos();
+            let mut x = -libm::cos(PI * index as f64 / order);
             if index > 0 && index < n {
                 for _ in 0..50 {
                     let (now, before) = legendre(x);

@@ -46,7 +46,7 @@ pub(super) fn first_period(known: &Known<'_>, tally: &mut Tally<'_>) {
 
 /// Shortest and longest period by the formulas for a height \[s\].
 fn range(height: f64) -> (f64, f64) {
-    let periods = FORMULAS.map(|(coefficient, exponent)| coefficient * height.powf(exponent));
+    let periods = FORMULAS.map(|(coefficient, exponent)| coefficient * libm::pow(height, exponent));
     let least = periods.into_iter().fold(f64::INFINITY, f64::min);
     (least, periods.into_iter().fold(0.0, f64::max))
 }

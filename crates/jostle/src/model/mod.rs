@@ -599,11 +599,16 @@ pub struct Analysis {
     pub members: MemberRequest,
     /// Whether histories hold strokes and speeds of links; `[output] links` of a model file.
     pub link_motion: bool,
+    /// Least time between rows of histories, ≥ 0; `[output] interval` of a model file \[s\].
+    pub row_interval: f64,
 }
 
 /// Default of [`Analysis::collapse_drift`], by judgement: members keep their strength here, and equilibrium is that of small drifts;
 /// past 10 % neither can be relied on \[–\].
 pub const COLLAPSE_DRIFT: f64 = 0.1;
+
+/// Default time between rows of histories \[s\].
+pub(crate) const ROW_INTERVAL: f64 = 0.005;
 
 /// Default bound on the work of a run: some hours of computing \[–\].
 pub const MOST_WORK: f64 = 5e11;
@@ -621,6 +626,7 @@ impl Default for Analysis {
             most_work: MOST_WORK,
             members: MemberRequest::default(),
             link_motion: false,
+            row_interval: ROW_INTERVAL,
         }
     }
 }

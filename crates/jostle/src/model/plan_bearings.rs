@@ -69,15 +69,15 @@ fn principal_arms(plan: &[PlanPoint], area: &PlanArea) -> [PlanPoint; 2] {
     let [across, along] = area.second_moments.map(|moment| moment / area.area);
     let both = product / area.area;
     let (mean, half) = (0.5 * (along + across), 0.5 * (along - across));
-    let apart = half.hypot(both);
+    let apart = libm::hypot(half, both);
     let direction = if apart > ALIKE * mean {
-        let angle = 0.5 * both.atan2(half);
-        [angle.cos(), angle.sin()]
+        let angle = 0.5 * libm::atan2(both, half);
+        [libm::cos(angle), libm::sin(angle)]
     } else {
         // A square, or another plan that is the same about every axis: along its first edge.
         let [a, b] = [own[0], own[1 % own.len()]];
         let edge = [b[0] - a[0], b[1] - a[1]];
-        let length = edge[0].hypot(edge[1]);
+        let length = libm::hypot(edge[0], edge[1]);
         edge.map(|value| value / length)
     };
     let [first, second] = [mean + apart, mean - apart].map(|square| square.max(0.0).sqrt());

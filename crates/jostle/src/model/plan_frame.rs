@@ -185,7 +185,7 @@ impl Tiers {
         let [a, b] = column
             .lines
             .map(|[frame, line]| self.frames[frame].line_at(line));
-        (a[0] - b[0]).hypot(a[1] - b[1]) <= SAME_POINT
+        libm::hypot(a[0] - b[0], a[1] - b[1]) <= SAME_POINT
     }
 
     /// Floors with the masses of the frames. Their centres are those that leave no coupling between the masses.

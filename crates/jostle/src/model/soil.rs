@@ -123,13 +123,13 @@ impl HalfSpace {
         let omega = TAU / period;
         let a0 = omega * b / self.shear_wave_velocity;
         let a2 = a0 * a0;
-        let embedded_sway = 1.0 + (0.33 + 1.34 / (1.0 + q)) * depth.powf(0.8);
+        let embedded_sway = 1.0 + (0.33 + 1.34 / (1.0 + q)) * libm::pow(depth, 0.8);
         let (sway, radiated) = if along_longer {
             (2.4, q + depth * (psi + q))
         } else {
             (0.8 * q + 1.6, q + depth * (1.0 + psi * q))
         };
-        let sway_stiffness = g * b / (2.0 - nu) * (6.8 * q.powf(0.65) + sway) * embedded_sway;
+        let sway_stiffness = g * b / (2.0 - nu) * (6.8 * libm::pow(q, 0.65) + sway) * embedded_sway;
         let impedance = self.density * self.shear_wave_velocity * b * b;
         let sway_radiation = 4.0 * impedance * radiated;
         let rocking_scale = g * b * b * b / (1.0 - nu);
@@ -143,7 +143,7 @@ impl HalfSpace {
                 + psi * cube;
             [
                 1.0 + depth + 1.6 * depth * depth / (0.35 + q.powi(4)),
-                3.73 * q.powf(2.4) + 0.27,
+                3.73 * libm::pow(q, 2.4) + 0.27,
                 0.55 * a2 / (0.6 + 1.4 / cube + a2),
                 moving * a2 / (1.8 / (1.0 + 1.75 * (q - 1.0)) + a2) + (psi + q) * depth.powi(3),
             ]

@@ -42,7 +42,7 @@ impl Wall {
     pub fn plan(&self) -> Option<Vec<PlanPoint>> {
         let [from, to] = self.line?;
         let along = [to[0] - from[0], to[1] - from[1]];
-        let length = along[0].hypot(along[1]);
+        let length = libm::hypot(along[0], along[1]);
         if length.is_nan() || length <= 0.0 {
             return None;
         }

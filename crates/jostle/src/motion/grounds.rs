@@ -65,7 +65,7 @@ impl GroundMotion {
         let across = bearing.and_then(|bearing| bearing.across.as_ref());
         GroundPath {
             arrival: own.map_or(0.0, |own| own.arrival),
-            turned: bearing.map_or((0.0, 1.0), |Bearing { angle, .. }| angle.sin_cos()),
+            turned: bearing.map_or((0.0, 1.0), |Bearing { angle, .. }| libm::sincos(*angle)),
             along: Integrals::new(motion),
             across: across.map(Integrals::new),
             vertical: own.and_then(|own| own.vertical.as_ref()),
@@ -309,7 +309,7 @@ impl<'a> Integrals<'a> {
             }
             Wave::Sine { amplitude, period } => {
                 let omega = 2.0 * std::f64::consts::PI / period;
-                let (sin, cos) = (omega * t).sin_cos();
+                let (sin, cos) = libm::sincos(omega * t);
                 let speed = amplitude / omega;
                 [speed * (1.0 - cos), speed * (t - sin / omega)]
             }
@@ -320,7 +320,7 @@ impl<'a> Integrals<'a> {
             } => {
                 let bell = |t: f64| {
                     let tau = std::f64::consts::PI * (t - centre) / period;
-                    (-tau * tau).exp()
+                    libm::exp(-tau * tau)
                 };
                 let (now, first) = (bell(t), bell(0.0));
                 let width = 0.5 * (period / std::f64::consts::PI).powi(2);

@@ -82,7 +82,7 @@ fn isolation_in_plan(
     let u = &outcome.state.displacement;
     let residual = mat.bearings.iter().map(|at| {
         let [x, y] = [[1.0, 0.0], [0.0, 1.0]].map(|axis| mat.row_at(*at, axis).value(u));
-        x.hypot(y)
+        libm::hypot(x, y)
     });
     Some(IsolationInPlan {
         bearings: mat.bearings.len(),

@@ -85,7 +85,7 @@ pub fn gb50011_joint(height: f64, intensity: u32, system: JointSystem) -> Option
 /// EN 1998-1 §4.4.2.7 when the displacements are the design ones \[m\].
 #[must_use]
 pub fn srss(left: f64, right: f64) -> f64 {
-    left.hypot(right)
+    libm::hypot(left, right)
 }
 
 /// Sum of two peak displacements, the widest of the usual rules \[m\].

@@ -1,25 +1,101 @@
-//! Expected work of a run, and its bound.
+//! Expected work of a run, its bound, and the size of its histories.
 
-use super::Plan;
+use super::recorder::columns;
+use super::{Plan, Settings};
+use crate::history::MemberHistory;
+use crate::interface::{InterfaceGraph, LinkElement};
 use crate::model::{Analysis, ModelFault};
 use crate::motion::GroundMotion;
 use crate::structure::StickModel;
-use crate::system::{BuildingSystem, System};
+use crate::system::{BuildingSystem, RunGrounds, System};
 
 /// Work of a step that does not depend on the displacements of a building, in displacements.
 const OF_A_STEP: f64 = 20.0;
 
+/// Work of a link in a step beside the equations that couple it, in displacements; more if it is not linear.
+const OF_A_LINK: f64 = 5.0;
+const OF_A_NONLINEAR_LINK: f64 = 300.0;
+
+/// Iterations of Newton's method on links that are not linear.
+const ITERATIONS: f64 = 3.0;
+
+/// Multiply-adds of coupled links that take as long as a displacement.
+const OPERATIONS: f64 = 13.0;
+
 /// Computing time of one displacement in one step, for a rough estimate \[s\].
 const TIME_OF_ONE: f64 = 2e-8;
 
+/// Size of the histories of a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HistorySize {
+    /// Expected rows, without those of closed contacts.
+    pub rows: f64,
+    /// Memory of a row \[bytes\].
+    pub row_bytes: f64,
+}
+
+impl HistorySize {
+    /// Expected memory \[bytes\].
+    #[must_use]
+    pub fn bytes(&self) -> f64 {
+        self.rows * self.row_bytes
+    }
+}
+
 impl Plan {
-    /// Expected work of a run: regular steps times displacements, plus a constant per step and building. Steps in
-    /// contact are not counted \[–\].
+    /// Expected work of a run: regular steps times displacements, plus a constant per step and building, and the equations
+    /// of links and dampers. Steps in contact are not counted \[–\].
     #[must_use]
     pub fn expected_work(&self, system: &System, duration: f64) -> f64 {
-        let of_a_step = system.len() as f64 + OF_A_STEP * system.buildings.len() as f64;
+        let of_a_step =
+            system.len() as f64 + OF_A_STEP * system.buildings.len() as f64 + work_of_links(system);
         (duration / self.step).ceil() * of_a_step
     }
+
+    /// Expected size of the histories of a run with these settings; `None` if it records none.
+    #[must_use]
+    pub fn history_size(
+        &self,
+        system: &System,
+        motion: &GroundMotion,
+        settings: &Settings,
+    ) -> Option<HistorySize> {
+        let interval = settings.record_interval?;
+        let steps = (motion.duration / self.step).ceil() * f64::from(settings.rows_per_step(self));
+        let rows = steps.min(motion.duration / interval) + 1.0;
+        let grounds = RunGrounds::new(system, motion);
+        let springs = system.buildings.iter().map(|b| b.equations.springs.len());
+        // Of springs moment and rotation in single precision.
+        let numbers = columns(system, &grounds).len() + springs.sum::<usize>();
+        let members = MemberHistory::new(system).map_or(0, |members| members.row_bytes());
+        Some(HistorySize {
+            rows,
+            row_bytes: (8 * numbers + members) as f64,
+        })
+    }
+}
+
+/// Work of all links in a step, in displacements: they are coupled where they act on the same building.
+fn work_of_links(system: &System) -> f64 {
+    if system.links.is_empty() {
+        return 0.0;
+    }
+    let ports = system.links.iter().map(|link| &link.ports);
+    let graph = InterfaceGraph::new(ports, system.buildings.len(), |own| own);
+    let places: Vec<usize> = (0..system.links.len()).collect();
+    let (mut stored, mut factor) = (0.0, 0.0);
+    for (row, first) in graph.first_coupled(&places).enumerate() {
+        let width = (row + 1 - first) as f64;
+        stored += width;
+        factor += 0.5 * width * width;
+    }
+    let nonlinear = system.links.iter().filter(|link| !link.is_linear()).count();
+    let linear = (system.links.len() - nonlinear) as f64;
+    let operations = match nonlinear {
+        0 => 2.0 * stored,
+        _ => ITERATIONS * (factor + 4.0 * stored),
+    };
+    operations / OPERATIONS + OF_A_LINK * linear + OF_A_NONLINEAR_LINK * nonlinear as f64
 }
 
 /// The fault of a run with too much work: more work than [`Analysis::most_work`].
@@ -39,7 +115,17 @@ pub(super) fn too_long(
         .enumerate()
         .filter_map(|(index, building)| Some((index, building, relevant_period(building)?)))
         .min_by(|a, b| a.2.total_cmp(&b.2));
+    let of_links = work_of_links(system);
+    let displacements = system.len() as f64 + OF_A_STEP * system.buildings.len() as f64;
     let (path, cause) = match (analysis.step, shortest, motion.period()) {
+        _ if of_links > displacements => (
+            coupled_at(system),
+            format!(
+                "{} links and dampers take {:.0} % of it; dampers side by side on the same floors act as one of their sum",
+                system.links.len(),
+                100.0 * of_links / (of_links + displacements)
+            ),
+        ),
         (Some(_), ..) => (
             "analysis.step".to_owned(),
             "the step is fixed; use a longer one, or \"auto\"".to_owned(),
@@ -68,6 +154,20 @@ pub(super) fn too_long(
             work * TIME_OF_ONE / 3600.0
         ),
     })
+}
+
+/// Where most links of a system are described: in the model, or as dampers of a building.
+fn coupled_at(system: &System) -> String {
+    let inside = |link: &&LinkElement| link.inside;
+    let dampers = system.links.iter().filter(inside).count();
+    let first = system.links.iter().find(inside);
+    let first = first.and_then(|link| link.ports.buildings().into_iter().flatten().next());
+    match first {
+        Some(building) if 2 * dampers > system.links.len() => {
+            format!("building[{building}].damper")
+        }
+        _ => "link".to_owned(),
+    }
 }
 
 /// The shortest of the periods that determine automatic steps: the third lateral one, or the last of fewer \[s\].

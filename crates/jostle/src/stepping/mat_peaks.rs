@@ -105,7 +105,7 @@ impl MatRecorder {
                 peaks.base_torque = peaks.base_torque.max(torque.abs());
             }
             if let Some([x, y]) = building.ring_force(state) {
-                peaks.ring_force = peaks.ring_force.max(x.hypot(y));
+                peaks.ring_force = peaks.ring_force.max(libm::hypot(x, y));
             }
         }
     }

@@ -39,6 +39,7 @@ mod simulate;
 mod step_friction;
 mod step_link;
 
+pub use expected_work::HistorySize;
 pub use outcome::{Accuracy, Outcome, PlanPeaks, Pounding, Progress, RunEnd, Settings, StepError};
 pub use plan::{ContactSteps, Plan};
 pub use sensitivity::find_sensitivity;

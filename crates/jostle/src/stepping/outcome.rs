@@ -13,6 +13,7 @@ use crate::history::{
     WorstInstant,
 };
 use crate::linear::NotPositive;
+use crate::model::ROW_INTERVAL;
 use crate::state::State;
 use crate::system::{BuildingSystem, System};
 
@@ -38,7 +39,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             pounding: Pounding::Included,
-            record_interval: Some(0.005),
+            record_interval: Some(ROW_INTERVAL),
         }
     }
 }

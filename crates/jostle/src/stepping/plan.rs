@@ -167,7 +167,7 @@ impl Plan {
             }
             None => ContactSteps::PerImpact {
                 steps: if follows_parabolas(solver) {
-                    MODAL_STEPS_PER_IMPACT / (analysis.tolerance / 1e-3).powf(0.25)
+                    MODAL_STEPS_PER_IMPACT / libm::pow(analysis.tolerance / 1e-3, 0.25)
                 } else {
                     STEPS_PER_IMPACT / refinement
                 },
@@ -503,7 +503,7 @@ fn steps_of_components(motion: &GroundMotion) -> Option<ModelFault> {
 
 /// Whether modal stepping can afford the steps that links need: stiff ones are for direct steps, which need not resolve them.
 fn resolves_links(system: &System, tolerance: f64) -> bool {
-    modal::longest_step_of_links(system) * (tolerance / 1e-3).powf(0.25) > SHORTEST_FOR_LINKS
+    modal::longest_step_of_links(system) * libm::pow(tolerance / 1e-3, 0.25) > SHORTEST_FOR_LINKS
 }
 
 /// The unsupported feature of the solver.

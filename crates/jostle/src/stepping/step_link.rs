@@ -160,13 +160,17 @@ impl StepLink {
         }
         // Parts of the deformation as powers of the unknown: `one` x + `other` x^power.
         let (one, other, power) = if exponent < 1.0 {
-            (2.0 / k, h * c.powf(-exponent.recip()), exponent.recip())
+            (
+                2.0 / k,
+                h * libm::pow(c, -exponent.recip()),
+                exponent.recip(),
+            )
         } else {
             (h, 2.0 * c / k, exponent)
         };
-        let mut x = (size / one).min((size / other).powf(power.recip()));
+        let mut x = (size / one).min(libm::pow(size / other, power.recip()));
         for _ in 0..ITERATIONS {
-            let bent = other * x.powf(power);
+            let bent = other * libm::pow(x, power);
             let excess = one * x + bent - size;
             let next = x - excess / (one + power * bent / x);
             // From above, as far as rounding allows.
@@ -175,11 +179,11 @@ impl StepLink {
             }
             x = next;
         }
-        let bent = other * power * x.powf(power - 1.0);
+        let bent = other * power * libm::pow(x, power - 1.0);
         let (mean, slope) = if exponent < 1.0 {
             (x, 1.0 / (one + bent))
         } else {
-            (c * x.powf(exponent), 0.5 * k * bent / (one + bent))
+            (c * libm::pow(x, exponent), 0.5 * k * bent / (one + bent))
         };
         [2.0 * mean.copysign(wanted) - before, 2.0 * slope]
     }
@@ -204,6 +208,6 @@ fn power(x: f64, power: f64, unit: f64) -> [f64; 2] {
         let slope = if power == 1.0 { 1.0 } else { 0.0 };
         return [0.0, slope / unit];
     }
-    let value = size.powf(power);
+    let value = libm::pow(size, power);
     [value.copysign(x), power * value / size / unit]
 }

@@ -290,7 +290,7 @@ impl StickModel {
             .iter()
             .map(|share| self.add_node(a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)))
             .collect();
-        let half_mass = 0.5 * line_mass * (b.x - a.x).hypot(b.y - a.y);
+        let half_mass = 0.5 * line_mass * libm::hypot(b.x - a.x, b.y - a.y);
         let segments = cuts.len() + 1;
         let starts = std::iter::once(0.0).chain(cuts.iter().copied());
         let half_masses: Vec<f64> = if *cuts == equal_cuts(segments) {

@@ -39,7 +39,7 @@ pub(crate) fn end_stiffnesses(stick_model: &StickModel) -> Vec<Option<f64>> {
                 let member = &stick_model.members[from];
                 let other = member.ends[usize::from(member.ends[0] == node)];
                 let [a, b] = [node, other].map(|n| stick_model.nodes[n]);
-                length += (b.x - a.x).hypot(b.y - a.y);
+                length += libm::hypot(b.x - a.x, b.y - a.y);
                 node = other;
                 let next = at_node[node].iter().find(|member| **member != from);
                 match next {

@@ -77,7 +77,7 @@ pub(super) fn influence(soil: &HalfSpace, rectangles: [Rectangle; 2], distance: 
 
 /// Patches of a rectangle: their edges are spaced like the projections of equal arcs.
 fn patches(rectangle: &Rectangle, middle: f64, count: usize) -> Vec<Patch> {
-    let edge = |index: usize| -0.5 * (PI * index as f64 / count as f64).cos();
+    let edge = |index: usize| -0.5 * libm::cos(PI * index as f64 / count as f64);
     let centre = |index: usize| 0.5 * (edge(index) + edge(index + 1));
     let half = |index: usize| 0.5 * (edge(index + 1) - edge(index));
     let Rectangle { length, width } = *rectangle;
@@ -108,7 +108,7 @@ fn part(x: f64, y: f64) -> f64 {
     if x == 0.0 {
         0.0
     } else {
-        x * (y / x.abs()).asinh()
+        x * libm::asinh(y / x.abs())
     }
 }
 

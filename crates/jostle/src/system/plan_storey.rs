@@ -71,7 +71,7 @@ impl PlanStorey {
 
     /// Greatest distance of a corner from the centre of mass above \[m\].
     pub(crate) fn reach(&self) -> f64 {
-        let distances = self.corners.iter().map(|[x, y]| x.hypot(*y));
+        let distances = self.corners.iter().map(|[x, y]| libm::hypot(*x, *y));
         distances.fold(0.0, f64::max)
     }
 }

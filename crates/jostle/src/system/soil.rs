@@ -441,11 +441,17 @@ fn pseudo_inverse(l: Square) -> Square {
 fn singular(a: Square) -> [(f64, [f64; 2], [f64; 2]); 2] {
     // Rotations by half the sum and half the difference of these angles make it diagonal (J. Demmel, 1997, Applied Numerical
     // Linear Algebra, section 5.4).
-    let sum = (a[1][0] - a[0][1]).atan2(a[0][0] + a[1][1]);
-    let difference = (a[1][0] + a[0][1]).atan2(a[0][0] - a[1][1]);
+    let sum = libm::atan2(a[1][0] - a[0][1], a[0][0] + a[1][1]);
+    let difference = libm::atan2(a[1][0] + a[0][1], a[0][0] - a[1][1]);
     let (left, right) = (0.5 * (sum + difference), 0.5 * (difference - sum));
-    let u = [[left.cos(), left.sin()], [-left.sin(), left.cos()]];
-    let v = [[right.cos(), right.sin()], [-right.sin(), right.cos()]];
+    let u = [
+        [libm::cos(left), libm::sin(left)],
+        [-libm::sin(left), libm::cos(left)],
+    ];
+    let v = [
+        [libm::cos(right), libm::sin(right)],
+        [-libm::sin(right), libm::cos(right)],
+    ];
     [0, 1].map(|k| {
         let image = apply(a, v[k]);
         let size = image[0] * u[k][0] + image[1] * u[k][1];

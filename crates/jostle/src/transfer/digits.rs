@@ -62,7 +62,7 @@ pub fn digits_left(building: &AssembledBuilding, matrix: &StepMatrix) -> f64 {
             let above = layout.mass(node, matrix.mass).apply(below);
             let forces = above.forces().into_iter().map(f64::abs);
             let grown = forces.fold(f64::MIN_POSITIVE, f64::max);
-            decades += grown.log10();
+            decades += libm::log10(grown);
             state = StateVector::from_array(above.to_array().map(|value| value / grown));
         }
         decades

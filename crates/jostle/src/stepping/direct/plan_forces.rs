@@ -17,8 +17,8 @@ pub(super) fn follow(
     let limit = springs[0].hysteresis.backbone().yield_force();
     answer(springs, rows, memories);
     let apart = |row: &SpringTrial| row.answer - row.on_line;
-    let apart = apart(&rows[0]).hypot(apart(&rows[1]));
-    apart <= FIT * limit || apart <= FIT * rows[0].answer.hypot(rows[1].answer)
+    let apart = libm::hypot(apart(&rows[0]), apart(&rows[1]));
+    apart <= FIT * limit || apart <= FIT * libm::hypot(rows[0].answer, rows[1].answer)
 }
 
 /// Force and tangents at the displacement reached.

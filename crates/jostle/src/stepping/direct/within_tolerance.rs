@@ -66,14 +66,14 @@ impl Change {
 
     /// Error of the finer run, if errors fall with this power of the step.
     fn error(self, order: f64) -> f64 {
-        self.change / (self.ratio.powf(order) - 1.0)
+        self.change / (libm::pow(self.ratio, order) - 1.0)
     }
 
     /// Order of convergence, from this change and the next one of finer runs.
     fn order(self, next: Self) -> f64 {
         let errors_fit = |order: f64| {
             let from_this = self.error(order);
-            let from_next = next.error(order) * next.ratio.powf(order);
+            let from_next = next.error(order) * libm::pow(next.ratio, order);
             from_this <= from_next
         };
         let [mut least, mut greatest] = ORDERS;
@@ -176,7 +176,7 @@ pub(in crate::stepping) fn within_tolerance(
         }
         last = first;
         let [least, most] = REFINEMENT;
-        let wanted = (residual / (AIM * tolerance)).powf(order.recip());
+        let wanted = libm::pow(residual / (AIM * tolerance), order.recip());
         let finer = fine.refined(wanted.clamp(least, most), motion);
         // The product of transfer matrices loses its digits at short steps.
         if finer.check_digits(system).is_err() {
@@ -217,7 +217,7 @@ fn with_error(
         change.error(order)
     } else {
         let change = Change::between(system, [&outcome, &other], [plan, &other_plan]);
-        change.error(order) * change.ratio.powf(order)
+        change.error(order) * libm::pow(change.ratio, order)
     };
     let (tolerance, residual) = (plan.tolerance(), MARGIN * residual);
     outcome.accuracy = Some(Accuracy {

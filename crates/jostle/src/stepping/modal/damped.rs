@@ -157,7 +157,7 @@ fn gauss(points: usize) -> Vec<(f64, f64)> {
     };
     (0..points)
         .map(|index| {
-            let mut x = (std::f64::consts::PI * (index as f64 + 0.75) / (n + 0.5)).cos();
+            let mut x = libm::cos(std::f64::consts::PI * (index as f64 + 0.75) / (n + 0.5));
             for _ in 0..50 {
                 let (value, slope) = legendre(x);
                 let change = value / slope;

@@ -219,7 +219,7 @@ pub(super) struct Estimate {
 impl Estimate {
     /// Both together; they are independent.
     pub(super) fn both(&self) -> f64 {
-        self.shapes.hypot(self.between)
+        libm::hypot(self.shapes, self.between)
     }
 
     pub(super) fn new(

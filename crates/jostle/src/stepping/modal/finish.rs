@@ -39,7 +39,7 @@ impl ModalStepper<'_> {
         let struck = !run.impacts.is_empty();
         let (reduced, system) = (self.reduced, run.system);
         let mut estimate = Estimate::new(reduced, system, &self.reached, &self.peaks, struck);
-        estimate.between = estimate.between.hypot(self.links.error());
+        estimate.between = libm::hypot(estimate.between, self.links.error());
         let lacking = if estimate.both() > tolerance && estimate.shapes > LEAST_SHARE * tolerance {
             self.reached
                 .lacking(reduced, system, &self.peaks, tolerance)

@@ -58,7 +58,7 @@ impl Response {
         let inside = stiffness - half * half;
         // Near critical damping oscillation and decay cannot be distinguished.
         if inside.abs() <= 1e-12 * stiffness {
-            let decay = (-half * step).exp();
+            let decay = libm::exp(-half * step);
             return [
                 [decay * (1.0 + half * step), decay * step],
                 [-decay * stiffness * step, decay * (1.0 - half * step)],
@@ -66,8 +66,8 @@ impl Response {
         }
         if inside > 0.0 {
             let own = inside.sqrt();
-            let (sin, cos) = (own * step).sin_cos();
-            let decay = (-half * step).exp();
+            let (sin, cos) = libm::sincos(own * step);
+            let decay = libm::exp(-half * step);
             let s = sin / own;
             return [
                 [decay * (cos + half * s), decay * s],
@@ -76,7 +76,7 @@ impl Response {
         }
         let fast = -half - (-inside).sqrt();
         let slow = stiffness / fast;
-        let (fast_decay, slow_decay) = ((fast * step).exp(), (slow * step).exp());
+        let (fast_decay, slow_decay) = (libm::exp(fast * step), libm::exp(slow * step));
         let apart = slow - fast;
         let s = (slow_decay - fast_decay) / apart;
         [

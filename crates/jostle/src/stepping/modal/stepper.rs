@@ -90,7 +90,7 @@ pub(super) struct Refinement {
 
 /// Into how many parts free steps are divided so that the forces of links follow a cubic over each.
 fn division_for_links(system: &System, plan: &Plan) -> u32 {
-    let longest = longest_step(system) * (plan.tolerance() / 1e-3).powf(0.25);
+    let longest = longest_step(system) * libm::pow(plan.tolerance() / 1e-3, 0.25);
     let parts = (plan.step / longest - 1e-9).ceil().clamp(1.0, MOST_PARTS);
     (parts as u32).next_power_of_two()
 }

@@ -17,8 +17,9 @@ use super::clock::{Clock, NextStep};
 use super::outcome::{Observer, Progress, RunEnd, StepError};
 use crate::state::ContactPhase;
 
-/// Steps between calls of the observer.
+/// Most steps between calls of the observer, and most expected work.
 const OBSERVED_EVERY: u64 = 256;
+const OBSERVED_WORK: f64 = 1e6;
 /// How much of a step is tried before it is given up.
 const SHORTEST_TRIED: f64 = 1e-6;
 /// Events without progress before a run gives up.
@@ -38,9 +39,10 @@ impl<S: Stepper> Runner<'_, S> {
         let duration = self.run.motion.duration;
         self.stepper.record_start(&mut self.run);
         let mut next_call = 0;
+        let every = self.observed_every();
         while duration - self.run.time > 1e-9 * self.run.plan.step {
             if self.run.work.steps >= next_call {
-                next_call = self.run.work.steps + OBSERVED_EVERY;
+                next_call = self.run.work.steps + every;
                 let time = self.run.time;
                 if observer(Progress { time, duration }).is_break() {
                     return RunEnd::Stopped;
@@ -54,6 +56,13 @@ impl<S: Stepper> Runner<'_, S> {
             }
         }
         RunEnd::Completed
+    }
+
+    /// Steps between calls of the observer: fewer if steps take long.
+    fn observed_every(&self) -> u64 {
+        let (plan, system) = (&self.run.plan, self.run.system);
+        let of_a_step = plan.expected_work(system, plan.step);
+        ((OBSERVED_WORK / of_a_step) as u64).clamp(1, OBSERVED_EVERY)
     }
 
     /// Lists the impacts that the end of the run cuts off.

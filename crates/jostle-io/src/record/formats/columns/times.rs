@@ -68,7 +68,7 @@ impl Times {
             self.first = value;
         }
         self.values.push(value);
-        self.digits.push(digit.log10().round() as i16);
+        self.digits.push(libm::log10(digit).round() as i16);
         self.lines.note(line, 1);
         Ok(())
     }

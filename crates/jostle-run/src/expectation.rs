@@ -1,0 +1,221 @@
+//! What a run is expected to take: steps, time on this machine, memory and files.
+
+use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
+
+use jostle::stepping::Progress;
+use jostle::{RunEnd, Settings, Solver};
+use jostle_io::InputError;
+
+use crate::numbers::counted_grouped;
+use crate::prepared::Prepared;
+
+/// Largest memory of the histories of a run \[bytes\].
+const MOST_MEMORY: f64 = 8e9;
+/// Memory of a run beside its histories \[bytes\].
+const BESIDE: f64 = 40e6;
+/// Memory of a run per memory of its histories: stepping and writing need some as well; with the run without contact, whose
+/// histories are kept beside them.
+const OF_RUN: [f64; 2] = [1.8, 3.0];
+/// Bytes of `history.parquet` per byte of histories.
+const IN_FILE: f64 = 0.9;
+/// Computing time of one displacement in one step on a usual machine \[s\].
+const TIME_OF_ONE: f64 = 2e-8;
+/// Time that a run may use to find out how fast this machine is.
+const TRIED: Duration = Duration::from_millis(200);
+/// Duration of a run relative to that of its first pass through the motion: with automatic steps direct runs take a pass with
+/// steps about twice as long first, with given steps afterwards.
+const PASSES: [f64; 2] = [3.0, 1.6];
+
+/// Expected size of a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Expectation {
+    /// Regular steps, without those of closed contacts.
+    pub steps: u64,
+    /// Rows of the histories, without those of closed contacts.
+    pub rows: u64,
+    /// Memory of the whole run \[bytes\].
+    pub memory: f64,
+    /// Size of `history.parquet` \[bytes\].
+    pub history_file: f64,
+}
+
+impl Prepared {
+    /// Expected size of a run with these settings. `both`: the run without contact follows, and its histories are kept beside
+    /// those of the run with contact.
+    #[must_use]
+    pub fn expect(&self, settings: Settings, both: bool) -> Expectation {
+        let settings = self.with_rows_for_spectra(settings);
+        let size = self
+            .plan
+            .history_size(&self.system, &self.motion, &settings);
+        let (rows, bytes) = size.map_or((0.0, 0.0), |size| (size.rows, size.bytes()));
+        let both = both && !self.system.contacts.is_empty();
+        Expectation {
+            steps: (self.motion.duration / self.plan.step).ceil() as u64,
+            rows: rows as u64,
+            memory: BESIDE + bytes * OF_RUN[usize::from(both)],
+            history_file: IN_FILE * bytes,
+        }
+    }
+
+    /// Refuses a run whose histories need more memory than 8 GB; `remedy` says how to run it all the same.
+    ///
+    /// # Errors
+    /// The refusal, with the interval of rows that fits.
+    pub fn check_memory(
+        &self,
+        settings: Settings,
+        both: bool,
+        remedy: Option<&str>,
+    ) -> Result<(), InputError> {
+        let expected = self.expect(settings, both);
+        if expected.memory <= MOST_MEMORY {
+            return Ok(());
+        }
+        let interval = settings.record_interval.unwrap_or_default();
+        let least = self.motion.duration / expected.rows as f64;
+        let longer = 1e3 * interval.max(least) * expected.memory / MOST_MEMORY;
+        let anyway = remedy.map_or_else(String::new, |remedy| format!("; {remedy}"));
+        Err(self.input.fault(
+            "output.interval",
+            format!(
+                "{} of histories need {} of memory, more than {}; write interval = \"{:.0} ms\" under [output] for fewer rows{anyway}",
+                counted_grouped(expected.rows, "row"),
+                in_bytes(expected.memory),
+                in_bytes(MOST_MEMORY),
+                longer.ceil()
+            ),
+        ))
+    }
+
+    /// Expected time of the run with contact on this machine, from its first 0.2 s \[s\].
+    #[must_use]
+    pub fn expected_seconds(&self, settings: Settings) -> f64 {
+        let settings = self.with_rows_for_spectra(settings);
+        let mut pace = Pace::new(self);
+        let outcome = self.step(settings, |progress| {
+            pace.look(progress);
+            if pace.started.elapsed() > TRIED && progress.time > 0.0 {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        });
+        // The beginning of a motion is quiet.
+        let work = self.plan.expected_work(&self.system, self.motion.duration);
+        let least = pace.passes * work * TIME_OF_ONE;
+        match outcome.end {
+            RunEnd::Stopped => pace.expected.max(least),
+            RunEnd::Completed | RunEnd::Failed(_) => pace.started.elapsed().as_secs_f64(),
+        }
+    }
+}
+
+/// Estimates the time of a run from how far it is.
+#[derive(Clone, Debug)]
+pub struct Pace {
+    started: Instant,
+    /// Time of the run relative to that of its first pass.
+    passes: f64,
+    /// Time reached in the first pass, infinite afterwards \[s\].
+    reached: f64,
+    expected: f64,
+}
+
+impl Pace {
+    /// Of a run that begins now.
+    #[must_use]
+    pub fn new(prepared: &Prepared) -> Self {
+        let passes = match prepared.plan.solver {
+            Solver::Modal | Solver::Series => 1.0,
+            Solver::Riccati | Solver::Stiffness | Solver::Product => {
+                PASSES[usize::from(prepared.plan.is_given)]
+            }
+        };
+        Self {
+            started: Instant::now(),
+            passes,
+            reached: 0.0,
+            expected: 0.0,
+        }
+    }
+
+    /// Notes how far the run is; returns the time since it began and the expected time of the whole run \[s\].
+    pub fn look(&mut self, progress: Progress) -> [f64; 2] {
+        let elapsed = self.started.elapsed().as_secs_f64();
+        if progress.time < self.reached {
+            self.reached = f64::INFINITY;
+        } else {
+            self.reached = progress.time;
+            self.expected = self.passes * elapsed * progress.duration / progress.time;
+        }
+        [elapsed, self.expected]
+    }
+}
+
+impl Expectation {
+    /// Time, memory and files in one line. `seconds`: expected time of computing.
+    #[must_use]
+    pub fn text(&self, seconds: f64) -> String {
+        let rows = match self.rows {
+            0 => "no histories".to_owned(),
+            rows => format!(
+                "{} of histories (history.parquet about {})",
+                counted_grouped(rows, "row"),
+                in_bytes(self.history_file)
+            ),
+        };
+        format!(
+            "{} of computing on this machine, about {} of memory, {rows}",
+            in_time(seconds),
+            in_bytes(self.memory)
+        )
+    }
+}
+
+/// A size with its unit, to one digit.
+fn in_bytes(bytes: f64) -> String {
+    let [number, unit] = match bytes {
+        b if b >= 1e9 => [format!("{:.1}", b / 1e9), "GB".to_owned()],
+        b if b >= 1e6 => [format!("{:.0}", b / 1e6), "MB".to_owned()],
+        b => [format!("{:.0}", b / 1e3), "kB".to_owned()],
+    };
+    format!("{number} {unit}")
+}
+
+/// A time of computing, to one digit.
+fn in_time(seconds: f64) -> String {
+    let rounded = |value: f64| {
+        let digit = libm::pow(10_f64, libm::log10(value).floor());
+        ((value / digit).round() * digit) as u64
+    };
+    match seconds {
+        s if s < 1.0 => "less than 1 s".to_owned(),
+        s if s < 100.0 => format!("about {} s", rounded(s)),
+        s if s < 6000.0 => format!("about {} min", rounded(s / 60.0)),
+        s => format!("about {} h", rounded(s / 3600.0).max(1)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_and_times_have_one_digit() {
+        assert_eq!(in_bytes(41e6), "41 MB");
+        assert_eq!(in_bytes(8e9), "8.0 GB");
+        let times = [0.3, 4.4, 23.0, 400.0, 7000.0].map(in_time);
+        assert_eq!(
+            times,
+            [
+                "less than 1 s",
+                "about 4 s",
+                "about 20 s",
+                "about 7 min",
+                "about 2 h"
+            ]
+        );
+    }
+}
