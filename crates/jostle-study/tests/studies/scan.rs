@@ -75,7 +75,7 @@ fn damaged_texts_are_refused_or_used() {
     scan(4, STUDY.as_bytes(), 4, &inputs::study);
     scan(5, records.as_bytes(), 4, &inputs::suite);
     scan(6, SPECTRUM.as_bytes(), 1, &|bytes| {
-        inputs::spectrum(folder.path(), bytes)
+        inputs::spectrum(folder.path(), bytes);
     });
 }
 
@@ -103,7 +103,7 @@ fn damaged_folders_are_refused_or_used() {
     {
         let whole = std::fs::read(folder.join(name)).expect("a file");
         scan(10 + own as u64, &whole, 8, &|bytes| {
-            inputs::results(folder, name, bytes)
+            inputs::results(folder, name, bytes);
         });
         std::fs::write(folder.join(name), &whole).expect("a file");
     }
