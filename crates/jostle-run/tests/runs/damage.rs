@@ -36,7 +36,9 @@ fn damage_is_done_at_every_passage_of_zero_force() {
             let ran = ran(&format!(
                 "analysis = {{ solver = \"{solver}\", tolerance = 1e-4 }}\n{text}"
             ));
-            ran.summary().buildings[0].floors[0].response.storey_drift_peak
+            ran.summary().buildings[0].floors[0]
+                .response
+                .storey_drift_peak
         });
         let apart = (series / direct - 1.0).abs();
         assert!(apart < 2e-4, "at {pga} m/s²: {series} and {direct}");

@@ -117,7 +117,7 @@ mod tests {
         "[[vary]]\npath = \"gap[0].width\"\nrange = { from = 0.01, to = 0.1, count = 6 }\n";
     const PGA: &str =
         "[[vary]]\npath = \"motion.pga\"\nrange = { from = 1.0, to = 2.0, count = 10 }\n";
-    const DRAWN: &str = "[[vary]]\npath = \"building.J1.damping\"\ndistribution = { kind = \"uniform\", from = 0.02, to = 0.05 }\n";
+    const DRAWN: &str = "[[vary]]\npath = \"building.J1.damping.ratio\"\ndistribution = { kind = \"uniform\", from = 0.02, to = 0.05 }\n";
 
     /// Rows and cases agree, and every value of every list occurs.
     #[test]

@@ -18,8 +18,11 @@ const MARGIN: f64 = 1.5;
 const AIM: f64 = 0.5;
 /// Least and greatest factors by which steps are refined at a time.
 const REFINEMENT: [f64; 2] = [2.0, 3.0];
-/// Fraction of the error of second order that may remain after a refinement; otherwise refinement stops.
+/// Fraction of the error of second order that may remain after a refinement.
 const LEFT_OVER: f64 = 0.8;
+/// Refinements that leave more, one after the other, before refinement stops. One may be by chance: the first two runs may have missed
+/// the same short event, and the third seems to be as far off as they are.
+const MOST_IN_VAIN: u32 = 2;
 /// Least and greatest order of convergence; average acceleration is of second order.
 const ORDERS: [f64; 2] = [0.75, 2.0];
 
@@ -135,6 +138,7 @@ pub(in crate::stepping) fn within_tolerance(
     let tolerance = plan.tolerance();
     let mut known: Option<Change> = None;
     let (mut last, mut refinements, mut further_runs) = (f64::INFINITY, 0, 0);
+    let mut in_vain = 0;
     loop {
         let mut outcome = run(&fine);
         outcome.work.repeated_runs = further_runs;
@@ -170,7 +174,12 @@ pub(in crate::stepping) fn within_tolerance(
                 .flatten(),
             sensitive_from: None,
         });
-        let converges = first < LEFT_OVER * last && rounding < AIM * tolerance;
+        in_vain = if first < LEFT_OVER * last {
+            0
+        } else {
+            in_vain + 1
+        };
+        let converges = in_vain < MOST_IN_VAIN && rounding < AIM * tolerance;
         if residual <= tolerance || refinements == MOST_REFINEMENTS || !converges {
             return outcome;
         }
