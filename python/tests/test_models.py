@@ -465,8 +465,8 @@ def test_buildings_stand_on_soil() -> None:
 
 
 def test_tall_frames_bounds_of_bearings_and_filtered_accelerations() -> None:
-    tall = {"storeys": 12, "storey_height": 3, "spans": [12], "concrete": "C30", "beam_mass": 5000}
-    sections = {"column": {"width": 0.5, "depth": 0.5}, "beam": {"width": 0.3, "depth": 0.6}}
+    tall: dict[str, Any] = {"storeys": 12, "storey_height": 3, "spans": [12], "concrete": "C30", "beam_mass": 5000}
+    sections: dict[str, Any] = {"column": {"width": 0.5, "depth": 0.5}, "beam": {"width": 0.3, "depth": 0.6}}
     frames = [jostle.Frame("a", **tall, **sections, axial=own) for own in (None, "flexible", "rigid")]
     default, flexible, rigid = (jostle.modes(Model([own]))["a"].periods[0] for own in frames)
     assert default == flexible > rigid

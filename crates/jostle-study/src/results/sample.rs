@@ -142,8 +142,12 @@ mod tests {
             let named: Vec<u64> = (0..rows as usize).map(|row| sample.case(row)).collect();
             assert_eq!(held, named, "{text}");
         }
-        let drawn = study(&format!("{GAP}{PGA}"));
-        let sample = Sample::new(&drawn, 30);
+        let long = format!("{GAP}{PGA}")
+            .replace("count = 6", "count = 50")
+            .replace("count = 10", "count = 70");
+        let drawn = study(&long);
+        let sample = Sample::new(&drawn, 500);
+        assert!(sample.rows > 70 && sample.rows <= 500);
         let mut seen = std::collections::BTreeSet::new();
         for row in 0..sample.rows as usize {
             for (factor, choice) in drawn
@@ -155,6 +159,6 @@ mod tests {
                 seen.insert((factor, format!("{choice:?}")));
             }
         }
-        assert_eq!(seen.len(), 6 + 10);
+        assert_eq!(seen.len(), 50 + 70);
     }
 }
