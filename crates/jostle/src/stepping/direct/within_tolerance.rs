@@ -18,21 +18,27 @@ const MARGIN: f64 = 1.5;
 const AIM: f64 = 0.5;
 /// Least and greatest factors by which steps are refined at a time.
 const REFINEMENT: [f64; 2] = [2.0, 3.0];
-/// Fraction of the error of second order that may remain after a refinement.
+/// Fraction of the error of second order that may remain after a refinement; otherwise it was in vain.
 const LEFT_OVER: f64 = 0.8;
-/// Refinements that leave more, one after the other, before refinement stops. One may be by chance: the first two runs may have missed
-/// the same short event, and the third seems to be as far off as they are.
-const MOST_IN_VAIN: u32 = 2;
 /// Least and greatest order of convergence; average acceleration is of second order.
 const ORDERS: [f64; 2] = [0.75, 2.0];
+
+/// Whether forces have corners.
+fn has_corners(system: &System) -> bool {
+    let yields = |building: &BuildingSystem| !building.equations.springs.is_empty();
+    system.buildings.iter().any(yields) || !system.links.iter().all(LinkElement::is_linear)
+}
 
 /// Factor by which steps are coarsened for comparison. Where forces have corners, accelerations are greatest there; steps twice as long
 /// would miss a corner by the same instants.
 fn coarsened(system: &System) -> f64 {
-    let yields = |building: &BuildingSystem| !building.equations.springs.is_empty();
-    let corners =
-        system.buildings.iter().any(yields) || !system.links.iter().all(LinkElement::is_linear);
-    if corners { 0.62 } else { 0.5 }
+    if has_corners(system) { 0.62 } else { 0.5 }
+}
+
+/// Refinements in vain, one after the other, before refinement stops. Where forces have corners, two runs may miss the same short event, and
+/// the third then seems to be as far off as they are.
+fn most_in_vain(system: &System) -> u32 {
+    if has_corners(system) { 2 } else { 1 }
 }
 
 /// Weight of the energy imbalance in the error of a peak.
@@ -138,7 +144,7 @@ pub(in crate::stepping) fn within_tolerance(
     let tolerance = plan.tolerance();
     let mut known: Option<Change> = None;
     let (mut last, mut refinements, mut further_runs) = (f64::INFINITY, 0, 0);
-    let mut in_vain = 0;
+    let (mut in_vain, most_in_vain) = (0, most_in_vain(system));
     loop {
         let mut outcome = run(&fine);
         outcome.work.repeated_runs = further_runs;
@@ -179,7 +185,7 @@ pub(in crate::stepping) fn within_tolerance(
         } else {
             in_vain + 1
         };
-        let converges = in_vain < MOST_IN_VAIN && rounding < AIM * tolerance;
+        let converges = in_vain < most_in_vain && rounding < AIM * tolerance;
         if residual <= tolerance || refinements == MOST_REFINEMENTS || !converges {
             return outcome;
         }
