@@ -8,8 +8,8 @@
 //!
 //! Friction whose strength Q depends on the speed keeps its direction by the same equation with Q of the instant,
 //! tan φ/2 = tan φ₀/2 · e^(−k ∫ds/Q). A step takes the mean of the strengths at its start and at its end there, and the strength at its
-//! end as the length of the force. Where the motion turns back within a step that slips, it is divided there, as along a line
-//! (theory, Eq. B3).
+//! end as the length of the force. Where the motion turns back within a step that slips, or whose force would exceed the strength at the
+//! turn, the step is divided there, as along a line (theory, Eq. B3).
 //!
 //! In the list of springs that yield such a force has three rows: its displacement along x, across, and the difference of both, whose
 //! only force is what the tangent [a b; b c] has off its diagonal: springs a + b, c + b and −b.
