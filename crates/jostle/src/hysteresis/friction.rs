@@ -110,7 +110,7 @@ mod tests {
             fast: 1.5,
             rate: 5.0,
         };
-        for reached in [0.9, 1.002, 1.004, 1.1, 1.3, 2.0] {
+        for reached in [0.9, 1.001, 1.002, 1.004, 1.1, 1.3, 2.0] {
             let of = |steps| after(strength, 10.0, 0.1 * reached, steps);
             let exact = of(1_000_000);
             let error = [200, 400, 800].map(|steps| (of(steps) - exact).abs());
