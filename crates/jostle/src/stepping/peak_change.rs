@@ -1,6 +1,7 @@
 //! Difference of the reported peaks of two runs of one system.
 
 use super::outcome::{Outcome, PlanPeaks};
+use super::sensitivity::closing_scale;
 use crate::history::{Extreme, FloorPeaks, FoundationPeaks, Impact, LinkTotals};
 use crate::structure::MemberSection;
 use crate::system::System;
@@ -100,6 +101,11 @@ pub(super) fn change_of_peaks(system: &System, [a, b]: [&Outcome; 2]) -> f64 {
         worst = worst.max(relative(both(impulse)));
         let together = [a, b].map(|run| run.gap_forces.get(gap).map_or(0.0, |own| own.value));
         worst = worst.max(relative([together].into_iter()));
+        for contact in own {
+            let least = closing_scale(&system.contacts[contact], 0.0, &b.floors);
+            let closings = [a, b].map(|run| run.closing[contact].value);
+            worst = worst.max(relative_to(least, [closings].into_iter()));
+        }
     }
     worst
 }

@@ -84,6 +84,13 @@ impl YieldingSpring {
         self.levers.iter().flatten().fold(between, turned)
     }
 
+    /// Degrees of freedom of the building and their shares of the deformation.
+    pub(crate) fn shares(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let ends = self.dofs.into_iter().zip([1.0, -1.0]);
+        let ends = ends.filter_map(|(dof, sign)| dof.map(|dof| (dof, sign)));
+        ends.chain(self.levers.iter().flatten().copied())
+    }
+
     /// Adds a force conjugate to the deformation to loads of the building.
     #[inline]
     pub(crate) fn push(&self, force: f64, load: &mut [f64]) {

@@ -9,6 +9,7 @@ mod links;
 mod plan_forces;
 mod solver;
 mod springs;
+mod tangent_damping;
 mod trial;
 mod velocity_jump;
 mod within_tolerance;
@@ -424,6 +425,14 @@ impl Stepper for Direct {
 
     fn begin_link_force(&mut self, run: &RunState<'_>, link: usize) -> bool {
         self.begin_dashpot(run, link)
+    }
+
+    fn damping_jump(&self, run: &RunState<'_>, step: f64) -> Option<f64> {
+        self.first_damping_jump(run, step)
+    }
+
+    fn jump_damping(&mut self, run: &RunState<'_>) {
+        self.jump_dashpots(run);
     }
 
     fn before_step(&mut self, run: &mut RunState<'_>, _: f64) {

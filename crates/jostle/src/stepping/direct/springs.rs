@@ -26,9 +26,9 @@ pub(super) struct SpringTrial {
     /// What the committed velocity and acceleration take from the change of deformation (theory, Eq. Y2) \[rad or m\].
     rate_term: f64,
     /// Rates of the deformation; that at the end belongs to no change of deformation.
-    rates: Rates,
+    pub(super) rates: Rates,
     /// Dashpot beside it over the step \[N·s/m, N·m·s/rad\], and its force at the end if the deformation does not change.
-    dashpot: f64,
+    pub(super) dashpot: f64,
     damped: f64,
     /// Force with which the solution before was balanced there.
     pub(super) balance: f64,
@@ -84,6 +84,8 @@ pub(super) struct YieldingSprings {
     balanced: Vec<f64>,
     /// Forces of the dashpots beside springs at its end.
     pub(super) damped: Vec<f64>,
+    /// Whether dashpots beside springs follow their tangents.
+    pub(super) damped_by_tangents: bool,
     /// Loads of the step without springs.
     loads: Vec<f64>,
     stages: Vec<Stage>,
@@ -119,6 +121,7 @@ impl YieldingSprings {
             wanted: vec![0.0; count],
             balanced: state.springs.iter().map(HysteresisMemory::force).collect(),
             damped: damped.collect(),
+            damped_by_tangents: springs().any(|spring| spring.damped_by_tangent),
             loads: vec![0.0; system.len()],
             stages: known()
                 .map(|(spring, memory)| spring.hysteresis.stage(memory))

@@ -2,6 +2,7 @@
 
 mod contact_events;
 mod corners;
+mod damping_jumps;
 mod episodes;
 mod link_touches;
 mod run_state;
@@ -80,8 +81,10 @@ impl<S: Stepper> Runner<'_, S> {
         for _ in 0..MOST_EVENTS_AT_ONCE {
             let (slot, next) = self.try_next_step()?;
             let event = self.first_event(next.length);
+            let damping = self.stepper.damping_jump(&self.run, next.length);
+            let damping = damping.filter(|at| event.is_none_or(|event| *at < event.at));
+            let before = damping.unwrap_or(event.map_or(1.0, |event| event.at));
             if self.stepper.ends_steps_at_corners(&self.run) {
-                let before = event.map_or(1.0, |event| event.at);
                 if let Some(corner) = self.first_corner(next.length, before) {
                     self.run.work.repeated_steps += 1;
                     match self.step_to_corner(corner, &next)? {
@@ -90,11 +93,16 @@ impl<S: Stepper> Runner<'_, S> {
                     }
                 }
             }
-            let before = event.map_or(1.0, |event| event.at);
             match self.end_at_link_touch(&next, before)? {
                 Some(Landing::Later) => return Ok(()),
                 Some(Landing::AtStart) => continue,
                 None => {}
+            }
+            if let Some(at) = damping {
+                match self.step_to_damping_jump(at, slot, &next)? {
+                    Landing::Later => return Ok(()),
+                    Landing::AtStart => continue,
+                }
             }
             let Some(event) = event else {
                 let coarse = self.stepper.unresolved_contact(&self.run, next.length);

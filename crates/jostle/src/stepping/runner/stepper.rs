@@ -129,6 +129,17 @@ pub(in crate::stepping) trait Stepper {
         false
     }
 
+    /// Share of the tried step at which a dashpot first changes on the way.
+    fn damping_jump(&self, run: &RunState<'_>, step: f64) -> Option<f64> {
+        let _ = (run, step);
+        None
+    }
+
+    /// Gives dashpots that have changed over the accepted step their force of now.
+    fn jump_damping(&mut self, run: &RunState<'_>) {
+        let _ = run;
+    }
+
     /// A step is about to be accepted.
     fn before_step(&mut self, run: &mut RunState<'_>, step: f64);
 
