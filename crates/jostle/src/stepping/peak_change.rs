@@ -102,7 +102,7 @@ pub(super) fn change_of_peaks(system: &System, [a, b]: [&Outcome; 2]) -> f64 {
         let together = [a, b].map(|run| run.gap_forces.get(gap).map_or(0.0, |own| own.value));
         worst = worst.max(relative([together].into_iter()));
         for contact in own {
-            let least = closing_scale(&system.contacts[contact], 0.0, &b.floors);
+            let least = closing_scale(&system.contacts[contact], 0.0, &b.floors, &b.supports);
             let closings = [a, b].map(|run| run.closing[contact].value);
             worst = worst.max(relative_to(least, [closings].into_iter()));
         }

@@ -101,6 +101,9 @@ const MODAL_STEPS_PER_THIRD: f64 = 7.5;
 const MODAL_STEPS_PER_MOTION_PERIOD: f64 = 300.0;
 /// Free-vibration steps of series stepping per third lateral period: peaks do not rest on cubics.
 const SERIES_STEPS_PER_THIRD: f64 = 5.0;
+/// The same per period of an analytic motion: springs that yield and floors that push each other for long pass on what the
+/// motion between the ends of steps lacks many times larger.
+const SERIES_STEPS_PER_MOTION_PERIOD: f64 = 600.0;
 /// Free-vibration step of modal stepping without other limits \[s\].
 const LONGEST_MODAL_STEP: f64 = 0.05;
 /// Steps per elastic impact of modal stepping, at a tolerance of 1e-3.
@@ -146,11 +149,19 @@ impl Plan {
                 step
             }
             None if solver == Solver::Modal => {
-                let per_period = [MODAL_STEPS_PER_FIRST, MODAL_STEPS_PER_THIRD];
+                let per_period = [
+                    MODAL_STEPS_PER_FIRST,
+                    MODAL_STEPS_PER_THIRD,
+                    MODAL_STEPS_PER_MOTION_PERIOD,
+                ];
                 exact_step(system, motion, refinement, per_period, LONGEST_MODAL_STEP)
             }
             None if solver == Solver::Series => {
-                let per_period = [MODAL_STEPS_PER_FIRST, SERIES_STEPS_PER_THIRD];
+                let per_period = [
+                    MODAL_STEPS_PER_FIRST,
+                    SERIES_STEPS_PER_THIRD,
+                    SERIES_STEPS_PER_MOTION_PERIOD,
+                ];
                 let longest = LONGEST_MODAL_STEP.min(series::longest_step(system));
                 exact_step(system, motion, refinement, per_period, longest)
             }
@@ -557,7 +568,7 @@ fn exact_step(
     system: &System,
     motion: &GroundMotion,
     refinement: f64,
-    [per_first, per_third]: [f64; 2],
+    [per_first, per_third, per_motion_period]: [f64; 3],
     longest: f64,
 ) -> f64 {
     // Cubics are of fourth order.
@@ -576,7 +587,7 @@ fn exact_step(
     }
     if let Some(period) = motion.period() {
         // Loads are linear over a step, which is of second order.
-        step = step.min(refinement * refinement * period / MODAL_STEPS_PER_MOTION_PERIOD);
+        step = step.min(refinement * refinement * period / per_motion_period);
     }
     match motion.corner_step() {
         Some(record_step) => record_step / (record_step / step - 1e-9).ceil().max(1.0),

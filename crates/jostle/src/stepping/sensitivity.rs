@@ -8,7 +8,7 @@ use super::outcome::{Observer, Outcome, Progress, RunEnd};
 use super::peak_change::{change_of_peaks, impacts};
 use super::plan::Plan;
 use super::simulate::simulate_like;
-use crate::history::FloorPeaks;
+use crate::history::{Extreme, FloorPeaks, SupportPeaks};
 use crate::interface::Contact;
 use crate::model::Solver;
 use crate::motion::GroundMotion;
@@ -95,7 +95,7 @@ fn sensitive_from(
     let contacts = changed.contacts.iter_mut().zip(&outcome.closing);
     for ((contact, closing), near_miss) in contacts.zip(&near_misses) {
         let change = if *near_miss { -narrower } else { wider };
-        let scale = closing_scale(contact, closing.value, &outcome.floors);
+        let scale = closing_scale(contact, closing.value, &outcome.floors, &outcome.supports);
         contact.width += change * contact.width.max(scale);
     }
     let other = simulate_like(outcome, &changed, motion, plan, shapes, observer);
@@ -113,23 +113,38 @@ fn sensitive_from(
 }
 
 /// What errors of the closing of a contact are relative to: its greatest closing, or a tenth of the displacement of its
-/// floors if that is more \[m\].
-pub(super) fn closing_scale(contact: &Contact, closing: f64, floors: &[Vec<FloorPeaks>]) -> f64 {
-    closing.max(SWAY * greatest_displacement(contact, floors))
+/// floors if that is more \[m\]. `floors` and `supports`: peaks of every building.
+pub(super) fn closing_scale(
+    contact: &Contact,
+    closing: f64,
+    floors: &[Vec<FloorPeaks>],
+    supports: &[SupportPeaks],
+) -> f64 {
+    closing.max(SWAY * greatest_displacement(contact, floors, supports))
 }
 
-/// Greatest displacement of the floors of a contact, or of their buildings if it lies between floors \[m\].
-fn greatest_displacement(contact: &Contact, floors: &[Vec<FloorPeaks>]) -> f64 {
+/// Greatest displacement of the floors of a contact, of its mats, or of its buildings if it lies between floors \[m\].
+fn greatest_displacement(
+    contact: &Contact,
+    floors: &[Vec<FloorPeaks>],
+    supports: &[SupportPeaks],
+) -> f64 {
+    let size = |[most, least]: [Extreme; 2]| most.value.max(-least.value);
+    let of_floor = |own: &FloorPeaks| size([own.displacement_max, own.displacement_min]);
     let sides = contact.ports.buildings().into_iter();
     let sides = sides.zip(contact.ports.floors());
     sides
         .filter_map(|(building, floor)| {
-            let floors = &floors[building?];
-            let met = floor.map_or(&floors[..], |floor| &floors[floor - 1..floor]);
-            let sizes = met
-                .iter()
-                .map(|f| f.displacement_max.value.max(-f.displacement_min.value));
-            sizes.max_by(f64::total_cmp)
+            let building = building?;
+            let floors = &floors[building];
+            Some(match floor {
+                Some(0) => {
+                    let mat = &supports[building];
+                    size([mat.displacement_max, mat.displacement_min])
+                }
+                Some(floor) => of_floor(&floors[floor - 1]),
+                None => floors.iter().map(of_floor).fold(0.0, f64::max),
+            })
         })
         .fold(0.0, f64::max)
 }

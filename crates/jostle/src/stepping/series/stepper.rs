@@ -142,7 +142,12 @@ impl SeriesStepper {
         let closings = self.closing_error.iter().zip(&self.peaks.closing);
         let closings = closings.zip(&run.system.contacts);
         let relative = closings.map(|((error, closing), contact)| {
-            let scale = closing_scale(contact, closing.value, &self.peaks.floors);
+            let scale = closing_scale(
+                contact,
+                closing.value,
+                &self.peaks.floors,
+                &self.peaks.supports,
+            );
             error / scale.max(f64::MIN_POSITIVE)
         });
         let forces = self.force_error.iter().zip(&run.strongest);
