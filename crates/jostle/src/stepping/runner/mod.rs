@@ -84,13 +84,13 @@ impl<S: Stepper> Runner<'_, S> {
             let damping = self.stepper.damping_jump(&self.run, next.length);
             let damping = damping.filter(|at| event.is_none_or(|event| *at < event.at));
             let before = damping.unwrap_or(event.map_or(1.0, |event| event.at));
-            if self.stepper.ends_steps_at_corners(&self.run) {
-                if let Some(corner) = self.first_corner(next.length, before) {
-                    self.run.work.repeated_steps += 1;
-                    match self.step_to_corner(corner, &next)? {
-                        Landing::Later => return Ok(()),
-                        Landing::AtStart => continue,
-                    }
+            if self.stepper.ends_steps_at_corners(&self.run)
+                && let Some(corner) = self.first_corner(next.length, before)
+            {
+                self.run.work.repeated_steps += 1;
+                match self.step_to_corner(corner, &next)? {
+                    Landing::Later => return Ok(()),
+                    Landing::AtStart => continue,
                 }
             }
             match self.end_at_link_touch(&next, before)? {
