@@ -231,9 +231,10 @@ impl Script<'_> {
         let heights = link
             .ports
             .0
-            .map(|port| port.map_or(0.0, |port| port.height));
+            .each_ref()
+            .map(|port| port.as_ref().map_or(0.0, |port| port.height));
         let ends = [0, 1].map(|side| {
-            let floor = link.ports.0[side].and_then(|port| port.floor);
+            let floor = link.ports.floors()[side];
             let node = match floor {
                 Some(floor) => building.discretization.floors[floor - 1],
                 None => foundation.node,

@@ -152,7 +152,7 @@ impl Direct {
 
     /// Changes velocities by an impulse on a point, those of massless degrees of freedom that follow, and accelerations
     /// by what the dampers then say: M Δa = −(α M + β K + C′) Δv.
-    fn push_at_once(&mut self, run: &mut RunState<'_>, port: Port, impulse: f64) {
+    fn push_at_once(&mut self, run: &mut RunState<'_>, port: &Port, impulse: f64) {
         let building = port.building;
         let system = &run.system.buildings[building];
         let (range, own) = (system.range(), &system.equations);
