@@ -106,6 +106,36 @@ impl Row {
         sum
     }
 
+    /// The value for numbers that are asked for one by one.
+    #[must_use]
+    #[inline]
+    pub fn value_of(&self, number: impl Fn(usize) -> f64) -> f64 {
+        let entries = self.entries().iter();
+        entries.map(|(dof, share)| share * number(*dof)).sum()
+    }
+
+    /// A number with the value added to it, term by term.
+    #[must_use]
+    #[inline]
+    pub fn added_to(&self, sum: f64, values: &[f64]) -> f64 {
+        let entries = self.entries().iter();
+        entries.fold(sum, |sum, (dof, share)| sum + share * values[*dof])
+    }
+
+    /// The most that it can be where displacements are within bounds.
+    #[must_use]
+    #[inline]
+    pub(crate) fn bound(&self, bounds: &[f64]) -> f64 {
+        let [first, others @ ..] = self.entries() else {
+            return 0.0;
+        };
+        let mut sum = first.1.abs() * bounds[first.0];
+        for (dof, share) in others {
+            sum += share.abs() * bounds[*dof];
+        }
+        sum
+    }
+
     /// The value for several vectors at once, which stand side by side.
     #[must_use]
     #[inline]
@@ -137,6 +167,17 @@ impl Row {
         1.0 / gives.sum::<f64>()
     }
 
+    /// Adds a term.
+    pub fn add(&mut self, dof: usize, share: f64) {
+        self.extend([(dof, share)]);
+    }
+
+    /// Adds the terms of another row, multiplied.
+    pub fn add_times(&mut self, factor: f64, other: &Self) {
+        let terms = other.entries().iter();
+        self.extend(terms.map(|(dof, share)| (*dof, factor * share)));
+    }
+
     /// The sum of two rows: the terms of both, one after the other.
     #[must_use]
     pub fn plus(&self, other: &Self) -> Self {
@@ -157,10 +198,18 @@ impl Row {
     /// Terms of one degree of freedom added up, in the order of degrees of freedom, without those that cancel.
     #[must_use]
     pub fn merged(&self) -> Self {
-        let mut entries = self.entries().to_vec();
-        let most = entries
+        let least = ROUNDING * self.greatest();
+        let sums = self.summed();
+        let kept = sums
+            .entries()
             .iter()
-            .fold(0.0_f64, |most, (_, c)| most.max(c.abs()));
+            .filter(|(_, share)| share.abs() > least);
+        kept.copied().collect()
+    }
+
+    /// Terms of one degree of freedom added up, in the order of degrees of freedom.
+    pub(crate) fn summed(&self) -> Self {
+        let mut entries = self.entries().to_vec();
         sort_by_key(&mut entries, |(dof, _)| *dof);
         entries.dedup_by(|(dof, share), (kept, sum)| {
             let same = dof == kept;
@@ -169,8 +218,13 @@ impl Row {
             }
             same
         });
-        entries.retain(|(_, share)| share.abs() > ROUNDING * most);
         entries.into_iter().collect()
+    }
+
+    /// Greatest magnitude of a share.
+    pub(crate) fn greatest(&self) -> f64 {
+        let shares = self.entries().iter();
+        shares.fold(0.0, |most, (_, share)| share.abs().max(most))
     }
 
     /// The same row over vectors that begin `offset` degrees of freedom earlier.

@@ -1,7 +1,7 @@
 //! Mass and stiffness of one building in the order of its transfer path.
 
 use crate::hysteresis::{Hysteresis, HysteresisMemory};
-use crate::linear::SparseSymmetric;
+use crate::linear::{Row, SparseSymmetric};
 use crate::model::ProportionalDamping;
 use crate::structure::element::{self, Part, X, Y};
 use crate::structure::path::Path;
@@ -46,18 +46,16 @@ pub struct Equations {
     /// Whether K′ and C′ are zero.
     pub(crate) plain: bool,
     path: Path,
-    base_shear: Vec<(usize, f64)>,
+    base_shear: Row,
     total_mass: f64,
 }
 
-/// A spring between two displacements that yields.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A spring that yields.
+#[derive(Clone, Debug, PartialEq)]
 pub struct YieldingSpring {
-    /// The deformation is the first minus the second; `None` moves with the ground.
-    pub dofs: [Option<usize>; 2],
-    /// Rotations that add to the deformation, and by how much: that of the foundation under a storey, or of two floors in plan
-    /// \[m\].
-    pub levers: [Option<(usize, f64)>; 2],
+    /// Its deformation \[rad or m\]: one end minus the other, then rotations that add to it, such as that of the foundation under a
+    /// storey, or of two floors in plan.
+    pub row: Row,
     /// Rule and backbone.
     pub hysteresis: Hysteresis,
     /// Whether stiffness-proportional damping acts on it with its present stiffness.
@@ -67,35 +65,11 @@ pub struct YieldingSpring {
 }
 
 impl YieldingSpring {
-    /// How displacements deform it: degree of freedom and share.
-    pub(crate) fn row(&self) -> impl Iterator<Item = (usize, f64)> {
-        let ends = self.dofs.into_iter().zip([1.0, -1.0]);
-        let ends = ends.filter_map(|(dof, sign)| Some((dof?, sign)));
-        ends.chain(self.levers.into_iter().flatten())
-    }
-
     /// Deformation under displacements of the building \[rad or m\].
     #[must_use]
     #[inline]
     pub fn deformation(&self, displacement: &[f64]) -> f64 {
-        let at = |dof: Option<usize>| dof.map_or(0.0, |dof| displacement[dof]);
-        let between = at(self.dofs[0]) - at(self.dofs[1]);
-        let turned = |sum: f64, lever: &(usize, f64)| sum + lever.1 * displacement[lever.0];
-        self.levers.iter().flatten().fold(between, turned)
-    }
-
-    /// Adds a force conjugate to the deformation to loads of the building.
-    #[inline]
-    pub(crate) fn push(&self, force: f64, load: &mut [f64]) {
-        if let Some(dof) = self.dofs[0] {
-            load[dof] += force;
-        }
-        if let Some(dof) = self.dofs[1] {
-            load[dof] -= force;
-        }
-        for (turning, arm) in self.levers.iter().flatten() {
-            load[*turning] += arm * force;
-        }
+        self.row.value(displacement)
     }
 }
 
@@ -175,7 +149,7 @@ impl Equations {
             }
         }
         let mut triplets = [Vec::new(), Vec::new(), Vec::new()];
-        let mut base_shear = Vec::new();
+        let mut base_shear = Row::default();
         // What couplings leave of a row at the ground is no force there: the base shear is the sum of all rows.
         let on_soil = stick_model.foundation.is_some();
         let of_supports =
@@ -198,7 +172,7 @@ impl Equations {
                 && part != Part::Dashpot
                 && let Some(column) = path.dof(b.0, b.1)
             {
-                base_shear.push((column, -value));
+                base_shear.add(column, -value);
             }
             match (path.dof(a.0, a.1), path.dof(b.0, b.1)) {
                 (Some(row), Some(column)) if row >= column => {
@@ -208,7 +182,7 @@ impl Equations {
                 (None, Some(column))
                     if of_supports && !on_soil && a.1 == X && part != Part::Dashpot =>
                 {
-                    base_shear.push((column, -value));
+                    base_shear.add(column, -value);
                 }
                 _ => {}
             }
@@ -218,11 +192,14 @@ impl Equations {
                 path.dof(a.0, a.1),
                 path.dof(b.0, b.1),
             ) {
-                base_shear.push((column, along * value));
+                base_shear.add(column, along * value);
             }
         }
         if !of_supports || on_soil {
-            base_shear = summed(&base_shear, n);
+            let mut sums = vec![0.0; n];
+            base_shear.push(1.0, &mut sums);
+            let sums = sums.into_iter().enumerate();
+            base_shear = sums.filter(|(_, sum)| *sum != 0.0).collect();
         }
         let springs = yielding_springs(stick_model, &path);
         let in_plan = stick_model.plan_mat.iter().flat_map(PlanMat::forces);
@@ -349,23 +326,14 @@ impl Equations {
     /// right \[N\].
     #[must_use]
     pub fn base_shear(&self, displacement: &[f64]) -> f64 {
-        self.base_shear
-            .iter()
-            .map(|(dof, stiffness)| stiffness * displacement[*dof])
-            .sum()
+        self.base_shear.value(displacement)
     }
 }
 
-/// Entries of one degree of freedom added up.
-fn summed(entries: &[(usize, f64)], count: usize) -> Vec<(usize, f64)> {
-    let mut sums = vec![0.0; count];
-    for (dof, value) in entries {
-        sums[*dof] += value;
-    }
-    sums.into_iter()
-        .enumerate()
-        .filter(|(_, value)| *value != 0.0)
-        .collect()
+/// The first displacement minus the second; `None` moves with the ground.
+fn between(dofs: [Option<usize>; 2]) -> impl Iterator<Item = (usize, f64)> {
+    let ends = dofs.into_iter().zip([1.0, -1.0]);
+    ends.filter_map(|(dof, sign)| Some((dof?, sign)))
 }
 
 fn yielding_springs(stick_model: &StickModel, path: &Path) -> Vec<YieldingSpring> {
@@ -378,8 +346,7 @@ fn yielding_springs(stick_model: &StickModel, path: &Path) -> Vec<YieldingSpring
                   damping: ProportionalDamping| {
         let dofs = [first, second].map(|node| path.dof(node, component));
         YieldingSpring {
-            dofs,
-            levers: [None; 2],
+            row: between(dofs).collect(),
             hysteresis,
             damped_by_tangent: damping == ProportionalDamping::Tangent,
             carries_base_shear: component == X && dofs.contains(&sway),
@@ -393,15 +360,10 @@ fn yielding_springs(stick_model: &StickModel, path: &Path) -> Vec<YieldingSpring
     // A storey is positive when its upper floor is to the right of its lower one.
     let storeys = stick_model.springs.iter().filter_map(|storey| {
         let [lower, upper] = storey.ends;
-        Some(YieldingSpring {
-            levers: [turning.zip(storey.lever), None],
-            ..spring(
-                [upper, lower],
-                X,
-                storey.hysteresis?,
-                storey.proportional_damping,
-            )
-        })
+        let damping = storey.proportional_damping;
+        let mut own = spring([upper, lower], X, storey.hysteresis?, damping);
+        own.row.extend(turning.zip(storey.lever));
+        Some(own)
     });
     let in_plan = stick_model.plan_springs.iter().map(|own| {
         let [lower, upper] = own.ends;
@@ -409,15 +371,11 @@ fn yielding_springs(stick_model: &StickModel, path: &Path) -> Vec<YieldingSpring
             let turning = path.dof(node, element::THETA)?;
             (arm != 0.0).then_some((turning, arm))
         };
-        YieldingSpring {
-            levers: [lever(upper, own.levers[1]), lever(lower, -own.levers[0])],
-            ..spring(
-                [upper, lower],
-                own.component,
-                own.hysteresis,
-                own.proportional_damping,
-            )
-        }
+        let levers = [lever(upper, own.levers[1]), lever(lower, -own.levers[0])];
+        let damping = own.proportional_damping;
+        let mut own = spring([upper, lower], own.component, own.hysteresis, damping);
+        own.row.extend(levers.into_iter().flatten());
+        own
     });
     let bearings = stick_model.plan_mat.iter().flat_map(|mat| {
         let dof = |component: usize| path.dof(mat.node, component);
@@ -430,8 +388,9 @@ fn yielding_springs(stick_model: &StickModel, path: &Path) -> Vec<YieldingSpring
             ];
             let rows = places.into_iter().zip(rows).enumerate();
             rows.map(move |(row, ((dofs, arm), hysteresis))| YieldingSpring {
-                dofs,
-                levers: [turning.zip((arm != 0.0).then_some(arm)), None],
+                row: between(dofs)
+                    .chain(turning.zip((arm != 0.0).then_some(arm)))
+                    .collect(),
                 hysteresis,
                 damped_by_tangent: false,
                 carries_base_shear: row == 0,

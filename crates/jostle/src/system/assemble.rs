@@ -590,10 +590,8 @@ fn inner_links(
                 shortening: ports
                     .sides()
                     .flat_map(|(port, sign)| {
-                        let entries = port.row.entries().to_vec();
-                        entries
-                            .into_iter()
-                            .map(move |(dof, share)| (dof, -sign * share))
+                        let entries = port.row.entries().iter();
+                        entries.map(move |(dof, share)| (*dof, -sign * share))
                     })
                     .collect(),
                 stiffness: link.initial_stiffness(),

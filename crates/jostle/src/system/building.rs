@@ -451,7 +451,7 @@ impl BuildingSystem {
             dashpot * spring.deformation(shape).powi(2)
         });
         let links = self.inner_links.iter();
-        let links = links.map(|link| link.damping * link.shortened_by(shape).powi(2));
+        let links = links.map(|link| link.damping * link.shortening.value(shape).powi(2));
         let beside = equations.dashpots.quadratic_form(shape);
         let damped = by_members + beside + springs.sum::<f64>() + links.sum::<f64>();
         0.5 * (equations.alpha + damped / mass) / mode.circular_frequency
@@ -463,7 +463,7 @@ impl BuildingSystem {
             return f64::NAN;
         };
         let links = self.inner_links.iter();
-        let links = links.map(|link| link.stiffness * link.shortened_by(&mode.shape).powi(2));
+        let links = links.map(|link| link.stiffness * link.shortening.value(&mode.shape).powi(2));
         mode.circular_frequency.powi(2) - links.sum::<f64>()
     }
 
@@ -492,7 +492,7 @@ impl BuildingSystem {
             equations.undamped.multiply_add(&unit, &mut column);
             for spring in &equations.springs {
                 let force = spring.hysteresis.initial_tangent() * spring.deformation(&unit);
-                spring.push(force, &mut column);
+                spring.row.push(force, &mut column);
             }
             for (i, &row) in along.iter().enumerate().skip(j) {
                 lower[i][j] = column[row] / (equations.mass[row] * equations.mass[dof]).sqrt();

@@ -193,7 +193,7 @@ impl Direct {
             for (spring, (damped, tangent)) in own.springs.iter().zip(damped.zip(tangents)) {
                 let rate = spring.deformation(velocity);
                 let change = own.tangent_dashpot(spring, *tangent) * rate;
-                spring.push(change, acceleration);
+                spring.row.push(change, acceleration);
                 *damped += change;
             }
         }
