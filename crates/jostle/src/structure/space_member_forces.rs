@@ -8,7 +8,7 @@ use super::space_frame::CondensedFrame;
 use super::space_joints::{JointedFrame, JointedMember};
 use super::spring_place::{MemberEnd, SpringPlace};
 use super::stick_model::DeformationElement;
-use crate::linear::sort_by_key;
+use crate::linear::{Row, sort_by_key};
 use crate::model::{PlanAxis, SpacePlace};
 use crate::structure::AssembledBuilding;
 
@@ -27,8 +27,7 @@ impl MemberForces {
             let mut add = |row: &[f64]| {
                 let entries = dofs.iter().zip(row);
                 let entries = entries.filter_map(|(dof, share)| Some(((*dof)?, *share)));
-                let mut displacement: Vec<(usize, f64)> = entries.collect();
-                displacement.retain(|(_, share)| *share != 0.0);
+                let displacement: Row = entries.filter(|(_, share)| *share != 0.0).collect();
                 if displacement.is_empty() {
                     return nothing;
                 }
@@ -179,7 +178,7 @@ impl JointedCuts<'_> {
             let moment = |end: MemberEnd, own: &LinearForm, sign: f64| {
                 let mut form = LinearForm::default();
                 match hinge(end, plane) {
-                    Some(spring) => form.springs.push((spring, 1.0)),
+                    Some(spring) => form.springs.add(spring, 1.0),
                     None => form.add(sign, own),
                 }
                 form

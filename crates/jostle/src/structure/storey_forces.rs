@@ -1,6 +1,6 @@
 //! Storey shears and overturning moments of one building.
 
-use crate::linear::counting_sort::in_order;
+use crate::linear::Row;
 use crate::model::LEVEL_TOLERANCE;
 use crate::structure::Equations;
 use crate::structure::StickModel;
@@ -24,13 +24,34 @@ pub struct StoreyForces {
 struct Storey {
     /// Height of the storey \[m\].
     height: f64,
-    /// Degree of freedom of the building, and the contribution of its displacement to the sum of forces \[N/m,
-    /// N/rad\] and to their moment about the base of the storey \[N, N·m/rad\].
-    of_displacements: Vec<(usize, [f64; 2])>,
+    /// What displacements of the building contribute to the sum of forces \[N/m, N/rad\] and to their moment about the base of the
+    /// storey \[N, N·m/rad\].
+    of_displacements: [Row; 2],
     /// Spring that yields, and the contribution of its force \[–, m\].
     of_springs: Vec<(usize, [f64; 2])>,
     /// Link between floors, among those of the building, and the contribution of its compression \[–, m\].
     of_links: Vec<(usize, [f64; 2])>,
+}
+
+/// Rounding errors of stiffnesses that cancel.
+const ROUNDING: f64 = 1e-13;
+
+impl Storey {
+    fn displace(&mut self, dof: usize, shares: [f64; 2]) {
+        for (row, share) in self.of_displacements.iter_mut().zip(shares) {
+            row.add(dof, share);
+        }
+    }
+
+    /// Adds up terms of one degree of freedom. Those that cancel are left out where they cancel in the moment as well.
+    fn merge(&mut self) {
+        let least = ROUNDING * self.of_displacements[0].greatest();
+        let [shear, moment] = self.of_displacements.each_ref().map(Row::summed);
+        let both = shear.entries().iter().zip(moment.entries());
+        let kept = both.filter(|((_, force), (_, moment))| force.abs().max(moment.abs()) > least);
+        let (shear, moment): (Vec<_>, Vec<_>) = kept.unzip();
+        self.of_displacements = [shear, moment].map(Row::from_iter);
+    }
 }
 
 /// Forces of a storey.
@@ -65,7 +86,7 @@ impl StoreyForces {
                 continue;
             };
             if let Some((storey, arm)) = found.arm(tops, stick_model.nodes[a.0].y) {
-                storey.of_displacements.push((dof, [value, arm * value]));
+                storey.displace(dof, [value, arm * value]);
             }
         }
         let frame_hinges = stick_model.hinges.iter().filter(|h| h.hysteresis.is_some());
@@ -81,9 +102,7 @@ impl StoreyForces {
                 }
             }
         }
-        for storey in &mut found.storeys {
-            storey.of_displacements = merged(&storey.of_displacements);
-        }
+        found.storeys.iter_mut().for_each(Storey::merge);
         found
     }
 
@@ -134,7 +153,7 @@ impl StoreyForces {
                     continue;
                 }
                 let force = share * value;
-                storey.of_displacements.push((dof, [force, arm * force]));
+                storey.displace(dof, [force, arm * force]);
             }
             let others = equations.single_springs - stick_model.plan_springs.len();
             for (index, spring) in stick_model.plan_springs.iter().enumerate() {
@@ -155,9 +174,7 @@ impl StoreyForces {
                     }
                 }
             }
-            for storey in &mut own.storeys {
-                storey.of_displacements = merged(&storey.of_displacements);
-            }
+            own.storeys.iter_mut().for_each(Storey::merge);
             all.storeys.append(&mut own.storeys);
         }
         all
@@ -216,17 +233,16 @@ impl StoreyForces {
             if (index + 1).is_multiple_of(self.per_direction) {
                 above = StoreyForce::default();
             }
+            let [shear, moment] = &storey.of_displacements;
+            let leaned = above.moment + above.shear * storey.height;
             let mut own = StoreyForce {
-                shear: above.shear,
-                moment: above.moment + above.shear * storey.height,
+                shear: shear.added_to(above.shear, displacement),
+                moment: moment.added_to(leaned, displacement),
             };
             let mut add = |[force, moment]: [f64; 2], by: f64| {
                 own.shear += force * by;
                 own.moment += moment * by;
             };
-            for (dof, share) in &storey.of_displacements {
-                add(*share, displacement[*dof]);
-            }
             for (index, share) in &storey.of_springs {
                 add(*share, spring(*index));
             }
@@ -238,26 +254,3 @@ impl StoreyForces {
         }
     }
 }
-
-/// Entries of one degree of freedom added up, without those that cancel.
-fn merged(entries: &[(usize, [f64; 2])]) -> Vec<(usize, [f64; 2])> {
-    let keys = entries.iter().map(|(dof, _)| dof + 1).max().unwrap_or(0);
-    let mut list: Vec<(usize, [f64; 2])> = Vec::new();
-    let greatest = entries
-        .iter()
-        .fold(0.0_f64, |most, (_, [force, _])| most.max(force.abs()));
-    for (dof, share) in in_order(entries, keys, |(dof, _)| *dof) {
-        match list.last_mut() {
-            Some((last, sum)) if *last == dof => {
-                sum[0] += share[0];
-                sum[1] += share[1];
-            }
-            _ => list.push((dof, share)),
-        }
-    }
-    list.retain(|(_, [force, moment])| force.abs().max(moment.abs()) > ROUNDING * greatest);
-    list
-}
-
-/// Rounding errors of stiffnesses that cancel.
-const ROUNDING: f64 = 1e-13;
