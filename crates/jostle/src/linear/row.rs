@@ -96,14 +96,18 @@ impl Row {
     #[must_use]
     #[inline]
     pub fn value(&self, values: &[f64]) -> f64 {
-        let [first, others @ ..] = self.entries() else {
-            return 0.0;
-        };
-        let mut sum = first.1 * values[first.0];
-        for (dof, share) in others {
-            sum += share * values[*dof];
+        match self.entries() {
+            [] => 0.0,
+            // Most are a displacement, or the difference of two.
+            [(dof, share)] => share * values[*dof],
+            [(a, of_a), (b, of_b), others @ ..] => {
+                let mut sum = of_a * values[*a] + of_b * values[*b];
+                for (dof, share) in others {
+                    sum += share * values[*dof];
+                }
+                sum
+            }
         }
-        sum
     }
 
     /// The value for numbers that are asked for one by one.
@@ -126,14 +130,8 @@ impl Row {
     #[must_use]
     #[inline]
     pub(crate) fn bound(&self, bounds: &[f64]) -> f64 {
-        let [first, others @ ..] = self.entries() else {
-            return 0.0;
-        };
-        let mut sum = first.1.abs() * bounds[first.0];
-        for (dof, share) in others {
-            sum += share.abs() * bounds[*dof];
-        }
-        sum
+        let entries = self.entries().iter();
+        entries.fold(0.0, |sum, (dof, share)| sum + share.abs() * bounds[*dof])
     }
 
     /// The value for several vectors at once, which stand side by side.

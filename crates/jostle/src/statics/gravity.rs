@@ -211,7 +211,7 @@ fn hung_on_nodes(
         for (_, a, b, value) in element::of_member(member, &stick_model.nodes).entries {
             if a.1 == Y {
                 // The member holds the node up with −K u.
-                for &(b, share) in &*stick_model.carried(b) {
+                for (b, share) in element::places(&stick_model.carried(b)) {
                     hung[a.0] += building
                         .equations
                         .dof(b)

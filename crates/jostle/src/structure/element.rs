@@ -1,6 +1,6 @@
 //! Stiffness of the massless elements between lumped masses, in global axes.
 
-use crate::linear::StepMatrix;
+use crate::linear::{Row, StepMatrix};
 use crate::model::ProportionalDamping;
 use crate::structure::{
     Coupling, DeformationElement, Hinge, Member, Node, RigidFoundation, Spring, StickModel,
@@ -12,8 +12,33 @@ pub(crate) const X: usize = 0;
 pub(crate) const Y: usize = 1;
 pub(crate) const THETA: usize = 2;
 
-/// End, and displacement component there.
+/// Node, and displacement component there.
 pub(crate) type Place = (usize, usize);
+
+/// Index of a displacement in rows over the displacements of nodes.
+pub(crate) fn index_of((node, component): Place) -> usize {
+    3 * node + component
+}
+
+/// Displacement of an index in these rows.
+pub(crate) fn place_of(index: usize) -> Place {
+    (index / 3, index % 3)
+}
+
+/// Displacements of nodes with their shares, as a row over these displacements.
+pub(crate) fn over_nodes(entries: impl IntoIterator<Item = (Place, f64)>) -> Row {
+    let entries = entries.into_iter();
+    entries
+        .map(|(place, share)| (index_of(place), share))
+        .collect()
+}
+
+/// Displacements of nodes in such a row, with their shares.
+pub(crate) fn places(row: &Row) -> impl Iterator<Item = (Place, f64)> + Clone {
+    row.entries()
+        .iter()
+        .map(|(index, share)| (place_of(*index), *share))
+}
 
 /// The matrix of a building that an entry belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -97,53 +122,26 @@ impl RigidFoundation {
     }
 }
 
-/// Displacements to which one is tied, each with its share of it.
-pub(crate) struct Carriers {
-    list: [(Place, f64); 3],
-    count: usize,
-}
-
-impl Carriers {
-    fn single(place: Place, share: f64) -> Self {
-        Self {
-            list: [(place, share); 3],
-            count: 1,
-        }
-    }
-}
-
-impl std::ops::Deref for Carriers {
-    type Target = [(Place, f64)];
-
-    fn deref(&self) -> &[(Place, f64)] {
-        &self.list[..self.count]
-    }
-}
-
 impl StickModel {
-    /// The displacements to which one is tied; itself if it is free.
-    pub(crate) fn carried(&self, place: Place) -> Carriers {
+    /// A displacement as a row over those of nodes to which it is tied; over itself if it is free.
+    pub(crate) fn carried(&self, place: Place) -> Row {
         if let Some(floor) = self.floor_of(place) {
             return floor;
         }
-        match &self.foundation {
-            Some(foundation) => {
-                let (place, share) = foundation.carries(place);
-                Carriers::single(place, share)
-            }
-            None => Carriers::single(place, 1.0),
-        }
+        let foundation = self.foundation.as_ref();
+        over_nodes([foundation.map_or((place, 1.0), |own| own.carries(place))])
     }
 
     /// The displacements of a floor that move a node of a frame along its line.
-    fn floor_of(&self, (node, component): Place) -> Option<Carriers> {
+    fn floor_of(&self, (node, component): Place) -> Option<Row> {
         let own = self.frame_nodes.get(node)?.as_ref()?;
         let floor = own.floor.filter(|_| component == X)?;
         let [x, y, turn] = own.shares;
-        Some(Carriers {
-            list: [((floor, X), x), ((floor, Y), y), ((floor, THETA), turn)],
-            count: 3,
-        })
+        Some(over_nodes([
+            ((floor, X), x),
+            ((floor, Y), y),
+            ((floor, THETA), turn),
+        ]))
     }
 
     /// What a force at a displacement adds to the horizontal forces along x and across, and to the torque about the centre of the
@@ -158,6 +156,29 @@ impl StickModel {
                 shares
             }
         }
+    }
+}
+
+impl Hinge {
+    /// How far its first end is turned against the second, over displacements of nodes.
+    pub(crate) fn rotation(&self) -> Row {
+        let [first, second] = self.ends;
+        over_nodes([((first, THETA), 1.0), ((second, THETA), -1.0)])
+    }
+}
+
+impl Spring {
+    /// Its deformation over displacements of nodes, which is positive where the upper floor of a storey is to the right of the lower
+    /// one.
+    pub(crate) fn deformation(&self, foundation: Option<&RigidFoundation>) -> Row {
+        let [lower, upper] = self.ends;
+        let turned = foundation.zip(self.lever);
+        let turned = turned.map(|(own, lever)| ((own.node, THETA), lever));
+        over_nodes(
+            [((upper, X), 1.0), ((lower, X), -1.0)]
+                .into_iter()
+                .chain(turned),
+        )
     }
 }
 
@@ -249,15 +270,9 @@ pub(crate) fn of_spring(spring: &Spring, foundation: Option<&RigidFoundation>) -
     let (yields, damping) = (spring.hysteresis.is_some(), spring.proportional_damping);
     for (part, value) in parts_of(spring.stiffness, yields, damping) {
         match (spring.lever, foundation) {
-            (Some(lever), Some(foundation)) => stiffness.combine(
-                part,
-                &[
-                    ((i, X), -1.0),
-                    ((j, X), 1.0),
-                    ((foundation.node, THETA), lever),
-                ],
-                value,
-            ),
+            (Some(_), Some(foundation)) => {
+                stiffness.combine(part, &spring.deformation(Some(foundation)), value);
+            }
             _ => stiffness.couple(part, (i, X), (j, X), value),
         }
     }
@@ -306,8 +321,8 @@ fn of_deformations(element: &DeformationElement) -> ElementStiffness {
             if i == j {
                 continue;
             }
-            for &(a, of_a) in first {
-                for &(b, of_b) in second {
+            for (a, of_a) in places(first) {
+                for (b, of_b) in places(second) {
                     let value = other * of_a * of_b;
                     stiffness.entries.push((Part::Elastic, a, b, value));
                 }
@@ -319,17 +334,10 @@ fn of_deformations(element: &DeformationElement) -> ElementStiffness {
 
 /// What yields between two floors in plan, as far as it is linear.
 fn of_plan_spring(spring: &StickPlanSpring) -> ElementStiffness {
-    let [lower, upper] = spring.ends;
-    let (initial, component) = (spring.hysteresis.backbone().initial(), spring.component);
+    let initial = spring.hysteresis.backbone().initial();
     let mut stiffness = ElementStiffness::default();
     for (part, value) in parts_of(initial, true, spring.proportional_damping) {
-        let shares = [
-            ((upper, component), 1.0),
-            ((lower, component), -1.0),
-            ((upper, THETA), spring.levers[1]),
-            ((lower, THETA), -spring.levers[0]),
-        ];
-        stiffness.combine(part, &shares, value);
+        stiffness.combine(part, &spring.row, value);
     }
     stiffness
 }
@@ -365,8 +373,8 @@ impl ElementStiffness {
     fn tie_to_floors(&mut self, stick_model: &StickModel) {
         let entries = std::mem::take(&mut self.entries);
         for (part, a, b, value) in entries {
-            for &(a, of_a) in &*stick_model.carried(a) {
-                for &(b, of_b) in &*stick_model.carried(b) {
+            for (a, of_a) in places(&stick_model.carried(a)) {
+                for (b, of_b) in places(&stick_model.carried(b)) {
                     let value = value * of_a * of_b;
                     if value != 0.0 {
                         self.entries.push((part, a, b, value));
@@ -376,10 +384,10 @@ impl ElementStiffness {
         }
     }
 
-    /// A spring that the sum of displacements times their shares stretches.
-    pub(crate) fn combine(&mut self, part: Part, shares: &[(Place, f64)], value: f64) {
-        for &(a, of_a) in shares {
-            for &(b, of_b) in shares {
+    /// A spring whose deformation is a row over displacements of nodes.
+    pub(crate) fn combine(&mut self, part: Part, row: &Row, value: f64) {
+        for (a, of_a) in places(row) {
+            for (b, of_b) in places(row) {
                 self.entries.push((part, a, b, value * of_a * of_b));
             }
         }

@@ -3,7 +3,7 @@
 use crate::hysteresis::{Hysteresis, HysteresisMemory};
 use crate::linear::{Row, SparseSymmetric};
 use crate::model::ProportionalDamping;
-use crate::structure::element::{self, Part, X, Y};
+use crate::structure::element::{self, Part, Place, X, Y, over_nodes};
 use crate::structure::path::Path;
 use crate::structure::{PlanMat, StickModel, Support};
 
@@ -113,9 +113,11 @@ impl Equations {
                 .into_iter()
                 .enumerate()
             {
-                let [(place, share)] = stick_model.carried((index, component))[..] else {
+                let carried = stick_model.carried((index, component));
+                let [(place, share)] = *carried.entries() else {
                     continue;
                 };
+                let place = element::place_of(place);
                 let Some(dof) = path.dof(place.0, place.1) else {
                     continue;
                 };
@@ -294,7 +296,7 @@ impl Equations {
     }
 
     /// Degree of freedom of (node, component).
-    pub(crate) fn dof(&self, place: element::Place) -> Option<usize> {
+    pub(crate) fn dof(&self, place: Place) -> Option<usize> {
         self.path.dof(place.0, place.1)
     }
 
@@ -330,67 +332,42 @@ impl Equations {
     }
 }
 
-/// The first displacement minus the second; `None` moves with the ground.
-fn between(dofs: [Option<usize>; 2]) -> impl Iterator<Item = (usize, f64)> {
-    let ends = dofs.into_iter().zip([1.0, -1.0]);
-    ends.filter_map(|(dof, sign)| Some((dof?, sign)))
-}
-
+/// Springs that yield: hinges, storeys, those in plan, then bearings.
 fn yielding_springs(stick_model: &StickModel, path: &Path) -> Vec<YieldingSpring> {
-    let foundation = stick_model.foundation.as_ref().map(|own| own.node);
-    let sway = foundation.and_then(|node| path.dof(node, X));
-    let turning = foundation.and_then(|node| path.dof(node, element::THETA));
-    let spring = |[first, second]: [usize; 2],
-                  component: usize,
-                  hysteresis: Hysteresis,
-                  damping: ProportionalDamping| {
-        let dofs = [first, second].map(|node| path.dof(node, component));
+    let foundation = stick_model.foundation.as_ref();
+    let sway = foundation.and_then(|own| path.dof(own.node, X));
+    let spring = |row: &Row, hysteresis: Hysteresis, damping: ProportionalDamping| {
+        let stands = |((node, component), _): (Place, f64)| {
+            component == X && path.dof(node, component) == sway
+        };
         YieldingSpring {
-            row: between(dofs).collect(),
+            row: path.row(row),
             hysteresis,
             damped_by_tangent: damping == ProportionalDamping::Tangent,
-            carries_base_shear: component == X && dofs.contains(&sway),
+            carries_base_shear: element::places(row).any(stands),
         }
     };
-    let hinges = stick_model.hinges.iter().filter_map(|hinge| {
-        let hysteresis = hinge.hysteresis?;
-        let damping = hinge.proportional_damping;
-        Some(spring(hinge.ends, element::THETA, hysteresis, damping))
+    let hinges = stick_model.hinges.iter().filter_map(|own| {
+        let row = own.rotation();
+        Some(spring(&row, own.hysteresis?, own.proportional_damping))
     });
-    // A storey is positive when its upper floor is to the right of its lower one.
-    let storeys = stick_model.springs.iter().filter_map(|storey| {
-        let [lower, upper] = storey.ends;
-        let damping = storey.proportional_damping;
-        let mut own = spring([upper, lower], X, storey.hysteresis?, damping);
-        own.row.extend(turning.zip(storey.lever));
-        Some(own)
+    let storeys = stick_model.springs.iter().filter_map(|own| {
+        let row = own.deformation(foundation);
+        Some(spring(&row, own.hysteresis?, own.proportional_damping))
     });
-    let in_plan = stick_model.plan_springs.iter().map(|own| {
-        let [lower, upper] = own.ends;
-        let lever = |node: usize, arm: f64| {
-            let turning = path.dof(node, element::THETA)?;
-            (arm != 0.0).then_some((turning, arm))
-        };
-        let levers = [lever(upper, own.levers[1]), lever(lower, -own.levers[0])];
-        let damping = own.proportional_damping;
-        let mut own = spring([upper, lower], own.component, own.hysteresis, damping);
-        own.row.extend(levers.into_iter().flatten());
-        own
-    });
+    let in_plan = stick_model.plan_springs.iter();
+    let in_plan = in_plan.map(|own| spring(&own.row, own.hysteresis, own.proportional_damping));
     let bearings = stick_model.plan_mat.iter().flat_map(|mat| {
-        let dof = |component: usize| path.dof(mat.node, component);
-        let [x, y, turning] = [dof(X), dof(Y), dof(element::THETA)];
-        mat.forces().flat_map(move |(rows, [along, across])| {
-            let places = [
-                ([x, None], along),
-                ([y, None], across),
-                ([x, y], along - across),
+        let [x, y, turning] = [X, Y, element::THETA].map(|component| (mat.node, component));
+        mat.forces().flat_map(move |(laws, [along, across])| {
+            let rows = [
+                over_nodes([(x, 1.0), (turning, along)]),
+                over_nodes([(y, 1.0), (turning, across)]),
+                over_nodes([(x, 1.0), (y, -1.0), (turning, along - across)]),
             ];
-            let rows = places.into_iter().zip(rows).enumerate();
-            rows.map(move |(row, ((dofs, arm), hysteresis))| YieldingSpring {
-                row: between(dofs)
-                    .chain(turning.zip((arm != 0.0).then_some(arm)))
-                    .collect(),
+            let rows = rows.into_iter().zip(laws).enumerate();
+            rows.map(|(row, (moved, hysteresis))| YieldingSpring {
+                row: path.row(&moved),
                 hysteresis,
                 damped_by_tangent: false,
                 carries_base_shear: row == 0,

@@ -442,7 +442,7 @@ impl<'a> Cuts<'a> {
         let mut rows = vec![[const { Vec::new() }; 3]; nodes.len()];
         for (part, a, b, value) in element::untied(stick_model).flat_map(|element| element.entries)
         {
-            for &(b, share) in &*stick_model.carried(b) {
+            for (b, share) in element::places(&stick_model.carried(b)) {
                 let value = value * share;
                 if let Some(dof) = building.equations.dof(b) {
                     rows[a.0][a.1].push((part, dof, value));
@@ -466,7 +466,8 @@ impl<'a> Cuts<'a> {
             if *a != place || *part == Part::Dashpot {
                 continue;
             }
-            for &(b, share) in &*self.building.discretization.stick_model.carried(*b) {
+            let stick_model = &self.building.discretization.stick_model;
+            for (b, share) in element::places(&stick_model.carried(*b)) {
                 if let Some(dof) = self.building.equations.dof(b) {
                     form.displacement.add(dof, sign * value * share);
                 }
@@ -558,10 +559,11 @@ impl<'a> Cuts<'a> {
                     Part::Elastic | Part::Undamped => form.displacement.add(*dof, -value),
                 }
             }
-            let [(place, share)] = stick_model.carried((index, Y))[..] else {
+            let carried = stick_model.carried((index, Y));
+            let [(place, share)] = *carried.entries() else {
                 continue;
             };
-            if let Some(dof) = equations.dof(place) {
+            if let Some(dof) = equations.dof(element::place_of(place)) {
                 let mass = stick_model.vertical_mass(index) * share;
                 form.acceleration.add(dof, -mass);
                 form.velocity.add(dof, -equations.alpha * mass);

@@ -1,7 +1,7 @@
 //! The transfer path: displacements of a building in the order of the recursion.
 
-use crate::linear::{sort_by, sort_by_key};
-use crate::structure::element::{THETA, X, Y};
+use crate::linear::{Row, sort_by, sort_by_key};
+use crate::structure::element::{THETA, X, Y, places};
 use crate::structure::{StickModel, Support};
 
 /// Degrees of freedom of a stick model in the order of the transfer path.
@@ -67,6 +67,14 @@ impl Path {
     /// Degree of freedom of a displacement of a node.
     pub(crate) fn dof(&self, node: usize, component: usize) -> Option<usize> {
         self.dofs[node][component]
+    }
+
+    /// A row over displacements of nodes as one over degrees of freedom; the ground does not move.
+    pub(crate) fn row(&self, over_nodes: &Row) -> Row {
+        let moved = places(over_nodes).filter(|(_, share)| *share != 0.0);
+        moved
+            .filter_map(|((node, component), share)| Some((self.dof(node, component)?, share)))
+            .collect()
     }
 
     /// Number of degrees of freedom.

@@ -7,10 +7,11 @@
 
 use std::ops::Range;
 
-use super::element::{Place, THETA, X, Y};
+use super::element::{Place, THETA, X, Y, over_nodes};
 use super::space_frame::{Assembly, Deformation, SpringMember, Unknown, planes};
 use super::spring_place::{MemberEnd, SpringPlace};
 use super::stick_model::{DeformationElement, FrameNode, Hinge, Node, StickModel, Support};
+use crate::linear::Row;
 use crate::model::{PlanAxis, SpaceFrame, SpaceMember, SpacePlace};
 
 /// A column or a beam of a space frame with hinges, and its elements in the stick model.
@@ -167,7 +168,7 @@ impl Builder<'_> {
         } = own;
         let mut add = |stiffness: [f64; 2], deformations: &[Deformation]| {
             let deformations = deformations.iter();
-            let deformations = deformations.map(|own| self.places_of(own, direction));
+            let deformations = deformations.map(|own| self.over_nodes(own, direction));
             self.sticks.deformation_elements.push(DeformationElement {
                 stiffness,
                 deformations: deformations.collect(),
@@ -233,8 +234,8 @@ impl Builder<'_> {
     }
 
     /// A deformation over displacements of nodes; those of floors are along the axes of the site.
-    fn places_of(&self, own: &Deformation, [c, s]: [f64; 2]) -> Vec<(Place, f64)> {
-        let mut list: Vec<(Place, f64)> = Vec::with_capacity(own.len() + 2);
+    fn over_nodes(&self, own: &Deformation, [c, s]: [f64; 2]) -> Row {
+        let mut list = Vec::with_capacity(own.len() + 2);
         let mut add =
             |place: Place, share: f64| match list.iter_mut().find(|(known, _)| *known == place) {
                 Some((_, sum)) => *sum += share,
@@ -260,8 +261,7 @@ impl Builder<'_> {
                 }
             }
         }
-        list.retain(|(_, share)| *share != 0.0);
-        list
+        over_nodes(list.into_iter().filter(|(_, share)| *share != 0.0))
     }
 
     fn joint_list(&self, frame: &SpaceFrame) -> Vec<JointNodes> {

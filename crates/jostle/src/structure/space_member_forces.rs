@@ -1,6 +1,6 @@
 //! Forces of columns and beams of space frames as linear forms of the motion.
 
-use super::element::{THETA, X, Y};
+use super::element::{THETA, X, Y, places};
 use super::member_forces::{
     LinearForm, MemberForces, MemberPlace, MemberSection, MemberSections, SectionAt,
 };
@@ -140,8 +140,8 @@ impl JointedCuts<'_> {
             let mut form = LinearForm::default();
             for (at, deformation) in deformations.iter().enumerate() {
                 let stiffness = if at == index { own } else { other };
-                let entries = deformation.iter().filter_map(|(place, share)| {
-                    Some((self.building.equations.dof(*place)?, stiffness * share))
+                let entries = places(deformation).filter_map(|(place, share)| {
+                    Some((self.building.equations.dof(place)?, stiffness * share))
                 });
                 form.displacement.extend(entries);
             }

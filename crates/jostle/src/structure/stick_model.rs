@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use crate::hysteresis::Hysteresis;
+use crate::linear::Row;
 use crate::model::ProportionalDamping;
 
 /// Lumped masses and the massless elements between them, in the plane.
@@ -210,14 +211,14 @@ impl Spring {
 }
 
 /// A spring at a point of a plan that yields.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct StickPlanSpring {
     /// The floor below, or the ground, and the floor above.
     pub ends: [usize; 2],
     /// Displacement there: 0 along x, 1 across.
     pub component: usize,
-    /// How far a rotation of either end moves the point in that direction \[m\].
-    pub levers: [f64; 2],
+    /// Its deformation over displacements of nodes, 3 × node + (0 along x, 1 across, 2 rotation).
+    pub row: Row,
     /// Place on the site \[m\].
     pub at: [f64; 2],
     /// What it remembers; positive is the displacement of the upper end against the lower one.
@@ -231,8 +232,8 @@ pub struct StickPlanSpring {
 pub struct DeformationElement {
     /// Force per deformation: of each by itself, and of each by the other \[N/m, N·m/rad\].
     pub stiffness: [f64; 2],
-    /// One or two deformations, as displacements of nodes (0 horizontal, 1 vertical, 2 rotation) with their shares.
-    pub deformations: Vec<Vec<((usize, usize), f64)>>,
+    /// One or two deformations over displacements of nodes, 3 × node + (0 along x, 1 across, 2 rotation).
+    pub deformations: Vec<Row>,
 }
 
 /// A mat on bearings that moves in both horizontal directions and turns.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::discretization::Discretization;
-use super::element::{X, Y};
+use super::element::{THETA, X, Y, over_nodes};
 use super::plan_frames::add_frames;
 use super::plan_mat::put_on_mat;
 use super::plan_matrix::{Part, PlanMatrix};
@@ -95,10 +95,18 @@ pub(super) fn discretize_tiers(
             motion_at(own.at, mat.tier.centre)[axis.index()][2]
         });
         let below = storey.checked_sub(1);
+        let ends = [below.map_or(foot, |below| floors[below]), floors[storey]];
+        let component = [X, Y][axis.index()];
+        let [lower, upper] = ends;
         stick_model.plan_springs.push(StickPlanSpring {
-            ends: [below.map_or(foot, |below| floors[below]), floors[storey]],
-            component: [X, Y][axis.index()],
-            levers: [below.map_or(arm_of_mat, arm), arm(storey)],
+            ends,
+            component,
+            row: over_nodes([
+                ((upper, component), 1.0),
+                ((lower, component), -1.0),
+                ((upper, THETA), arm(storey)),
+                ((lower, THETA), -below.map_or(arm_of_mat, arm)),
+            ]),
             at: own.at,
             hysteresis: own.hysteresis,
             proportional_damping: ProportionalDamping::Initial,
