@@ -30,8 +30,11 @@ const ROUNDING: f64 = 1e-13;
 #[derive(Clone, Debug)]
 pub struct Row(Terms);
 
+/// Most rows are one displacement or the difference of two: these are told apart by one comparison.
 #[derive(Clone, Debug)]
 enum Terms {
+    One((usize, f64)),
+    Two([(usize, f64); 2]),
     Few(u32, [(usize, f64); FEW]),
     Many(Vec<(usize, f64)>),
 }
@@ -46,12 +49,16 @@ impl Row {
     /// Degrees of freedom with their shares; none is a point that does not move.
     #[must_use]
     pub fn new(entries: &[(usize, f64)]) -> Self {
-        if entries.len() > FEW {
-            return Self(Terms::Many(entries.to_vec()));
-        }
-        let mut few = [(0, 0.0); FEW];
-        few[..entries.len()].copy_from_slice(entries);
-        Self(Terms::Few(entries.len() as u32, few))
+        Self(match *entries {
+            [one] => Terms::One(one),
+            [first, second] => Terms::Two([first, second]),
+            _ if entries.len() > FEW => Terms::Many(entries.to_vec()),
+            _ => {
+                let mut few = [(0, 0.0); FEW];
+                few[..entries.len()].copy_from_slice(entries);
+                Terms::Few(entries.len() as u32, few)
+            }
+        })
     }
 
     /// Degrees of freedom with their shares.
@@ -59,6 +66,8 @@ impl Row {
     #[inline]
     pub fn entries(&self) -> &[(usize, f64)] {
         match &self.0 {
+            Terms::One(one) => std::slice::from_ref(one),
+            Terms::Two(two) => two,
             Terms::Few(count, few) => &few[..*count as usize],
             Terms::Many(many) => many,
         }
@@ -66,6 +75,8 @@ impl Row {
 
     fn entries_mut(&mut self) -> &mut [(usize, f64)] {
         match &mut self.0 {
+            Terms::One(one) => std::slice::from_mut(one),
+            Terms::Two(two) => two,
             Terms::Few(count, few) => &mut few[..*count as usize],
             Terms::Many(many) => many,
         }
@@ -96,18 +107,22 @@ impl Row {
     #[must_use]
     #[inline]
     pub fn value(&self, values: &[f64]) -> f64 {
-        match self.entries() {
-            [] => 0.0,
-            // Most are a displacement, or the difference of two.
-            [(dof, share)] => share * values[*dof],
-            [(a, of_a), (b, of_b), others @ ..] => {
-                let mut sum = of_a * values[*a] + of_b * values[*b];
-                for (dof, share) in others {
-                    sum += share * values[*dof];
-                }
-                sum
-            }
+        match &self.0 {
+            Terms::One((dof, share)) => share * values[*dof],
+            Terms::Two([(a, of_a), (b, of_b)]) => of_a * values[*a] + of_b * values[*b],
+            Terms::Few(..) | Terms::Many(_) => self.sum(values),
         }
+    }
+
+    fn sum(&self, values: &[f64]) -> f64 {
+        let [first, others @ ..] = self.entries() else {
+            return 0.0;
+        };
+        let mut sum = first.1 * values[first.0];
+        for (dof, share) in others {
+            sum += share * values[*dof];
+        }
+        sum
     }
 
     /// The value for numbers that are asked for one by one.
@@ -116,14 +131,6 @@ impl Row {
     pub fn value_of(&self, number: impl Fn(usize) -> f64) -> f64 {
         let entries = self.entries().iter();
         entries.map(|(dof, share)| share * number(*dof)).sum()
-    }
-
-    /// A number with the value added to it, term by term.
-    #[must_use]
-    #[inline]
-    pub fn added_to(&self, sum: f64, values: &[f64]) -> f64 {
-        let entries = self.entries().iter();
-        entries.fold(sum, |sum, (dof, share)| sum + share * values[*dof])
     }
 
     /// The most that it can be where displacements are within bounds.
@@ -150,8 +157,17 @@ impl Row {
     /// Adds a force along it to a load on all degrees of freedom.
     #[inline]
     pub fn push(&self, force: f64, load: &mut [f64]) {
-        for (dof, share) in self.entries() {
-            load[*dof] += share * force;
+        match &self.0 {
+            Terms::One((dof, share)) => load[*dof] += share * force,
+            Terms::Two([(a, of_a), (b, of_b)]) => {
+                load[*a] += of_a * force;
+                load[*b] += of_b * force;
+            }
+            Terms::Few(..) | Terms::Many(_) => {
+                for (dof, share) in self.entries() {
+                    load[*dof] += share * force;
+                }
+            }
         }
     }
 
@@ -262,18 +278,14 @@ impl PartialEq for Row {
 impl Extend<(usize, f64)> for Row {
     fn extend<I: IntoIterator<Item = (usize, f64)>>(&mut self, entries: I) {
         for entry in entries {
-            match &mut self.0 {
-                Terms::Few(count, few) if (*count as usize) < FEW => {
-                    few[*count as usize] = entry;
-                    *count += 1;
-                }
-                Terms::Few(_, few) => {
-                    let mut many = few.to_vec();
-                    many.push(entry);
-                    self.0 = Terms::Many(many);
-                }
-                Terms::Many(many) => many.push(entry),
+            if let Terms::Many(many) = &mut self.0 {
+                many.push(entry);
+                continue;
             }
+            let count = self.entries().len();
+            let mut list = [entry; FEW + 1];
+            list[..count].copy_from_slice(self.entries());
+            *self = Self::new(&list[..=count]);
         }
     }
 }

@@ -25,7 +25,7 @@ struct Storey {
     /// Height of the storey \[m\].
     height: f64,
     /// What displacements of the building contribute to the sum of forces \[N/m, N/rad\] and to their moment about the base of the
-    /// storey \[N, N·m/rad\].
+    /// storey \[N, N·m/rad\], over the same degrees of freedom.
     of_displacements: [Row; 2],
     /// Spring that yields, and the contribution of its force \[–, m\].
     of_springs: Vec<(usize, [f64; 2])>,
@@ -233,16 +233,18 @@ impl StoreyForces {
             if (index + 1).is_multiple_of(self.per_direction) {
                 above = StoreyForce::default();
             }
-            let [shear, moment] = &storey.of_displacements;
-            let leaned = above.moment + above.shear * storey.height;
             let mut own = StoreyForce {
-                shear: shear.added_to(above.shear, displacement),
-                moment: moment.added_to(leaned, displacement),
+                shear: above.shear,
+                moment: above.moment + above.shear * storey.height,
             };
             let mut add = |[force, moment]: [f64; 2], by: f64| {
                 own.shear += force * by;
                 own.moment += moment * by;
             };
+            let [shear, moment] = storey.of_displacements.each_ref().map(Row::entries);
+            for ((dof, force), (_, moment)) in shear.iter().zip(moment) {
+                add([*force, *moment], displacement[*dof]);
+            }
             for (index, share) in &storey.of_springs {
                 add(*share, spring(*index));
             }
