@@ -60,13 +60,18 @@ pub fn compressions(building: &AssembledBuilding, gravity: f64) -> Result<Vec<f6
             }
             let [a, b] = member.ends.map(|end| nodes[end]);
             let top = a.y.max(b.y);
+            let elevation = |node: usize| stick_model.turn(node).elevation;
+            let own = elevation(member.ends[0]);
             let on_line = nodes
                 .iter()
                 .zip(&hung)
-                .filter(|(node, _)| (node.x - a.x).abs() < SAME_LINE);
+                .enumerate()
+                .filter(|(index, (node, _))| {
+                    (node.x - a.x).abs() < SAME_LINE && elevation(*index) == own
+                });
             on_line
-                .filter(|(node, _)| node.y > top - SAME_LINE)
-                .map(|(_, weight)| weight)
+                .filter(|(_, (node, _))| node.y > top - SAME_LINE)
+                .map(|(_, (_, weight))| weight)
                 .sum()
         })
         .collect())

@@ -546,10 +546,13 @@ impl<'a> Cuts<'a> {
     fn carried_by_column(&self, cut: &Element) -> LinearForm {
         let stick_model = &self.building.discretization.stick_model;
         let top = stick_model.nodes[cut.ends[1]];
+        let elevation = stick_model.turn(cut.ends[1]).elevation;
         let equations = &self.building.equations;
         let mut form = LinearForm::default();
         for (index, node) in stick_model.nodes.iter().enumerate() {
-            if (node.x - top.x).abs() > SAME_LINE || node.y < top.y - SAME_LINE {
+            let beside = stick_model.turn(index).elevation != elevation
+                || (node.x - top.x).abs() > SAME_LINE;
+            if beside || node.y < top.y - SAME_LINE {
                 continue;
             }
             for (part, dof, value) in &self.rows[index][Y] {

@@ -8,6 +8,7 @@ mod foundation;
 mod inner_link;
 mod member_end;
 mod member_forces;
+mod order;
 mod path;
 mod plan_frames;
 mod plan_mat;
@@ -33,6 +34,7 @@ pub use member_forces::{
     FrameMember, JointCore, LinearForm, MemberForces, MemberPlace, MemberSection, MemberSections,
     SectionAt,
 };
+pub use order::{Stage, Turn};
 pub use space_frame::{Bending, CondensedFrame, CondensedJoint, CondensedMember};
 pub use space_joints::{JointNodes, JointedFrame, JointedMember};
 pub use spring_place::{BaseMotion, MemberEnd, SpringPlace};

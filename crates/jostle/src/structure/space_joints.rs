@@ -8,6 +8,7 @@
 use std::ops::Range;
 
 use super::element::{Place, THETA, X, Y, over_nodes};
+use super::order::{Stage, Turn};
 use super::space_frame::{Assembly, Deformation, SpringMember, Unknown, planes};
 use super::spring_place::{MemberEnd, SpringPlace};
 use super::stick_model::{DeformationElement, FrameNode, Hinge, Node, StickModel, Support};
@@ -62,10 +63,7 @@ pub(super) fn add_space_joints(
     let (frame, storey_heights) = (assembly.frame, assembly.heights);
     let floors = &moving[moving.len() - storey_heights.len()..];
     let joint_nodes = add_joints(&assembly, sticks, floors);
-    // Floors, and the mat, come after all joints at their height.
-    for &node in moving {
-        sticks.nodes[node].x = assembly.joints.count as f64;
-    }
+    sticks.eliminate_after_joints(moving.iter().copied(), floors[0]);
     let mut builder = Builder {
         assembly,
         sticks,
@@ -112,19 +110,18 @@ fn add_joints(assembly: &Assembly<'_>, sticks: &mut StickModel, floors: &[usize]
     let first = sticks.nodes.len();
     for (unknown, level) in levels.into_iter().enumerate() {
         let height = sticks.nodes[floors[level]].y;
-        sticks.add_turning(unknown as f64, height, level);
+        sticks.add_turning(Stage::Joints, unknown, height, level);
     }
-    sticks.space_joints = first..sticks.nodes.len();
-    sticks.space_joints.clone()
+    first..sticks.nodes.len()
 }
 
 impl StickModel {
     /// Adds a node without mass that has a single displacement, its rotation, and belongs to no floor.
-    fn add_turning(&mut self, x: f64, height: f64, level: usize) -> usize {
+    fn add_turning(&mut self, stage: Stage, number: usize, height: f64, level: usize) -> usize {
         let index = self.nodes.len();
         self.frame_nodes.resize(index, None);
         self.nodes.push(Node {
-            x,
+            x: 0.0,
             y: height,
             mass: 0.0,
             rotary_inertia: 0.0,
@@ -138,6 +135,13 @@ impl StickModel {
             counted_elsewhere: true,
             vertical_mass: 0.0,
         }));
+        let turn = Turn {
+            stage: Some(stage),
+            height,
+            elevation: 0,
+            position: number as f64,
+        };
+        self.turns.insert(index, turn);
         index
     }
 }
@@ -209,8 +213,9 @@ impl Builder<'_> {
             let node = {
                 let moving = self.assembly.moving(floor);
                 let at = self.sticks.nodes[moving.map_or(self.ground, |own| self.moving[own])];
-                let x = self.ends.len() as f64;
-                self.sticks.add_turning(x, at.y, floor.unwrap_or(0))
+                let number = self.ends.len();
+                self.sticks
+                    .add_turning(Stage::Beams, number, at.y, floor.unwrap_or(0))
             };
             let joint_leads = (is_column == (end == MemberEnd::First)) == (slope > 0.0);
             let ends = if joint_leads {

@@ -1,7 +1,9 @@
 //! Lumped masses joined by massless beams, hinges and springs.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
+use super::order::Turn;
 use crate::hysteresis::Hysteresis;
 use crate::linear::Row;
 use crate::model::ProportionalDamping;
@@ -21,8 +23,6 @@ pub struct StickModel {
     pub couplings: Vec<Coupling>,
     /// Members of a space frame whose joints have displacements of their own.
     pub deformation_elements: Vec<DeformationElement>,
-    /// Nodes that are the displacements of its joints.
-    pub space_joints: Range<usize>,
     /// Nodes that are rotations of member ends beyond hinges.
     pub space_ends: Range<usize>,
     /// Springs between floors in plan that yield.
@@ -37,6 +37,8 @@ pub struct StickModel {
     pub frame_nodes: Vec<Option<FrameNode>>,
     /// Masses that act on one displacement of a node alone: node, displacement, mass \[kg\].
     pub one_way_masses: Vec<(usize, usize, f64)>,
+    /// Nodes that are not eliminated in the order of their coordinates.
+    pub turns: BTreeMap<usize, Turn>,
     /// Rigid foundation on springs and dashpots, if it stands on one.
     pub foundation: Option<RigidFoundation>,
 }
