@@ -2,10 +2,7 @@
 
 use crate::linear::{Row, StepMatrix};
 use crate::model::ProportionalDamping;
-use crate::structure::{
-    Coupling, DeformationElement, Hinge, Member, Node, RigidFoundation, Spring, StickModel,
-    StickPlanSpring,
-};
+use crate::structure::{Hinge, Member, Node, RigidFoundation, Spring, StickModel, StickPlanSpring};
 
 /// Displacement of a node: horizontal, vertical, rotation.
 pub(crate) const X: usize = 0;
@@ -42,7 +39,7 @@ pub(crate) fn places(row: &Row) -> impl Iterator<Item = (Place, f64)> + Clone {
 
 /// The matrix of a building that an entry belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Part {
+pub enum Part {
     /// K: stiffness that takes part in stiffness-proportional damping.
     Elastic,
     /// K′: stiffness that does not: P-Delta, and the springs of a base.
@@ -58,6 +55,56 @@ impl Part {
             Self::Elastic => matrix.stiffness,
             Self::Undamped => 1.0,
             Self::Dashpot => matrix.dashpots,
+        }
+    }
+}
+
+/// A massless element over displacements of nodes, 3 × node + (0 horizontal, 1 vertical, 2 rotation). Its stiffness may be
+/// negative.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Element {
+    /// A spring or a dashpot between any points, in any direction.
+    Spring {
+        /// The matrix to which it belongs.
+        part: Part,
+        /// Force per deformation \[N/m, N·m/rad; times s for dashpots\].
+        stiffness: f64,
+        /// Its deformation.
+        row: Row,
+    },
+    /// Bending between two ends, part of K.
+    Bend {
+        /// Moment per deformation: of each end by itself, and of each by the other \[N·m/rad\].
+        stiffness: [f64; 2],
+        /// How far either end is bent.
+        rows: [Row; 2],
+    },
+}
+
+impl Element {
+    /// A spring or a dashpot that the difference of two displacements stretches.
+    pub(crate) fn between([a, b]: [Place; 2], part: Part, stiffness: f64) -> Self {
+        Self::Spring {
+            part,
+            stiffness,
+            row: over_nodes([(a, 1.0), (b, -1.0)]),
+        }
+    }
+
+    /// Its deformations.
+    #[must_use]
+    pub fn deformations(&self) -> &[Row] {
+        match self {
+            Self::Spring { row, .. } => std::slice::from_ref(row),
+            Self::Bend { rows, .. } => rows,
+        }
+    }
+
+    /// Force per deformation: of each by itself, and of each by the other.
+    pub(crate) fn stiffness(&self) -> [f64; 2] {
+        match self {
+            Self::Spring { stiffness, .. } => [*stiffness, 0.0],
+            Self::Bend { stiffness, .. } => *stiffness,
         }
     }
 }
@@ -106,8 +153,8 @@ pub(crate) fn untied(stick_model: &StickModel) -> impl Iterator<Item = ElementSt
                 .iter()
                 .map(move |spring| of_spring(spring, foundation)),
         )
-        .chain(stick_model.couplings.iter().map(of_coupling))
-        .chain(stick_model.deformation_elements.iter().map(of_deformations))
+        .chain(stick_model.elements.iter().map(of_element))
+        .chain(stick_model.space_elements.iter().map(of_element))
         .chain(stick_model.plan_springs.iter().map(of_plan_spring))
         .chain(foundation.map(of_soil))
 }
@@ -301,30 +348,29 @@ fn of_soil(foundation: &RigidFoundation) -> ElementStiffness {
     stiffness
 }
 
-/// Entry of a given matrix.
-fn of_coupling(coupling: &Coupling) -> ElementStiffness {
-    let [a, b] = coupling.ends;
+/// Of two deformations k₁₁ d₁d₁ᵀ + k₁₁ d₂d₂ᵀ + k₁₂ (d₁d₂ᵀ + d₂d₁ᵀ).
+fn of_element(element: &Element) -> ElementStiffness {
     let mut stiffness = ElementStiffness::default();
-    stiffness.couple(Part::Elastic, a, b, coupling.stiffness);
-    stiffness.couple(Part::Undamped, a, b, -coupling.softening);
-    stiffness.couple(Part::Dashpot, a, b, coupling.dashpot);
-    stiffness
-}
-
-/// k₁₁ d₁d₁ᵀ + k₁₁ d₂d₂ᵀ + k₁₂ (d₁d₂ᵀ + d₂d₁ᵀ).
-fn of_deformations(element: &DeformationElement) -> ElementStiffness {
-    let mut stiffness = ElementStiffness::default();
-    let [own, other] = element.stiffness;
-    for (i, first) in element.deformations.iter().enumerate() {
-        stiffness.combine(Part::Elastic, first, own);
-        for (j, second) in element.deformations.iter().enumerate() {
-            if i == j {
-                continue;
-            }
-            for (a, of_a) in places(first) {
-                for (b, of_b) in places(second) {
-                    let value = other * of_a * of_b;
-                    stiffness.entries.push((Part::Elastic, a, b, value));
+    match element {
+        Element::Spring {
+            part,
+            stiffness: value,
+            row,
+        } => match *row.entries() {
+            [(a, 1.0), (b, -1.0)] => stiffness.couple(*part, place_of(a), place_of(b), *value),
+            _ => stiffness.combine(*part, row, *value),
+        },
+        Element::Bend {
+            stiffness: [own, other],
+            rows: [first, second],
+        } => {
+            for (row, across) in [(first, second), (second, first)] {
+                stiffness.combine(Part::Elastic, row, *own);
+                for (a, of_a) in places(row) {
+                    for (b, of_b) in places(across) {
+                        let value = other * of_a * of_b;
+                        stiffness.entries.push((Part::Elastic, a, b, value));
+                    }
                 }
             }
         }

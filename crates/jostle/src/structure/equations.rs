@@ -152,10 +152,10 @@ impl Equations {
         }
         let mut triplets = [Vec::new(), Vec::new(), Vec::new()];
         let mut base_shear = Row::default();
-        // What couplings leave of a row at the ground is no force there: the base shear is the sum of all rows.
+        // What elements of a matrix leave of a row at the ground is no force there: the base shear is the sum of all rows.
         let on_soil = stick_model.foundation.is_some();
         let of_supports =
-            stick_model.couplings.is_empty() && stick_model.frame_nodes.is_empty() || on_soil;
+            stick_model.elements.is_empty() && stick_model.frame_nodes.is_empty() || on_soil;
         // Over a foundation, the base shear is what it takes from the building above.
         let sway = stick_model.foundation.as_ref();
         let sway = sway.and_then(|foundation| path.dof(foundation.node, X));

@@ -1,8 +1,8 @@
 //! Buildings on rigid foundations.
 
 use super::Discretization;
-use super::element::{Place, THETA, X, Y, over_nodes, places};
-use super::stick_model::{Coupling, RigidFoundation, StickModel, Support};
+use super::element::{Element, Part, Place, THETA, X, Y, over_nodes, places};
+use super::stick_model::{RigidFoundation, StickModel, Support};
 use crate::linear::Row;
 use crate::model::Foundation;
 
@@ -135,12 +135,8 @@ impl StickModel {
     fn add_dashpot(&mut self, ground: usize, row: &Row, value: f64) {
         let mut add = |ends: [Place; 2], dashpot: f64| {
             if dashpot != 0.0 {
-                self.couplings.push(Coupling {
-                    ends,
-                    stiffness: 0.0,
-                    softening: 0.0,
-                    dashpot,
-                });
+                self.elements
+                    .push(Element::between(ends, Part::Dashpot, dashpot));
             }
         };
         let sum: f64 = row.entries().iter().map(|(_, share)| share).sum();

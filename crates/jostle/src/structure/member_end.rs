@@ -19,10 +19,11 @@ pub(crate) fn end_stiffnesses(stick_model: &StickModel) -> Vec<Option<f64>> {
     let yielding = stick_model.hinges.iter().filter(|h| h.hysteresis.is_some());
     // In a space frame k₁₁ + k₁₂ is that stiffness.
     let mut in_space = vec![None; stick_model.nodes.len()];
-    for element in &stick_model.deformation_elements {
-        for ((node, _), _) in element.deformations.iter().flat_map(places) {
+    for element in &stick_model.space_elements {
+        let [own, other] = element.stiffness();
+        for ((node, _), _) in element.deformations().iter().flat_map(places) {
             if stick_model.space_ends.contains(&node) {
-                in_space[node] = Some(element.stiffness[0] + element.stiffness[1]);
+                in_space[node] = Some(own + other);
             }
         }
     }

@@ -26,6 +26,7 @@ mod tiers;
 
 pub use assembled_building::AssembledBuilding;
 pub use discretization::{Discretization, Mat};
+pub use element::{Element, Part};
 pub use equations::{Equations, YieldingSpring};
 pub use inner_link::InnerLink;
 pub(crate) use member_end::{ductility, end_stiffnesses};
@@ -40,8 +41,8 @@ pub use space_joints::{JointNodes, JointedFrame, JointedMember};
 pub use spring_place::{BaseMotion, MemberEnd, SpringPlace};
 pub use step_equations::{StepEquations, solve_once};
 pub use stick_model::{
-    Coupling, DeformationElement, FrameNode, Hinge, Member, Node, PlanMat, RigidFoundation, Spring,
-    StickModel, StickPlanSpring, Support,
+    FrameNode, Hinge, Member, Node, PlanMat, RigidFoundation, Spring, StickModel, StickPlanSpring,
+    Support,
 };
 pub use storey_forces::{StoreyForce, StoreyForces};
 pub(crate) use tiers::motion_at;

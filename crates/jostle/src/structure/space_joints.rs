@@ -7,11 +7,11 @@
 
 use std::ops::Range;
 
-use super::element::{Place, THETA, X, Y, over_nodes};
+use super::element::{Element, Part, Place, THETA, X, Y, over_nodes};
 use super::order::{Stage, Turn};
 use super::space_frame::{Assembly, Deformation, SpringMember, Unknown, planes};
 use super::spring_place::{MemberEnd, SpringPlace};
-use super::stick_model::{DeformationElement, FrameNode, Hinge, Node, StickModel, Support};
+use super::stick_model::{FrameNode, Hinge, Node, StickModel, Support};
 use crate::linear::Row;
 use crate::model::{PlanAxis, SpaceFrame, SpaceMember, SpacePlace};
 
@@ -170,25 +170,29 @@ impl Builder<'_> {
             bending,
             across,
         } = own;
-        let mut add = |stiffness: [f64; 2], deformations: &[Deformation]| {
-            let deformations = deformations.iter();
-            let deformations = deformations.map(|own| self.over_nodes(own, direction));
-            self.sticks.deformation_elements.push(DeformationElement {
-                stiffness,
-                deformations: deformations.collect(),
-            });
-            self.sticks.deformation_elements.len() - 1
+        let row = |own: &Deformation| self.over_nodes(own, direction);
+        let single = |(stiffness, own): &(f64, Deformation)| Element::Spring {
+            part: Part::Elastic,
+            stiffness: *stiffness,
+            row: row(own),
+        };
+        let bend = |(stiffness, own): &([f64; 2], [Deformation; 2])| Element::Bend {
+            stiffness: *stiffness,
+            rows: own.each_ref().map(row),
+        };
+        let (axial, torsion) = (axial.as_ref().map(single), single(&torsion));
+        let (bending, across) = (bend(&bending), across.as_ref().map(bend));
+        let mut add = |element: Element| {
+            self.sticks.space_elements.push(element);
+            self.sticks.space_elements.len() - 1
         };
         JointedMember {
             place: member.place,
             heights: [0.0; 2],
             length,
-            axial: axial.map(|(stiffness, own)| add([stiffness, 0.0], &[own])),
-            torsion: add([torsion.0, 0.0], &[torsion.1]),
-            bending: [
-                Some(add(bending.0, &bending.1)),
-                across.map(|(stiffness, own)| add(stiffness, &own)),
-            ],
+            axial: axial.map(&mut add),
+            torsion: add(torsion),
+            bending: [Some(add(bending)), across.map(&mut add)],
         }
     }
 

@@ -7,7 +7,6 @@ use super::member_forces::{
 use super::space_frame::CondensedFrame;
 use super::space_joints::{JointedFrame, JointedMember};
 use super::spring_place::{MemberEnd, SpringPlace};
-use super::stick_model::DeformationElement;
 use crate::linear::{Row, sort_by_key};
 use crate::model::{PlanAxis, SpacePlace};
 use crate::structure::AssembledBuilding;
@@ -132,10 +131,8 @@ impl JointedCuts<'_> {
     /// The forces that belong to the deformations of an element.
     fn forces(&self, element: usize) -> Vec<LinearForm> {
         let sticks = &self.building.discretization.stick_model;
-        let DeformationElement {
-            stiffness: [own, other],
-            deformations,
-        } = &sticks.deformation_elements[element];
+        let element = &sticks.space_elements[element];
+        let ([own, other], deformations) = (element.stiffness(), element.deformations());
         let force = |index: usize| {
             let mut form = LinearForm::default();
             for (at, deformation) in deformations.iter().enumerate() {

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+use super::element::Element;
 use super::order::Turn;
 use crate::hysteresis::Hysteresis;
 use crate::linear::Row;
@@ -19,10 +20,10 @@ pub struct StickModel {
     pub hinges: Vec<Hinge>,
     /// Horizontal springs.
     pub springs: Vec<Spring>,
-    /// Entries of given matrices.
-    pub couplings: Vec<Coupling>,
+    /// Springs and dashpots between any displacements, such as those that stand for entries of given matrices.
+    pub elements: Vec<Element>,
     /// Members of a space frame whose joints have displacements of their own.
-    pub deformation_elements: Vec<DeformationElement>,
+    pub space_elements: Vec<Element>,
     /// Nodes that are rotations of member ends beyond hinges.
     pub space_ends: Range<usize>,
     /// Springs between floors in plan that yield.
@@ -229,15 +230,6 @@ pub struct StickPlanSpring {
     pub proportional_damping: ProportionalDamping,
 }
 
-/// A stiffness over one deformation, or over two that are coupled: an element of a member of a space frame.
-#[derive(Clone, Debug, PartialEq)]
-pub struct DeformationElement {
-    /// Force per deformation: of each by itself, and of each by the other \[N/m, N·m/rad\].
-    pub stiffness: [f64; 2],
-    /// One or two deformations over displacements of nodes, 3 × node + (0 along x, 1 across, 2 rotation).
-    pub deformations: Vec<Row>,
-}
-
 /// A mat on bearings that moves in both horizontal directions and turns.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlanMat {
@@ -264,18 +256,4 @@ impl PlanMat {
         });
         sliders.chain(self.ring.map(|ring| (ring, [0.0; 2])))
     }
-}
-
-/// A spring and dashpot between any two displacements, as an entry of a given matrix off its diagonal stands for one. Its
-/// stiffness and its dashpot may be negative.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Coupling {
-    /// Node and displacement there, twice: 0 horizontal, 1 vertical, 2 rotation.
-    pub ends: [(usize, usize); 2],
-    /// Force per difference of both \[N/m, N, N·m\].
-    pub stiffness: f64,
-    /// What P-Delta takes from the stiffness, negative for bearings; stiffness-proportional damping does not act on it.
-    pub softening: f64,
-    /// Force per difference of their rates \[N·s/m, N·s, N·m·s\].
-    pub dashpot: f64,
 }

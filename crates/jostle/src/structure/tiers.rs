@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use super::discretization::Discretization;
-use super::element::{THETA, X, Y, over_nodes};
+use super::element::{Part, THETA, X, Y, over_nodes};
 use super::plan_frames::add_frames;
 use super::plan_mat::put_on_mat;
-use super::plan_matrix::{Part, PlanMatrix};
+use super::plan_matrix::PlanMatrix;
 use super::space_frame::{Assembly, condense};
 use super::space_joints::add_space_joints;
 use super::spring_place::SpringPlace;
@@ -59,11 +59,12 @@ pub(super) fn discretize_tiers(
     let mut matrix = PlanMatrix::new(3 * moving.len());
     for index in 0..floors.len() {
         if let Some(storey) = tiers.storeys.get(index) {
-            matrix.add_storey(&moving, first + index, storey, Part::Stiffness);
+            matrix.add_storey(&moving, first + index, storey, Part::Elastic);
         }
         if gravity.p_delta {
-            let softening = tiers.softening(&lumped, index);
-            matrix.add_storey(&moving, first + index, &softening, Part::Softening);
+            let mut taken = tiers.softening(&lumped, index);
+            taken.stiffness = taken.stiffness.map(|stiffness| -stiffness);
+            matrix.add_storey(&moving, first + index, &taken, Part::Undamped);
         }
     }
     // Joints follow the floors until a hinge yields.
@@ -79,7 +80,7 @@ pub(super) fn discretize_tiers(
         .map(|_| foot)
         .chain(floors.iter().copied())
         .collect();
-    stick_model.couplings = matrix.couplings(ground, &nodes);
+    stick_model.elements = matrix.elements(ground, &nodes);
     let (jointed, mut spring_places) = match yielding {
         Some(frame) => {
             let assembly = Assembly::new(frame, &tiers.storey_heights, mat.as_ref(), &lumped);

@@ -206,7 +206,7 @@ impl Layout {
     }
 
     fn check_all_found(&self, elements: &[(Link, [usize; 2])]) -> Result<(), NotAFrame> {
-        if !self.stick_model.couplings.is_empty() {
+        if !self.stick_model.elements.is_empty() {
             return Err(NotAFrame::LooseElement {
                 element: "an entry of a given matrix".into(),
             });
