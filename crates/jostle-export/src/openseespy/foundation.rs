@@ -105,7 +105,7 @@ impl Script<'_> {
         if alpha == 0.0 {
             return;
         }
-        let own = |node: usize| foundation.levers.get(node).copied().flatten();
+        let own = |node: usize| stick_model.lever(node);
         for (number, node) in nodes.iter().enumerate() {
             let of_mass = alpha * node.mass;
             if of_mass == 0.0 || number == foundation.node || node.support == Support::Fixed {

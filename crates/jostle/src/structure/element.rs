@@ -118,21 +118,11 @@ pub(crate) struct ElementStiffness {
     pub(crate) is_soil: bool,
 }
 
-/// Stiffness and dashpots of every element of a stick model, over displacements that are not tied to the rotation of a
-/// foundation.
+/// Stiffness and dashpots of every element of a stick model, over displacements that are not tied to others.
 pub(crate) fn stiffnesses(stick_model: &StickModel) -> impl Iterator<Item = ElementStiffness> + '_ {
-    let foundation = stick_model.foundation.as_ref();
     untied(stick_model).map(move |mut element| {
-        if !stick_model.frame_nodes.is_empty() {
-            element.tie_to_floors(stick_model);
-        } else if let Some(foundation) = foundation {
-            for (_, a, b, value) in &mut element.entries {
-                for place in [a, b] {
-                    let share;
-                    (*place, share) = foundation.carries(*place);
-                    *value *= share;
-                }
-            }
+        if !stick_model.ties.is_empty() {
+            element.tie(stick_model);
         }
         element
     })
@@ -159,36 +149,20 @@ pub(crate) fn untied(stick_model: &StickModel) -> impl Iterator<Item = ElementSt
         .chain(foundation.map(of_soil))
 }
 
-impl RigidFoundation {
-    /// A displacement as a multiple of another: what the foundation makes rise or sink is tied to its rotation.
-    pub(crate) fn carries(&self, place: Place) -> (Place, f64) {
-        match (place.1, self.levers.get(place.0)) {
-            (Y, Some(Some(lever))) => ((self.node, THETA), *lever),
-            _ => (place, 1.0),
-        }
-    }
-}
-
 impl StickModel {
     /// A displacement as a row over those of nodes to which it is tied; over itself if it is free.
     pub(crate) fn carried(&self, place: Place) -> Row {
-        if let Some(floor) = self.floor_of(place) {
-            return floor;
-        }
-        let foundation = self.foundation.as_ref();
-        over_nodes([foundation.map_or((place, 1.0), |own| own.carries(place))])
+        let index = index_of(place);
+        let tied = self.ties.get(&index).cloned();
+        tied.unwrap_or_else(|| Row::single(index))
     }
 
-    /// The displacements of a floor that move a node of a frame along its line.
-    fn floor_of(&self, (node, component): Place) -> Option<Row> {
-        let own = self.frame_nodes.get(node)?.as_ref()?;
-        let floor = own.floor.filter(|_| component == X)?;
-        let [x, y, turn] = own.shares;
-        Some(over_nodes([
-            ((floor, X), x),
-            ((floor, Y), y),
-            ((floor, THETA), turn),
-        ]))
+    /// How far to the right of the node of its foundation a node stands that rises and sinks with its rotation: a foot, or what
+    /// stands on one on columns that keep their length \[m\].
+    #[must_use]
+    pub fn lever(&self, node: usize) -> Option<f64> {
+        let tied = self.ties.get(&index_of((node, Y)))?;
+        tied.entries().first().map(|(_, lever)| *lever)
     }
 
     /// What a force at a displacement adds to the horizontal forces along x and across, and to the torque about the centre of the
@@ -415,8 +389,8 @@ fn parts_of(
 }
 
 impl ElementStiffness {
-    /// Replaces displacements of frames by those of the floors to which they are tied.
-    fn tie_to_floors(&mut self, stick_model: &StickModel) {
+    /// Replaces displacements by those to which they are tied.
+    fn tie(&mut self, stick_model: &StickModel) {
         let entries = std::mem::take(&mut self.entries);
         for (part, a, b, value) in entries {
             for (a, of_a) in places(&stick_model.carried(a)) {
@@ -449,5 +423,59 @@ impl ElementStiffness {
                 (part, b, a, -value),
             ]);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A brace at an angle between two points that move both ways: k c cᵀ with the direction c (theory of trusses).
+    #[test]
+    fn a_brace_at_any_angle_is_an_element() {
+        let (stiffness, c, s) = (5e6, 0.8, 0.6);
+        let brace = Element::Spring {
+            part: Part::Elastic,
+            stiffness,
+            row: over_nodes([((1, X), c), ((1, Y), s), ((0, X), -c), ((0, Y), -s)]),
+        };
+        let moved = [[0.0, 0.0], [3e-3, -1e-3]];
+        let at = |(node, component): Place| moved[node][component];
+        let mut forces = [[0.0; 2]; 2];
+        for (part, a, b, value) in of_element(&brace).entries {
+            assert_eq!(part, Part::Elastic);
+            forces[a.0][a.1] += value * at(b);
+        }
+        let tension = stiffness * (c * 3e-3 - s * 1e-3);
+        for (force, expected) in forces[1].into_iter().zip([c * tension, s * tension]) {
+            assert!(
+                (force - expected).abs() < 1e-9 * tension,
+                "{force} {expected}"
+            );
+        }
+        assert_eq!(forces[0], forces[1].map(|force| -force));
+    }
+
+    /// A spring between the ends of two arms of rigid bodies is stretched by their turns as well.
+    #[test]
+    fn a_spring_between_any_two_points_is_an_element() {
+        let row = over_nodes([
+            ((1, X), 1.0),
+            ((1, THETA), -2.0),
+            ((0, X), -1.0),
+            ((0, THETA), 0.5),
+        ]);
+        let dashpot = Element::Spring {
+            part: Part::Dashpot,
+            stiffness: 4.0,
+            row,
+        };
+        let turned: f64 = of_element(&dashpot)
+            .entries
+            .iter()
+            .filter(|(_, a, b, _)| (*a, *b) == ((1, THETA), (0, THETA)))
+            .map(|(.., value)| value)
+            .sum();
+        assert_eq!(turned, 4.0 * -2.0 * 0.5);
     }
 }

@@ -1,7 +1,7 @@
 //! Buildings on rigid foundations.
 
 use super::Discretization;
-use super::element::{Element, Part, Place, THETA, X, Y, over_nodes, places};
+use super::element::{Element, Part, Place, THETA, X, Y, index_of, over_nodes, places};
 use super::stick_model::{RigidFoundation, StickModel, Support};
 use crate::linear::Row;
 use crate::model::Foundation;
@@ -37,15 +37,17 @@ impl Discretization {
             let [lower, upper] = spring.ends.map(|end| sticks.nodes[end].y);
             spring.lever = Some(upper - lower);
         }
-        let levers = if feet.len() == 1 {
-            Vec::new()
-        } else {
-            levers(sticks, &feet, middle)
-        };
+        if feet.len() > 1 {
+            let levers = levers(sticks, &feet, middle).into_iter().enumerate();
+            let ties = levers.filter_map(|(at, lever)| {
+                let turned = over_nodes([((node, THETA), lever?)]);
+                Some((index_of((at, Y)), turned))
+            });
+            sticks.ties.extend(ties);
+        }
         sticks.foundation = Some(RigidFoundation {
             node,
             feet,
-            levers,
             stiffness,
             damping,
         });

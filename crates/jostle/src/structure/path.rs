@@ -1,7 +1,7 @@
 //! The transfer path: displacements of a building in the order of the recursion.
 
 use crate::linear::{Row, sort_by_key};
-use crate::structure::element::{THETA, X, Y, places};
+use crate::structure::element::{THETA, X, Y, index_of, place_of, places};
 use crate::structure::order::{Rank, node_order};
 use crate::structure::{StickModel, Support};
 
@@ -32,8 +32,7 @@ impl Path {
         if let Some(foundation) = &stick_model.foundation {
             let turning = ties.root(foundation.node, THETA);
             let stands = |node: &usize| {
-                let levers = foundation.levers.get(*node);
-                let carried = levers.is_some_and(Option::is_some);
+                let carried = stick_model.ties.contains_key(&index_of((*node, Y)));
                 let mut springs = stick_model.springs.iter();
                 carried || springs.any(|own| own.lever.is_some() && own.ends.contains(node))
             };
@@ -135,11 +134,10 @@ impl Ties {
                 }
             }
         }
-        // What a floor moves along the line of a frame is no displacement of its own.
-        for (node, own) in stick_model.frame_nodes.iter().enumerate() {
-            if own.is_some_and(|own| own.floor.is_some()) {
-                ties.merge(Self::place(node, X), GROUND);
-            }
+        // What moves with others is no displacement of its own.
+        for index in stick_model.ties.keys() {
+            let (node, component) = place_of(*index);
+            ties.merge(Self::place(node, component), GROUND);
         }
         if let Some(foundation) = &stick_model.foundation {
             for &foot in &foundation.feet {
@@ -150,13 +148,8 @@ impl Ties {
                     );
                 }
             }
-            // It does not rise itself, and what rises with its rotation is no displacement of its own.
+            // It does not rise itself.
             ties.merge(Self::place(foundation.node, Y), GROUND);
-            for (node, lever) in foundation.levers.iter().enumerate() {
-                if lever.is_some() {
-                    ties.merge(Self::place(node, Y), GROUND);
-                }
-            }
         }
         ties
     }

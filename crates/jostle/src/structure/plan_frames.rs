@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::discretization::{Discretization, discretize_frame};
-use super::element::{X, Y};
+use super::element::{THETA, X, Y, index_of, over_nodes};
 use super::member_forces::FrameMember;
 use super::order::Turn;
 use super::stick_model::{FrameNode, Node, StickModel, Support};
@@ -113,8 +113,13 @@ impl StickModel {
     fn append(&mut self, frame: StickModel, place: &Place<'_>) -> Range<usize> {
         let (nodes, members) = (self.nodes.len(), self.members.len());
         for (index, node) in frame.nodes.into_iter().enumerate() {
-            let own = self.frame_node(index, &node, place);
+            let (own, floor) = self.frame_node(index, &node, place);
             self.frame_nodes.push(Some(own));
+            if let Some(floor) = floor {
+                let components = [X, Y, THETA].map(|component| (floor, component));
+                let moved = over_nodes(components.into_iter().zip(own.shares));
+                self.ties.insert(index_of((self.nodes.len(), X)), moved);
+            }
             let turn = Turn {
                 stage: None,
                 height: node.y,
@@ -142,7 +147,13 @@ impl StickModel {
         members..self.members.len()
     }
 
-    fn frame_node(&self, index: usize, node: &Node, place: &Place<'_>) -> FrameNode {
+    /// A node of a frame, and the floor or the mat to which it belongs: its displacement along its line is that of the floor.
+    fn frame_node(
+        &self,
+        index: usize,
+        node: &Node,
+        place: &Place<'_>,
+    ) -> (FrameNode, Option<usize>) {
         let height = |floor: &usize| self.nodes[*floor].y;
         let mut floors = place.floors.iter();
         let level = floors.position(|floor| node.y <= height(floor) + LEVEL_TOLERANCE);
@@ -157,18 +168,18 @@ impl StickModel {
                 place.lumped[level].tier.centre,
             ),
         };
-        FrameNode {
+        let own = FrameNode {
             shares: place.plan_frame.shares(centre),
             at_mat: place
                 .mat
                 .map_or([0.0; 3], |(_, centre)| place.plan_frame.shares(centre)),
-            floor: carrier,
             level,
             counted_elsewhere: carrier.is_some() || on_floor || is_doubled,
             vertical_mass: match is_doubled {
                 true => place.light.nodes[index].mass,
                 false => node.mass,
             },
-        }
+        };
+        (own, carrier)
     }
 }

@@ -1,7 +1,7 @@
 //! The mat of an isolated building in plan, and its bearings.
 
 use super::discretization::{Discretization, Mat};
-use super::element::{Element, Part, Place, THETA, X, Y};
+use super::element::{Element, Part, Place, THETA, X, Y, index_of};
 use super::plan_matrix::PlanMatrix;
 use super::spring_place::SpringPlace;
 use super::stick_model::{PlanMat, StickModel, Support};
@@ -178,7 +178,7 @@ impl Discretization {
             let (Some(own), value) = (own, alpha * sticks.nodes[node].mass) else {
                 continue;
             };
-            if own.floor.is_some() || value == 0.0 {
+            if sticks.ties.contains_key(&index_of((node, X))) || value == 0.0 {
                 continue;
             }
             let shares = own.at_mat;

@@ -130,7 +130,6 @@ impl StickModel {
         self.frame_nodes.push(Some(FrameNode {
             shares: [0.0; 3],
             at_mat: [0.0; 3],
-            floor: None,
             level,
             counted_elsewhere: true,
             vertical_mass: 0.0,

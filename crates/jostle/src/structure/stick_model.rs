@@ -38,6 +38,9 @@ pub struct StickModel {
     pub frame_nodes: Vec<Option<FrameNode>>,
     /// Masses that act on one displacement of a node alone: node, displacement, mass \[kg\].
     pub one_way_masses: Vec<(usize, usize, f64)>,
+    /// Displacements that move with others, 3 × node + component, as rows over those: joints of frames with rigid floors along their
+    /// lines, and nodes that rise and sink with the rotation of a foundation.
+    pub ties: BTreeMap<usize, Row>,
     /// Nodes that are not eliminated in the order of their coordinates.
     pub turns: BTreeMap<usize, Turn>,
     /// Rigid foundation on springs and dashpots, if it stands on one.
@@ -51,9 +54,6 @@ pub struct RigidFoundation {
     pub node: usize,
     /// The feet of columns, which move and turn with it.
     pub feet: Vec<usize>,
-    /// Distance to the right of its node, for nodes that rise by that times its rotation: the feet, and what stands on them on
-    /// columns that keep their length \[m\].
-    pub levers: Vec<Option<f64>>,
     /// Stiffness of the soil over displacement and rotation: uu, uθ, θθ \[N/m, N, N·m\].
     pub stiffness: [f64; 3],
     /// Dashpots of the soil over the same \[N·s/m, N·s, N·m·s\].
@@ -68,8 +68,6 @@ pub struct FrameNode {
     pub shares: [f64; 3],
     /// The same for motions of the mat on which it stands; zero without one \[–, –, m\].
     pub at_mat: [f64; 3],
-    /// Node of the floor, or of the mat, to which it belongs; its displacement along its line is that of the floor.
-    pub floor: Option<usize>,
     /// Index of the floor at its height, or of the next one above.
     pub level: usize,
     /// Whether its mass is part of that of a floor, or of another frame that shares the column.
