@@ -178,7 +178,8 @@ impl Row {
             return mass[dof];
         }
         let gives = self.entries().iter().map(|(dof, c)| c * c / mass[*dof]);
-        1.0 / gives.sum::<f64>()
+        // An empty sum would be −0.
+        1.0 / gives.fold(0.0, |sum, own| sum + own)
     }
 
     /// Adds a term.
