@@ -171,3 +171,40 @@ pub(super) fn node_order(stick_model: &StickModel) -> Vec<(Rank, usize)> {
     }));
     order
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::structure::testkit::frame;
+
+    /// Nodes whose builder says when they are eliminated may stand anywhere.
+    #[test]
+    fn coordinates_do_not_matter_where_turns_are_given() {
+        let mut sticks = frame(true).discretization.stick_model;
+        let expected = node_order(&sticks);
+        for (rank, node) in &expected {
+            let turn = Turn {
+                stage: Some(rank.stage),
+                ..sticks.turn(*node)
+            };
+            sticks.turns.insert(*node, turn);
+        }
+        for (index, node) in sticks.nodes.iter_mut().enumerate() {
+            (node.x, node.y) = (-(index as f64), (7 * index % 5) as f64);
+        }
+        assert_eq!(node_order(&sticks), expected);
+    }
+
+    /// A floor comes after what is at its height, and a mat just before the lowest floor.
+    #[test]
+    fn floors_follow_the_joints_that_they_tie() {
+        let mut sticks = StickModel::default();
+        let nodes = [0.0, 3.0, 3.0, 6.0].map(|height| sticks.add_node(0.0, height));
+        let [mat, floor, joint, roof] = nodes;
+        for (own, height) in [(mat, 0.0), (floor, 3.0), (roof, 6.0)] {
+            sticks.turns.insert(own, Turn::of_floor(height, 3.0));
+        }
+        let order: Vec<usize> = node_order(&sticks).into_iter().map(|own| own.1).collect();
+        assert_eq!(order, [joint, mat, floor, roof]);
+    }
+}
