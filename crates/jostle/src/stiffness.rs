@@ -5,7 +5,8 @@ use crate::linear::sparse_cholesky::{NoPivot, Pattern, SparseFactor};
 use crate::linear::{NotPositive, Row, StepMatrix};
 use crate::structure::AssembledBuilding;
 use crate::structure::StepEquations;
-use crate::structure::element::{self, Part};
+use crate::structure::element::Part;
+use crate::structure::stick_elements;
 
 /// Element entries of the step matrix of one building.
 #[derive(Clone, Debug)]
@@ -26,7 +27,7 @@ impl DirectStiffness {
     /// With more springs, such as those between floors further apart; a row is the deformation of one. Their tangents follow those of the springs of the building.
     pub(crate) fn with_rows(building: &AssembledBuilding, rows: &[Row]) -> Self {
         let equations = &building.equations;
-        let entries = element::stiffnesses(&building.discretization.stick_model)
+        let entries = stick_elements::stiffnesses(&building.discretization.stick_model)
             .flat_map(|element| element.entries);
         let (mut places, mut stiffness) = (Vec::new(), Vec::new());
         for (part, a, b, value) in entries {

@@ -230,7 +230,7 @@ impl Script<'_> {
                     }
                     _ => None,
                 },
-                Element::Bend { .. } => None,
+                Element::Matrix { .. } => None,
             };
             let Some((part, value, ends)) = between else {
                 return Err(

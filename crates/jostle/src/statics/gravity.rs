@@ -5,6 +5,7 @@ use crate::hysteresis::Hysteresis;
 use crate::linear::{NotPositive, StepMatrix};
 use crate::model::{Gravity, STANDARD_GRAVITY};
 use crate::structure::element::{self, Y};
+use crate::structure::stick_elements;
 use crate::structure::{
     AssembledBuilding, Discretization, MemberEnd, SpringPlace, StepEquations, StickModel,
 };
@@ -213,7 +214,7 @@ fn hung_on_nodes(
         .iter()
         .filter(|member| !member.is_vertical(&stick_model.nodes))
     {
-        for (_, a, b, value) in element::of_member(member, &stick_model.nodes).entries {
+        for (_, a, b, value) in stick_elements::of_member(member, &stick_model.nodes).entries {
             if a.1 == Y {
                 // The member holds the node up with −K u.
                 for (b, share) in element::places(&stick_model.carried(b)) {

@@ -186,7 +186,7 @@ fn stiffest(stick_model: &StickModel) -> String {
             stiffness,
             ..
         } => Some(*stiffness),
-        Element::Spring { .. } | Element::Bend { .. } => None,
+        Element::Spring { .. } | Element::Matrix { .. } => None,
     });
     let springs = springs.chain(elements);
     let members = stick_model

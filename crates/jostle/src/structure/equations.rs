@@ -5,6 +5,7 @@ use crate::linear::{Row, SparseSymmetric};
 use crate::model::ProportionalDamping;
 use crate::structure::element::{self, Part, Place, X, Y, over_nodes};
 use crate::structure::path::Path;
+use crate::structure::stick_elements;
 use crate::structure::{PlanMat, StickModel, Support};
 
 /// M ü + (α M + β K + C′) u̇ + (K + K′) u = −M r a_g + contact forces, for one building.
@@ -160,7 +161,7 @@ impl Equations {
         let sway = stick_model.foundation.as_ref();
         let sway = sway.and_then(|foundation| path.dof(foundation.node, X));
         for (is_soil, (part, a, b, value)) in
-            element::stiffnesses(stick_model).flat_map(|element| {
+            stick_elements::stiffnesses(stick_model).flat_map(|element| {
                 let is_soil = element.is_soil;
                 element
                     .entries

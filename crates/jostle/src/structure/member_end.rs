@@ -20,10 +20,11 @@ pub(crate) fn end_stiffnesses(stick_model: &StickModel) -> Vec<Option<f64>> {
     // In a space frame k₁₁ + k₁₂ is that stiffness.
     let mut in_space = vec![None; stick_model.nodes.len()];
     for element in &stick_model.space_elements {
-        let [own, other] = element.stiffness();
+        let entries = 0..element.deformations().len();
+        let bent: f64 = entries.map(|end| element.entry(0, end)).sum();
         for ((node, _), _) in element.deformations().iter().flat_map(places) {
             if stick_model.space_ends.contains(&node) {
-                in_space[node] = Some(own + other);
+                in_space[node] = Some(bent);
             }
         }
     }

@@ -5,6 +5,7 @@ use std::ops::Range;
 use crate::linear::Row;
 use crate::model::{SharedColumn, SpacePlace};
 use crate::structure::element::{self, ElementStiffness, Part, THETA, X, Y};
+use crate::structure::stick_elements;
 use crate::structure::{AssembledBuilding, Member, MemberEnd, SpringPlace};
 
 /// Where a column or a beam of a frame is; all count from 1.
@@ -436,11 +437,12 @@ impl<'a> Cuts<'a> {
                 vertical,
                 rigid: member.axial_rigidity.is_none(),
                 compression: member.compression,
-                stiffness: element::of_member(member, nodes),
+                stiffness: stick_elements::of_member(member, nodes),
             }
         };
         let mut rows = vec![[const { Vec::new() }; 3]; nodes.len()];
-        for (part, a, b, value) in element::untied(stick_model).flat_map(|element| element.entries)
+        for (part, a, b, value) in
+            stick_elements::untied(stick_model).flat_map(|element| element.entries)
         {
             for (b, share) in element::places(&stick_model.carried(b)) {
                 let value = value * share;

@@ -18,6 +18,7 @@ mod space_joints;
 mod space_member_forces;
 mod spring_place;
 mod step_equations;
+pub(crate) mod stick_elements;
 mod stick_model;
 mod storey_forces;
 #[cfg(test)]

@@ -175,9 +175,10 @@ impl Builder<'_> {
             stiffness: *stiffness,
             row: row(own),
         };
-        let bend = |(stiffness, own): &([f64; 2], [Deformation; 2])| Element::Bend {
-            stiffness: *stiffness,
-            rows: own.each_ref().map(row),
+        let bend = |([own, other], ends): &([f64; 2], [Deformation; 2])| Element::Matrix {
+            part: Part::Elastic,
+            rows: ends.iter().map(row).collect(),
+            lower: vec![*own, *other, *own],
         };
         let (axial, torsion) = (axial.as_ref().map(single), single(&torsion));
         let (bending, across) = (bend(&bending), across.as_ref().map(bend));

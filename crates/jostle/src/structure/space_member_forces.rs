@@ -132,11 +132,11 @@ impl JointedCuts<'_> {
     fn forces(&self, element: usize) -> Vec<LinearForm> {
         let sticks = &self.building.discretization.stick_model;
         let element = &sticks.space_elements[element];
-        let ([own, other], deformations) = (element.stiffness(), element.deformations());
+        let deformations = element.deformations();
         let force = |index: usize| {
             let mut form = LinearForm::default();
             for (at, deformation) in deformations.iter().enumerate() {
-                let stiffness = if at == index { own } else { other };
+                let stiffness = element.entry(index, at);
                 let entries = places(deformation).filter_map(|(place, share)| {
                     Some((self.building.equations.dof(place)?, stiffness * share))
                 });

@@ -4,7 +4,8 @@ use crate::linear::Row;
 use crate::model::LEVEL_TOLERANCE;
 use crate::structure::Equations;
 use crate::structure::StickModel;
-use crate::structure::element::{self, Part, THETA, X, Y};
+use crate::structure::element::{Part, THETA, X, Y};
+use crate::structure::stick_elements;
 
 /// Storey forces as linear forms of displacements.
 ///
@@ -80,7 +81,7 @@ impl StoreyForces {
             storeys,
         };
         for (part, a, b, value) in
-            element::stiffnesses(stick_model).flat_map(|element| element.entries)
+            stick_elements::stiffnesses(stick_model).flat_map(|element| element.entries)
         {
             let (true, Some(dof)) = (a.1 == X && part != Part::Dashpot, equations.dof(b)) else {
                 continue;
@@ -132,7 +133,8 @@ impl StoreyForces {
                     ..Storey::default()
                 });
             }
-            let entries = element::stiffnesses(stick_model).flat_map(|element| element.entries);
+            let entries =
+                stick_elements::stiffnesses(stick_model).flat_map(|element| element.entries);
             for (part, a, b, value) in entries {
                 let height = stick_model.nodes[a.0].y;
                 let Some(dof) = equations.dof(b).filter(|_| part != Part::Dashpot) else {
