@@ -157,7 +157,11 @@ impl Model {
         let contacts = self.opened.system.contacts.iter();
         contacts
             .map(|contact| {
-                let [left, right] = contact.ports.0.map(|face| face.and_then(|f| f.row.only()));
+                let [left, right] = contact
+                    .ports
+                    .0
+                    .each_ref()
+                    .map(|face| face.as_ref().and_then(|f| f.row.only()));
                 (contact.gap, left, right, contact.width)
             })
             .collect()
@@ -168,7 +172,11 @@ impl Model {
         let links = self.opened.system.links.iter();
         links
             .map(|link| {
-                let [left, right] = link.ports.0.map(|face| face.and_then(|f| f.row.only()));
+                let [left, right] = link
+                    .ports
+                    .0
+                    .each_ref()
+                    .map(|face| face.as_ref().and_then(|f| f.row.only()));
                 (left, right, link.stiffness, link.damping)
             })
             .collect()

@@ -2,10 +2,11 @@
 //! elimination with its own ordering; it shares no elimination with the Riccati recursion.
 
 use crate::linear::sparse_cholesky::{NoPivot, Pattern, SparseFactor};
-use crate::linear::{NotPositive, StepMatrix};
+use crate::linear::{NotPositive, Row, StepMatrix};
 use crate::structure::AssembledBuilding;
 use crate::structure::StepEquations;
-use crate::structure::element::{self, Part};
+use crate::structure::element::Part;
+use crate::structure::stick_elements;
 
 /// Element entries of the step matrix of one building.
 #[derive(Clone, Debug)]
@@ -23,11 +24,10 @@ pub struct DirectStiffness {
 pub struct DirectFactor(SparseFactor);
 
 impl DirectStiffness {
-    /// With springs between more than two floors apart; a row is how displacements deform one: degree of freedom and share.
-    /// Their tangents follow those of the springs of the building.
-    pub(crate) fn with_rows(building: &AssembledBuilding, rows: &[Vec<(usize, f64)>]) -> Self {
+    /// With more springs, such as those between floors further apart; a row is the deformation of one. Their tangents follow those of the springs of the building.
+    pub(crate) fn with_rows(building: &AssembledBuilding, rows: &[Row]) -> Self {
         let equations = &building.equations;
-        let entries = element::stiffnesses(&building.discretization.stick_model)
+        let entries = stick_elements::stiffnesses(&building.discretization.stick_model)
             .flat_map(|element| element.entries);
         let (mut places, mut stiffness) = (Vec::new(), Vec::new());
         for (part, a, b, value) in entries {
@@ -40,10 +40,8 @@ impl DirectStiffness {
         }
         places.extend((0..equations.len()).map(|dof| (dof, dof)));
         let springs = equations.springs.iter();
-        let springs = springs.map(|spring| entries_of(&spring.row().collect::<Vec<_>>()));
-        let springs: Vec<_> = springs
-            .chain(rows.iter().map(|row| entries_of(row)))
-            .collect();
+        let springs = springs.map(|spring| entries_of(&spring.row));
+        let springs: Vec<_> = springs.chain(rows.iter().map(entries_of)).collect();
         places.extend(
             springs
                 .iter()
@@ -91,7 +89,8 @@ impl StepEquations for DirectStiffness {
 }
 
 /// Entries of a spring of stiffness one, one triangle.
-fn entries_of(row: &[(usize, f64)]) -> Vec<(usize, usize, f64)> {
+fn entries_of(row: &Row) -> Vec<(usize, usize, f64)> {
+    let row = row.entries();
     let pairs = row.iter().enumerate();
     pairs
         .flat_map(|(index, (dof, share))| {

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use jostle::ProportionalDamping;
 use jostle::hysteresis::Hysteresis;
-use jostle::structure::{Spring, StickModel, Support};
+use jostle::structure::{Element, Part, Spring, StickModel, Support};
 use jostle::system::BuildingSystem;
 
 use super::script::{Script, comment, python_bool, python_damping, rounded, text};
@@ -218,15 +218,30 @@ impl Script<'_> {
         }
         // On a foundation they are damping relative to it.
         let on_foundation = stick_model.foundation.is_some();
-        for coupling in stick_model.couplings.iter().filter(|_| !on_foundation) {
-            let [(first, a), (last, b)] = coupling.ends;
-            if a != 0 || b != 0 {
+        for element in stick_model.elements.iter().filter(|_| !on_foundation) {
+            let between = match element {
+                Element::Spring {
+                    part,
+                    stiffness,
+                    row,
+                } => match *row.entries() {
+                    [(first, 1.0), (last, -1.0)] if first % 3 == 0 && last % 3 == 0 => {
+                        Some((*part, *stiffness, [first / 3, last / 3]))
+                    }
+                    _ => None,
+                },
+                Element::Matrix { .. } => None,
+            };
+            let Some((part, value, ends)) = between else {
                 return Err(
                     "has matrices with rotations or vertical displacements, between which OpenSees has no springs; export the model they came from",
                 );
-            }
-            let [first, last] = [first, last].map(|node| self.tag(index, node));
-            let materials = self.spring_materials(coupling.stiffness, None, coupling.dashpot)?;
+            };
+            let [first, last] = ends.map(|node| self.tag(index, node));
+            let materials = match part {
+                Part::Elastic | Part::Undamped => self.spring_materials(value, None, 0.0)?,
+                Part::Dashpot => self.spring_materials(0.0, None, value)?,
+            };
             let directions: Vec<(usize, usize)> = materials
                 .into_iter()
                 .map(|material| (1, material))

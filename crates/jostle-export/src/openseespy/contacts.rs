@@ -28,7 +28,7 @@ impl Script<'_> {
                 }
                 continue;
             }
-            let face = |side: usize| self.face(contact.ports.0[side]?, side == 0);
+            let face = |side: usize| self.face(contact.ports.0[side].as_ref()?, side == 0);
             let (Some(a), Some(b)) = (face(0), face(1)) else {
                 faults.push(ModelFault {
                     path: format!("{path}.floors"),
@@ -75,7 +75,7 @@ impl Script<'_> {
     }
 
     /// Tag of the node at a point of the right or the left face of a building.
-    fn face(&self, port: Port, right: bool) -> Option<usize> {
+    fn face(&self, port: &Port, right: bool) -> Option<usize> {
         let discretization = &self.export.system.buildings[port.building].discretization;
         let nodes = if right {
             &discretization.right_face
@@ -108,7 +108,7 @@ impl Script<'_> {
         let system = self.export.system;
         for link in system.model_links() {
             let path = format!("link[{}]", link.link);
-            let ports = link.ports.0;
+            let ports = &link.ports.0;
             let own = ports.iter().flatten().map(|port| port.building).next();
             let on_soil = match own.map(|own| (own, &system.buildings[own])) {
                 Some((own, building)) if link.inside => {
@@ -117,7 +117,7 @@ impl Script<'_> {
                 _ => None,
             };
             // Both ends of a link inside a building stand on the same face.
-            let end = |side: usize| match ports[side] {
+            let end = |side: usize| match &ports[side] {
                 _ if on_soil.is_some() => on_soil.map(|own| own.ends[side]),
                 Some(port) => self.face(port, side == 0 || link.inside),
                 None => self.ground(own?),

@@ -105,7 +105,7 @@ impl Script<'_> {
         if alpha == 0.0 {
             return;
         }
-        let own = |node: usize| foundation.levers.get(node).copied().flatten();
+        let own = |node: usize| stick_model.lever(node);
         for (number, node) in nodes.iter().enumerate() {
             let of_mass = alpha * node.mass;
             if of_mass == 0.0 || number == foundation.node || node.support == Support::Fixed {
@@ -231,9 +231,10 @@ impl Script<'_> {
         let heights = link
             .ports
             .0
-            .map(|port| port.map_or(0.0, |port| port.height));
+            .each_ref()
+            .map(|port| port.as_ref().map_or(0.0, |port| port.height));
         let ends = [0, 1].map(|side| {
-            let floor = link.ports.0[side].and_then(|port| port.floor);
+            let floor = link.ports.floors()[side];
             let node = match floor {
                 Some(floor) => building.discretization.floors[floor - 1],
                 None => foundation.node,

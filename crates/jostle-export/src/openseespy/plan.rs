@@ -295,7 +295,8 @@ impl Script<'_> {
             let [a, b] = contact
                 .ports
                 .0
-                .map(|port| self.contact_point(port, plan.at));
+                .each_ref()
+                .map(|port| self.contact_point(port.as_ref(), plan.at));
             let tag = self.element();
             let floors = contact
                 .ports
@@ -324,7 +325,7 @@ impl Script<'_> {
         }
     }
 
-    fn contact_point(&mut self, port: Option<Port>, at: PlanPoint) -> usize {
+    fn contact_point(&mut self, port: Option<&Port>, at: PlanPoint) -> usize {
         let (building, floor) = match port {
             // Points of walls stand still; any building numbers them.
             None => (0, None),
@@ -347,7 +348,7 @@ impl Script<'_> {
     fn add_ends(&mut self, index: usize, tag: usize) {
         let system = self.export.system;
         for end in system.edge_ends.iter().filter(|end| end.contact == index) {
-            let sides = end.ports.0.map(|port| {
+            let sides = end.ports.0.each_ref().map(|port| {
                 let Some(port) = port else {
                     return "None".to_owned();
                 };

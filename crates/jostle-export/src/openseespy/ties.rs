@@ -42,7 +42,7 @@ pub(super) fn is_held(stick_model: &StickModel, node: usize, component: usize) -
     let Some(foundation) = &stick_model.foundation else {
         return is_held_by(support, component);
     };
-    let lever = foundation.levers.get(node).copied().flatten();
+    let lever = stick_model.lever(node);
     match component {
         VERTICAL if node == foundation.node || lever == Some(0.0) => true,
         // Floors of a shear building turn with their foundation.

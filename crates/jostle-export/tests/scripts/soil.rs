@@ -75,7 +75,7 @@ impl Moved {
             let turned = equations.rotation(base.node).map_or(0.0, value);
             for node in 0..sticks.nodes.len() {
                 let tag = ((index + 1) * 1000 + node + 1).to_string();
-                let lever = base.levers.get(node).copied().flatten();
+                let lever = sticks.lever(node);
                 let rise = equations.vertical(node).map(value);
                 for (direction, moved) in [
                     (1, equations.horizontal(node).map(value)),

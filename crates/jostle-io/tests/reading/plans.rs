@@ -272,7 +272,13 @@ fn friction_has_its_keys_and_limits() {
     ));
     let input = input.expect("a sound model");
     let system = System::assemble(&input.model).expect("a sound model");
-    let own = |index: usize| system.contacts[index].friction.expect("friction").law;
+    let own = |index: usize| {
+        system.contacts[index]
+            .friction
+            .as_ref()
+            .expect("friction")
+            .law
+    };
     let sum: f64 = (0..5).map(|index| own(index).stiffness).sum();
     assert!((sum / 180e6 - 1.0).abs() < 1e-12, "{sum}");
     assert_eq!(own(0).coefficient, 0.4);
@@ -284,7 +290,7 @@ fn friction_has_its_keys_and_limits() {
     let sum: f64 = system
         .contacts
         .iter()
-        .map(|contact| contact.friction.expect("friction").law.stiffness)
+        .map(|contact| contact.friction.as_ref().expect("friction").law.stiffness)
         .sum();
     assert!((sum / 800e6 - 1.0).abs() < 1e-12, "{sum}");
     let system = System::assemble(&read(&gap("")).expect("a sound model").model);

@@ -1,8 +1,10 @@
 //! Shapes and states of hinges, packed for the page.
 
+use std::collections::BTreeMap;
+
 use jostle::hysteresis::Stage;
 use jostle::pushover::{PushEventKind, PushedBuilding, Pushover};
-use jostle::structure::{MemberEnd, SpringPlace};
+use jostle::structure::{MemberEnd, SpringPlace, StickModel};
 use serde_json::{Value, json};
 
 use super::chart::Chart;
@@ -22,20 +24,16 @@ pub(super) fn payload(pushed: &[PushedBuilding], charts: &[Chart]) -> String {
 fn building(one: &PushedBuilding, chart: &Chart) -> Value {
     let system = one.building;
     let stick_model = &system.discretization.stick_model;
-    let across = |value: fn(&jostle::structure::Node) -> f64| -> Vec<f64> {
-        stick_model.nodes.iter().map(value).collect()
-    };
-    let width = stick_model
-        .nodes
-        .iter()
-        .fold(0.0_f64, |most, node| most.max(node.x));
+    let x_of_nodes = side_by_side(stick_model);
+    let y_of_nodes = stick_model.nodes.iter().map(|node| node.y);
+    let width = x_of_nodes.iter().copied().fold(0.0, f64::max);
     let height = system.floors.last().map_or(1.0, |floor| floor.height);
     let members = stick_model.members.iter().map(|member| member.ends);
     let springs = stick_model.springs.iter().map(|spring| spring.ends);
     let [left, bottom, x, y] = chart.scales();
     json!({
         "name": system.name,
-        "nodes": { "x": across(|node| node.x), "y": across(|node| node.y) },
+        "nodes": { "x": x_of_nodes, "y": y_of_nodes.collect::<Vec<_>>() },
         "lines": members.chain(springs).collect::<Vec<_>>(),
         "slab": if stick_model.members.is_empty() { 0.12 * height } else { 0.0 },
         "floors": system.discretization.floors,
@@ -46,6 +44,27 @@ fn building(one: &PushedBuilding, chart: &Chart) -> Value {
         "chart": { "left": left, "bottom": bottom, "x": x, "y": y },
         "curves": one.curves.iter().map(|curve| self::curve(one, curve)).collect::<Vec<_>>(),
     })
+}
+
+/// Distance between frames of a plan in the elevation that shows them side by side \[m\].
+const APART: f64 = 1.0;
+
+/// Where nodes are drawn: frames of a plan one beside the other, and the floors behind them.
+fn side_by_side(stick_model: &StickModel) -> Vec<f64> {
+    let mut widths: BTreeMap<usize, f64> = BTreeMap::new();
+    let nodes = || stick_model.nodes.iter().enumerate();
+    for (index, node) in nodes() {
+        let width = widths.entry(stick_model.turn(index).elevation).or_default();
+        *width = width.max(node.x);
+    }
+    let mut offset = 0.0;
+    for width in widths.values_mut() {
+        let own = std::mem::replace(width, offset);
+        offset += if own > 0.0 { own + APART } else { 0.0 };
+    }
+    nodes()
+        .map(|(index, node)| widths[&stick_model.turn(index).elevation] + node.x)
+        .collect()
 }
 
 /// Nodes that a hinge lies between, and to which side of them it is drawn.

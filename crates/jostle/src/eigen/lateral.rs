@@ -3,7 +3,7 @@
 use super::{LATERAL_SHARE, Mode, tridiagonal};
 use crate::linear::full_matrix::{FullMatrix, PivotedLu};
 use crate::linear::sort_by;
-use crate::linear::{NotPositive, StepMatrix};
+use crate::linear::{NotPositive, Row, StepMatrix};
 use crate::simd::{add, dot};
 use crate::structure::StepEquations;
 use crate::structure::{AssembledBuilding, InnerLink};
@@ -111,8 +111,8 @@ pub(super) struct Flexibility<'a> {
 /// Golub, C. F. Van Loan, Matrix Computations, section 2.1.4).
 #[derive(Default)]
 struct LinkSprings {
-    /// Columns of R: degree of freedom and coefficient.
-    shortenings: Vec<Vec<(usize, f64)>>,
+    /// Columns of R.
+    shortenings: Vec<Row>,
     /// Columns of K⁻¹ R.
     displaced: Vec<Vec<f64>>,
     /// S⁻¹ + Rᵀ K⁻¹ R.
@@ -130,9 +130,7 @@ impl LinkSprings {
             .iter()
             .map(|link| {
                 let mut load = vec![0.0; building.equations.len()];
-                for (dof, share) in &link.shortening {
-                    load[*dof] += share;
-                }
+                link.shortening.push(1.0, &mut load);
                 solve(&mut load);
                 load
             })
@@ -140,7 +138,7 @@ impl LinkSprings {
         let mut flexibility = FullMatrix::zeros(links.len(), links.len());
         for (row, link) in links.iter().enumerate() {
             for (column, displaced) in displaced.iter().enumerate() {
-                flexibility[(row, column)] = link.shortened_by(displaced);
+                flexibility[(row, column)] = link.shortening.value(displaced);
             }
             flexibility[(row, row)] += 1.0 / link.stiffness;
         }
@@ -159,8 +157,7 @@ impl LinkSprings {
             return;
         }
         for (shortened, shortening) in self.shortened.iter_mut().zip(&self.shortenings) {
-            let entries = shortening.iter();
-            *shortened = entries.map(|(dof, share)| share * displacement[*dof]).sum();
+            *shortened = shortening.value(displacement);
         }
         self.flexibility
             .solve_into(&self.shortened, &mut self.forces);

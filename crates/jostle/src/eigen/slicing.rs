@@ -89,11 +89,8 @@ impl Search<'_> {
             *held += undamped;
         }
         for spring in &equations.springs {
-            for dof in spring.dofs.into_iter().flatten() {
-                held[dof] += spring.hysteresis.initial_tangent();
-            }
-            for (turning, arm) in spring.levers.iter().flatten() {
-                held[*turning] += arm * arm * spring.hysteresis.initial_tangent();
+            for (dof, share) in spring.row.entries() {
+                held[*dof] += share * share * spring.hysteresis.initial_tangent();
             }
         }
         let slowest = self

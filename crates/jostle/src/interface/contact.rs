@@ -7,7 +7,7 @@ use crate::contact::ForceLaw;
 use crate::model::PlanPoint;
 
 /// A place where two neighbouring buildings, or a building and a wall, can touch.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Contact {
     /// Index of the gap in the model.
     pub gap: usize,
@@ -70,8 +70,8 @@ impl Contact {
     pub fn without_law(ports: PortPair) -> Self {
         Self {
             gap: 0,
-            ports,
             height: ports.height(),
+            ports,
             width: 0.0,
             law: ForceLaw::Hertz {
                 stiffness: 0.0,

@@ -5,7 +5,7 @@ use super::PortPair;
 /// How far a corner is inside of an end of the edge that it can touch: where this falls to zero, the corner slides off.
 ///
 /// Of two corners that pass each other it is the indentation along the other of their two normals.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct EdgeEnd {
     /// Index of the contact.
     pub contact: usize,

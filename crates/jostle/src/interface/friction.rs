@@ -51,7 +51,7 @@ pub(crate) fn unique_below(floors: impl Iterator<Item = PushedFloor>) -> f64 {
 }
 
 /// Friction along a face at one of its points.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Friction {
     /// Its law.
     pub law: Coulomb,

@@ -124,13 +124,14 @@ fn part_of(seed: usize, neighbours: &[Vec<usize>]) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::interface::{DofRow, Port};
+    use crate::interface::Port;
+    use crate::linear::Row;
 
     fn between(left: Option<usize>, right: Option<usize>) -> PortPair {
         PortPair([left, right].map(|side| {
             Some(Port {
                 building: side?,
-                row: DofRow::single(0),
+                row: Row::single(0),
                 mass: 1.0,
                 floor: None,
                 height: 0.0,

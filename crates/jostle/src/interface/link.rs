@@ -5,7 +5,7 @@ use crate::hysteresis::HysteresisMemory;
 use crate::model::LinkLaw;
 
 /// A link between two points.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct LinkElement {
     /// Index of the link in the model.
     pub link: usize,

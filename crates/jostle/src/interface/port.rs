@@ -1,15 +1,15 @@
 //! The two points of a contact or a link: one on either side, on a building or on a rigid wall.
 
-use super::DofRow;
 use crate::contact::effective_mass;
+use crate::linear::Row;
 
 /// A point of a building that can be pushed in one direction.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Port {
     /// Index of the building.
     pub building: usize,
     /// Its displacement along the direction, over the vectors of a [`crate::State`].
-    pub row: DofRow,
+    pub row: Row,
     /// Mass that moves with it, > 0 \[kg\].
     pub mass: f64,
     /// Floor, from 1; `None` for a point between floors.
@@ -19,7 +19,7 @@ pub struct Port {
 }
 
 /// The left and the right point; `None` is a rigid wall, which moves with the ground.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct PortPair(pub [Option<Port>; 2]);
 
 impl PortPair {
@@ -28,9 +28,9 @@ impl PortPair {
     #[must_use]
     #[inline]
     pub fn closing(&self, values: &[f64]) -> f64 {
-        let [left, right] = self.0;
-        left.map_or(0.0, |port| port.row.value(values))
-            - right.map_or(0.0, |port| port.row.value(values))
+        let [left, right] = &self.0;
+        let moved = |port: &Option<Port>| port.as_ref().map_or(0.0, |port| port.row.value(values));
+        moved(left) - moved(right)
     }
 
     /// Adds a force that separates the two sides to a load on all degrees of freedom \[N\].
@@ -43,17 +43,20 @@ impl PortPair {
 
     /// The points on buildings, with the direction of the contact force on them: −1 left, 1 right.
     #[inline]
-    pub fn sides(&self) -> impl Iterator<Item = (Port, f64)> + use<> {
-        let [left, right] = self.0;
-        [left.map(|port| (port, -1.0)), right.map(|port| (port, 1.0))]
-            .into_iter()
-            .flatten()
+    pub fn sides(&self) -> impl Iterator<Item = (&Port, f64)> {
+        let sides = self.0.iter().zip([-1.0, 1.0]);
+        sides.filter_map(|(port, sign)| Some((port.as_ref()?, sign)))
+    }
+
+    fn of_both<T>(&self, number: impl Fn(&Port) -> T) -> [Option<T>; 2] {
+        self.0.each_ref().map(|port| port.as_ref().map(&number))
     }
 
     /// Left and right mass; that of a wall is infinite \[kg\].
     #[must_use]
     pub fn masses(&self) -> [f64; 2] {
-        self.0.map(|port| port.map_or(f64::INFINITY, |f| f.mass))
+        let masses = self.of_both(|port| port.mass);
+        masses.map(|mass| mass.unwrap_or(f64::INFINITY))
     }
 
     /// m₁m₂/(m₁ + m₂); beside a wall that of the building \[kg\].
@@ -66,13 +69,13 @@ impl PortPair {
     /// Left and right building.
     #[must_use]
     pub fn buildings(&self) -> [Option<usize>; 2] {
-        self.0.map(|port| port.map(|f| f.building))
+        self.of_both(|port| port.building)
     }
 
     /// Left and right floor, from 1; `None` between floors and at a wall.
     #[must_use]
     pub fn floors(&self) -> [Option<usize>; 2] {
-        self.0.map(|port| port.and_then(|f| f.floor))
+        self.of_both(|port| port.floor).map(Option::flatten)
     }
 
     /// Whether a side is a point of a building between its floors.
@@ -87,7 +90,7 @@ impl PortPair {
     /// Height above the base, midway where both sides differ \[m\].
     #[must_use]
     pub fn height(&self) -> f64 {
-        match self.0.map(|port| port.map(|f| f.height)) {
+        match self.of_both(|port| port.height) {
             [Some(left), Some(right)] => 0.5 * (left + right),
             [one, other] => one.or(other).unwrap_or(0.0),
         }

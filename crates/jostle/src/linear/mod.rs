@@ -5,11 +5,13 @@ pub(crate) mod counting_sort;
 pub(crate) mod diagonal_runs;
 pub(crate) mod envelope;
 pub(crate) mod full_matrix;
+mod row;
 mod sorting;
 pub(crate) mod sparse_cholesky;
 mod sparse_symmetric;
 mod step_matrix;
 
+pub use row::Row;
 pub use sorting::{sort_by, sort_by_key};
 pub use sparse_symmetric::SparseSymmetric;
 pub use step_matrix::StepMatrix;

@@ -79,7 +79,9 @@ pub(super) fn loaded_mass(building: &BuildingSystem) -> f64 {
 
 /// Mass of every node, those between floors moved to the nodes above and below on the same line \[kg\].
 fn floor_masses(building: &BuildingSystem) -> Vec<f64> {
-    let nodes = &building.discretization.stick_model.nodes;
+    let stick_model = &building.discretization.stick_model;
+    let nodes = &stick_model.nodes;
+    let elevation = |node: usize| stick_model.turn(node).elevation;
     let levels: Vec<f64> = std::iter::once(0.0)
         .chain(building.floors.iter().map(|floor| floor.height))
         .collect();
@@ -95,9 +97,9 @@ fn floor_masses(building: &BuildingSystem) -> Vec<f64> {
         };
         let (low, high) = (levels[above - 1], levels[above]);
         let at = |height: f64| {
-            nodes
-                .iter()
-                .position(|other| close(other.y, height) && close(other.x, node.x))
+            let above =
+                |other: &usize| close(nodes[*other].y, height) && close(nodes[*other].x, node.x);
+            (0..nodes.len()).find(|other| above(other) && elevation(*other) == elevation(index))
         };
         let mass = std::mem::take(&mut masses[index]);
         let share = (node.y - low) / (high - low);

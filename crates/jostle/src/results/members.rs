@@ -5,7 +5,7 @@ use super::summarise::{Run, counted_impacts};
 use super::summary::{
     AcrossSummary, ForcesSummary, MemberComparison, MemberSummary, SectionSummary, StruckSummary,
 };
-use crate::interface::DofRow;
+use crate::linear::Row;
 use crate::stepping::Outcome;
 use crate::structure::{MemberPlace, MemberSection, MemberSections, SectionAt};
 use crate::system::BuildingSystem;
@@ -150,10 +150,10 @@ fn impacts_at(building: usize, section: &MemberSection, run: &Run) -> (usize, f6
     let offset = run.system.buildings[building].offset;
     let (mut count, mut force) = (0, 0.0_f64);
     for (index, contact) in run.system.contacts.iter().enumerate() {
-        let mut ports = contact.ports.0.into_iter().flatten();
+        let mut ports = contact.ports.0.iter().flatten();
         let here = ports.any(|port| {
-            let own = section.dof.map(|dof| DofRow::single(offset + dof));
-            port.building == building && own == Some(port.row)
+            let own = section.dof.map(|dof| Row::single(offset + dof));
+            port.building == building && own.as_ref() == Some(&port.row)
         });
         if here {
             let gap = &run.model.gaps[contact.gap];

@@ -460,7 +460,10 @@ fn contact_summary(index: usize, impacts: &[CountedImpact], run: &Run) -> Contac
             .plan
             .and_then(|place| place_of_face(system, outcome, place.face))
             .map(|place| PlanContactSummary {
-                sliding: contact.friction.map(|_| SlidingSummary::new(all())),
+                sliding: contact
+                    .friction
+                    .as_ref()
+                    .map(|_| SlidingSummary::new(all())),
                 ..place
             }),
         width_m: width,
@@ -480,7 +483,7 @@ fn contact_summary(index: usize, impacts: &[CountedImpact], run: &Run) -> Contac
                     true => "off",
                     false => "open",
                 }),
-                sliding: contact.friction.map(|_| ImpactSliding {
+                sliding: contact.friction.as_ref().map(|_| ImpactSliding {
                     slip_speed_m_s: counted.impact.sliding.slip_speed,
                     tangential_impulse_n_s: counted.impact.sliding.impulse,
                 }),

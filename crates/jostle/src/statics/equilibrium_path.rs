@@ -2,7 +2,7 @@
 
 use super::Settled;
 use crate::hysteresis::{Hysteresis, HysteresisMemory, Side};
-use crate::linear::{NotPositive, StepMatrix};
+use crate::linear::{NotPositive, Row, StepMatrix};
 use crate::stiffness::DirectStiffness;
 use crate::structure::{AssembledBuilding, StepEquations, YieldingSpring};
 use crate::transfer::riccati::RiccatiSweep;
@@ -63,22 +63,15 @@ pub struct EquilibriumPath<E: StepEquations = RiccatiSweep> {
 /// A spring that yields.
 #[derive(Clone, Debug)]
 struct PathSpring {
-    /// How displacements deform it: degree of freedom and share.
-    row: Vec<(usize, f64)>,
+    /// Its deformation.
+    row: Row,
     hysteresis: Hysteresis,
-}
-
-impl PathSpring {
-    fn deformation(&self, displacement: &[f64]) -> f64 {
-        let row = self.row.iter();
-        row.map(|(dof, share)| share * displacement[*dof]).sum()
-    }
 }
 
 impl From<&YieldingSpring> for PathSpring {
     fn from(spring: &YieldingSpring) -> Self {
         Self {
-            row: spring.row().collect(),
+            row: spring.row.clone(),
             hysteresis: spring.hysteresis,
         }
     }
@@ -142,7 +135,7 @@ impl EquilibriumPath<DirectStiffness> {
         });
         let links: Vec<PathSpring> = links.collect();
         let rows = links.iter().map(|link| link.row.clone());
-        let rows: Vec<_> = rows.chain([vec![(dof, 1.0)]]).collect();
+        let rows: Vec<_> = rows.chain([Row::single(dof)]).collect();
         let equations = DirectStiffness::with_rows(building, &rows);
         let springs = own_springs(building).into_iter().chain(links).collect();
         Self::new(equations, springs, pattern, rest.clone(), Some((dof, hold)))
@@ -378,7 +371,7 @@ impl<E: StepEquations> EquilibriumPath<E> {
         }
         let springs = self.springs.iter();
         for (rate, spring) in self.spring_rates.iter_mut().zip(springs) {
-            *rate = spring.deformation(&self.rates);
+            *rate = spring.row.value(&self.rates);
         }
     }
 
@@ -404,7 +397,7 @@ fn holding(building: &AssembledBuilding, dof: usize) -> f64 {
     let hold = equations.stiffness.diagonal[dof] + equations.undamped.diagonal[dof].abs();
     let springs = equations.springs.iter();
     let yielding: f64 = springs
-        .filter(|spring| spring.dofs.contains(&Some(dof)))
+        .filter(|spring| spring.row.dofs().any(|own| own == dof))
         .map(|spring| spring.hysteresis.initial_tangent())
         .sum();
     hold + yielding
@@ -413,8 +406,7 @@ fn holding(building: &AssembledBuilding, dof: usize) -> f64 {
 /// An elastic spring to the ground.
 fn holding_spring(dof: usize, stiffness: f64) -> Option<YieldingSpring> {
     Some(YieldingSpring {
-        dofs: [Some(dof), None],
-        levers: [None; 2],
+        row: Row::single(dof),
         hysteresis: Hysteresis::elastic(stiffness).ok()?,
         damped_by_tangent: false,
         carries_base_shear: false,

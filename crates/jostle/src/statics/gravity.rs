@@ -5,6 +5,7 @@ use crate::hysteresis::Hysteresis;
 use crate::linear::{NotPositive, StepMatrix};
 use crate::model::{Gravity, STANDARD_GRAVITY};
 use crate::structure::element::{self, Y};
+use crate::structure::stick_elements;
 use crate::structure::{
     AssembledBuilding, Discretization, MemberEnd, SpringPlace, StepEquations, StickModel,
 };
@@ -60,13 +61,18 @@ pub fn compressions(building: &AssembledBuilding, gravity: f64) -> Result<Vec<f6
             }
             let [a, b] = member.ends.map(|end| nodes[end]);
             let top = a.y.max(b.y);
+            let elevation = |node: usize| stick_model.turn(node).elevation;
+            let own = elevation(member.ends[0]);
             let on_line = nodes
                 .iter()
                 .zip(&hung)
-                .filter(|(node, _)| (node.x - a.x).abs() < SAME_LINE);
+                .enumerate()
+                .filter(|(index, (node, _))| {
+                    (node.x - a.x).abs() < SAME_LINE && elevation(*index) == own
+                });
             on_line
-                .filter(|(node, _)| node.y > top - SAME_LINE)
-                .map(|(_, weight)| weight)
+                .filter(|(_, (node, _))| node.y > top - SAME_LINE)
+                .map(|(_, (_, weight))| weight)
                 .sum()
         })
         .collect())
@@ -208,10 +214,10 @@ fn hung_on_nodes(
         .iter()
         .filter(|member| !member.is_vertical(&stick_model.nodes))
     {
-        for (_, a, b, value) in element::of_member(member, &stick_model.nodes).entries {
+        for (_, a, b, value) in stick_elements::of_member(member, &stick_model.nodes).entries {
             if a.1 == Y {
                 // The member holds the node up with −K u.
-                for &(b, share) in &*stick_model.carried(b) {
+                for (b, share) in element::places(&stick_model.carried(b)) {
                     hung[a.0] += building
                         .equations
                         .dof(b)

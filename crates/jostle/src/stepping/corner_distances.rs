@@ -68,7 +68,7 @@ impl CornerDistances {
 
 /// |u|² of a corner and its rate, from displacements and velocities of its building.
 fn square(corner: &Corner, displacement: &[f64], velocity: &[f64]) -> (f64, f64) {
-    let [x, y] = corner.rows.map(|row| row.value(displacement));
-    let [x_rate, y_rate] = corner.rows.map(|row| row.value(velocity));
+    let [x, y] = corner.rows.each_ref().map(|row| row.value(displacement));
+    let [x_rate, y_rate] = corner.rows.each_ref().map(|row| row.value(velocity));
     (x * x + y * y, 2.0 * (x * x_rate + y * y_rate))
 }

@@ -6,7 +6,7 @@ use crate::history::MemberHistory;
 use crate::interface::{InterfaceGraph, LinkElement};
 use crate::model::{Analysis, ModelFault};
 use crate::motion::GroundMotion;
-use crate::structure::StickModel;
+use crate::structure::{Element, Part, StickModel};
 use crate::system::{BuildingSystem, RunGrounds, System};
 
 /// Work of a step that does not depend on the displacements of a building, in displacements.
@@ -179,7 +179,16 @@ fn relevant_period(building: &BuildingSystem) -> Option<f64> {
 /// The greatest stiffness of a building in words.
 fn stiffest(stick_model: &StickModel) -> String {
     let springs = stick_model.springs.iter().map(|spring| spring.stiffness);
-    let springs = springs.chain(stick_model.couplings.iter().map(|c| c.stiffness));
+    let elements = stick_model.elements.iter();
+    let elements = elements.filter_map(|element| match element {
+        Element::Spring {
+            part: Part::Elastic,
+            stiffness,
+            ..
+        } => Some(*stiffness),
+        Element::Spring { .. } | Element::Matrix { .. } => None,
+    });
+    let springs = springs.chain(elements);
     let members = stick_model
         .members
         .iter()

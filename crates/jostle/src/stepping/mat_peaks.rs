@@ -2,7 +2,7 @@
 
 use super::recorder::{greatest_in_step, take_extremes};
 use crate::history::{Extreme, MatPeaks};
-use crate::interface::DofRow;
+use crate::linear::Row;
 use crate::state::State;
 use crate::system::{GroundsAt, MatInPlan, System};
 
@@ -49,7 +49,10 @@ impl MatRecorder {
             };
             own.before = [1, 2].map(|c| at(state, mat.dofs[c]));
             for (place, rows) in own.bearings.iter_mut().zip(&mat.rows) {
-                *place = (rows.map(|row| row.value(motion[0])), square(rows, motion));
+                *place = (
+                    rows.each_ref().map(|row| row.value(motion[0])),
+                    square(rows, motion),
+                );
             }
             for (place, rows) in own.corners.iter_mut().zip(&mat.corners) {
                 *place = square(rows, motion);
@@ -144,7 +147,7 @@ fn parts<'a>(
 }
 
 /// |u|² of a point and its rate.
-fn square(rows: &[DofRow; 2], [displacement, velocity]: [&[f64]; 2]) -> (f64, f64) {
+fn square(rows: &[Row; 2], [displacement, velocity]: [&[f64]; 2]) -> (f64, f64) {
     let [x, y] = [0, 1].map(|axis: usize| rows[axis].value(displacement));
     let [x_rate, y_rate] = [0, 1].map(|axis: usize| rows[axis].value(velocity));
     (x * x + y * y, 2.0 * (x * x_rate + y * y_rate))

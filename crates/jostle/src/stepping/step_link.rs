@@ -6,7 +6,7 @@ use crate::interface::{LinkElement, LinkMemory};
 use crate::model::LinkLaw;
 
 /// A link that is not linear, in the step to be solved.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct StepLink {
     element: LinkElement,
     memory: LinkMemory,
@@ -22,7 +22,7 @@ const ITERATIONS: usize = 200;
 impl StepLink {
     pub(super) fn new(element: &LinkElement, memory: &LinkMemory, start: f64, step: f64) -> Self {
         Self {
-            element: *element,
+            element: element.clone(),
             memory: *memory,
             start,
             step,

@@ -53,7 +53,7 @@ impl AssembledBuilding {
     pub fn elastic_base_shear(&self, displacement: &[f64]) -> f64 {
         let links = self.inner_links.iter();
         let links =
-            links.map(|link| link.of_base() * link.stiffness * link.shortened_by(displacement));
+            links.map(|link| link.of_base() * link.stiffness * link.shortening.value(displacement));
         self.equations.base_shear(displacement) + links.sum::<f64>()
     }
 

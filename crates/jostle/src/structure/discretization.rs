@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use super::element::{THETA, X};
+use super::element::{Element, Part, Place, THETA, X};
 use super::member_forces::{FrameMember, MemberPlace};
 use super::space_frame::CondensedFrame;
 use super::space_joints::JointedFrame;
 use super::spring_place::{BaseMotion, MemberEnd, SpringPlace};
-use super::stick_model::{Coupling, Hinge, Member, Node, Spring, StickModel, Support};
+use super::stick_model::{Hinge, Member, Node, Spring, StickModel, Support};
 use super::tiers::discretize_tiers;
 use crate::hysteresis::{Hysteresis, Side};
 use crate::model::{
@@ -601,8 +601,8 @@ fn cut_at(cuts: &mut Vec<f64>, share: f64, reach: f64) {
     cuts.sort_by(f64::total_cmp);
 }
 
-/// Couplings between displacements, and from each to the ground, make any symmetric matrix: off the diagonal stands −k of the
-/// coupling between two, and the sum of a row is the coupling to the ground. Some k are negative.
+/// Springs between displacements, and from each to the ground, make any symmetric matrix: off the diagonal stands −k of the
+/// spring between two, and the sum of a row is the spring to the ground. Some k are negative.
 fn discretize_given(given: &Given) -> Discretization {
     let mut stick_model = StickModel::default();
     let ground = stick_model.add_node(0.0, 0.0);
@@ -627,6 +627,11 @@ fn discretize_given(given: &Given) -> Discretization {
     }
     let lists = [&given.stiffness, &given.damping];
     let mut rows = vec![[0.0; 2]; given.len()];
+    let elements = &mut stick_model.elements;
+    let mut add = |ends: [Place; 2], part: usize, value: f64| {
+        let part = [Part::Elastic, Part::Dashpot][part];
+        elements.push(Element::between(ends, part, value));
+    };
     for (part, &(row, column, value)) in lists
         .into_iter()
         .enumerate()
@@ -636,16 +641,12 @@ fn discretize_given(given: &Given) -> Discretization {
         rows[row][part] += value;
         if row != column {
             rows[column][part] += value;
-            stick_model
-                .couplings
-                .push(coupling([place(row), place(column)], part, -value));
+            add([place(row), place(column)], part, -value);
         }
     }
     for (dof, sums) in rows.into_iter().enumerate() {
         for (part, sum) in sums.into_iter().enumerate() {
-            stick_model
-                .couplings
-                .push(coupling([(ground, X), place(dof)], part, sum));
+            add([(ground, X), place(dof)], part, sum);
         }
     }
     let floors: Vec<usize> = given.floors.iter().map(|dof| ground + 1 + dof).collect();
@@ -656,19 +657,6 @@ fn discretize_given(given: &Given) -> Discretization {
         right_face: floors.clone(),
         floors,
         ..Discretization::default()
-    }
-}
-
-/// A coupling with a stiffness, or with a dashpot.
-fn coupling(ends: [(usize, usize); 2], part: usize, value: f64) -> Coupling {
-    let mut own = [0.0; 2];
-    own[part] = value;
-    let [stiffness, dashpot] = own;
-    Coupling {
-        ends,
-        stiffness,
-        softening: 0.0,
-        dashpot,
     }
 }
 

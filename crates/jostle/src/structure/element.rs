@@ -1,23 +1,44 @@
 //! Stiffness of the massless elements between lumped masses, in global axes.
 
-use crate::linear::StepMatrix;
-use crate::model::ProportionalDamping;
-use crate::structure::{
-    Coupling, DeformationElement, Hinge, Member, Node, RigidFoundation, Spring, StickModel,
-    StickPlanSpring,
-};
+use super::stick_model::StickModel;
+use crate::linear::{Row, StepMatrix};
 
 /// Displacement of a node: horizontal, vertical, rotation.
 pub(crate) const X: usize = 0;
 pub(crate) const Y: usize = 1;
 pub(crate) const THETA: usize = 2;
 
-/// End, and displacement component there.
+/// Node, and displacement component there.
 pub(crate) type Place = (usize, usize);
+
+/// Index of a displacement in rows over the displacements of nodes.
+pub(crate) fn index_of((node, component): Place) -> usize {
+    3 * node + component
+}
+
+/// Displacement of an index in these rows.
+pub(crate) fn place_of(index: usize) -> Place {
+    (index / 3, index % 3)
+}
+
+/// Displacements of nodes with their shares, as a row over these displacements.
+pub(crate) fn over_nodes(entries: impl IntoIterator<Item = (Place, f64)>) -> Row {
+    let entries = entries.into_iter();
+    entries
+        .map(|(place, share)| (index_of(place), share))
+        .collect()
+}
+
+/// Displacements of nodes in such a row, with their shares.
+pub(crate) fn places(row: &Row) -> impl Iterator<Item = (Place, f64)> + Clone {
+    row.entries()
+        .iter()
+        .map(|(index, share)| (place_of(*index), *share))
+}
 
 /// The matrix of a building that an entry belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Part {
+pub enum Part {
     /// K: stiffness that takes part in stiffness-proportional damping.
     Elastic,
     /// K′: stiffness that does not: P-Delta, and the springs of a base.
@@ -37,6 +58,60 @@ impl Part {
     }
 }
 
+/// A massless element over displacements of nodes, 3 × node + (0 horizontal, 1 vertical, 2 rotation). Its stiffness may be
+/// negative.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Element {
+    /// A spring or a dashpot between any points, in any direction.
+    Spring {
+        /// The matrix to which it belongs.
+        part: Part,
+        /// Force per deformation \[N/m, N·m/rad; times s for dashpots\].
+        stiffness: f64,
+        /// Its deformation.
+        row: Row,
+    },
+    /// Several deformations that act on each other, such as the ends of a beam.
+    Matrix {
+        /// The matrix to which it belongs.
+        part: Part,
+        /// Its deformations.
+        rows: Vec<Row>,
+        /// Forces per deformation, symmetric: lower triangle, row by row \[N/m, N, N·m/rad; times s for dashpots\].
+        lower: Vec<f64>,
+    },
+}
+
+impl Element {
+    /// A spring or a dashpot that the difference of two displacements stretches.
+    pub(crate) fn between([a, b]: [Place; 2], part: Part, stiffness: f64) -> Self {
+        Self::Spring {
+            part,
+            stiffness,
+            row: over_nodes([(a, 1.0), (b, -1.0)]),
+        }
+    }
+
+    /// Its deformations.
+    pub(crate) fn deformations(&self) -> &[Row] {
+        match self {
+            Self::Spring { row, .. } => std::slice::from_ref(row),
+            Self::Matrix { rows, .. } => rows,
+        }
+    }
+
+    /// Force of a deformation per another.
+    pub(crate) fn entry(&self, row: usize, column: usize) -> f64 {
+        match self {
+            Self::Spring { stiffness, .. } => *stiffness,
+            Self::Matrix { lower, .. } => {
+                let (row, column) = (row.max(column), row.min(column));
+                lower[row * (row + 1) / 2 + column]
+            }
+        }
+    }
+}
+
 /// Symmetric matrix of an element between displacements of its ends.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ElementStiffness {
@@ -46,327 +121,13 @@ pub(crate) struct ElementStiffness {
     pub(crate) is_soil: bool,
 }
 
-/// Stiffness and dashpots of every element of a stick model, over displacements that are not tied to the rotation of a
-/// foundation.
-pub(crate) fn stiffnesses(stick_model: &StickModel) -> impl Iterator<Item = ElementStiffness> + '_ {
-    let foundation = stick_model.foundation.as_ref();
-    untied(stick_model).map(move |mut element| {
-        if !stick_model.frame_nodes.is_empty() {
-            element.tie_to_floors(stick_model);
-        } else if let Some(foundation) = foundation {
-            for (_, a, b, value) in &mut element.entries {
-                for place in [a, b] {
-                    let share;
-                    (*place, share) = foundation.carries(*place);
-                    *value *= share;
-                }
-            }
-        }
-        element
-    })
-}
-
-/// The same over all displacements of nodes.
-pub(crate) fn untied(stick_model: &StickModel) -> impl Iterator<Item = ElementStiffness> + '_ {
-    let foundation = stick_model.foundation.as_ref();
-    let members = stick_model
-        .members
-        .iter()
-        .map(|member| of_member(member, &stick_model.nodes));
-    members
-        .chain(stick_model.hinges.iter().map(of_hinge))
-        .chain(
-            stick_model
-                .springs
-                .iter()
-                .map(move |spring| of_spring(spring, foundation)),
-        )
-        .chain(stick_model.couplings.iter().map(of_coupling))
-        .chain(stick_model.deformation_elements.iter().map(of_deformations))
-        .chain(stick_model.plan_springs.iter().map(of_plan_spring))
-        .chain(foundation.map(of_soil))
-}
-
-impl RigidFoundation {
-    /// A displacement as a multiple of another: what the foundation makes rise or sink is tied to its rotation.
-    pub(crate) fn carries(&self, place: Place) -> (Place, f64) {
-        match (place.1, self.levers.get(place.0)) {
-            (Y, Some(Some(lever))) => ((self.node, THETA), *lever),
-            _ => (place, 1.0),
-        }
-    }
-}
-
-/// Displacements to which one is tied, each with its share of it.
-pub(crate) struct Carriers {
-    list: [(Place, f64); 3],
-    count: usize,
-}
-
-impl Carriers {
-    fn single(place: Place, share: f64) -> Self {
-        Self {
-            list: [(place, share); 3],
-            count: 1,
-        }
-    }
-}
-
-impl std::ops::Deref for Carriers {
-    type Target = [(Place, f64)];
-
-    fn deref(&self) -> &[(Place, f64)] {
-        &self.list[..self.count]
-    }
-}
-
-impl StickModel {
-    /// The displacements to which one is tied; itself if it is free.
-    pub(crate) fn carried(&self, place: Place) -> Carriers {
-        if let Some(floor) = self.floor_of(place) {
-            return floor;
-        }
-        match &self.foundation {
-            Some(foundation) => {
-                let (place, share) = foundation.carries(place);
-                Carriers::single(place, share)
-            }
-            None => Carriers::single(place, 1.0),
-        }
-    }
-
-    /// The displacements of a floor that move a node of a frame along its line.
-    fn floor_of(&self, (node, component): Place) -> Option<Carriers> {
-        let own = self.frame_nodes.get(node)?.as_ref()?;
-        let floor = own.floor.filter(|_| component == X)?;
-        let [x, y, turn] = own.shares;
-        Some(Carriers {
-            list: [((floor, X), x), ((floor, Y), y), ((floor, THETA), turn)],
-            count: 3,
-        })
-    }
-
-    /// What a force at a displacement adds to the horizontal forces along x and across, and to the torque about the centre of the
-    /// floor at its height, or of the next one above; none for what is vertical or in one plane.
-    pub(crate) fn horizontal_shares(&self, (node, component): Place) -> [f64; 3] {
-        match self.frame_nodes.get(node) {
-            Some(Some(own)) if component == X => own.shares,
-            Some(Some(_)) => [0.0; 3],
-            _ => {
-                let mut shares = [0.0; 3];
-                shares[component] = 1.0;
-                shares
-            }
-        }
-    }
-}
-
-impl Member {
-    /// Whether both ends lie on one vertical.
-    pub(crate) fn is_vertical(&self, nodes: &[Node]) -> bool {
-        let [a, b] = self.ends.map(|end| nodes[end]);
-        (b.y - a.y).abs() > (b.x - a.x).abs()
-    }
-}
-
-/// Bernoulli or Timoshenko beam, axially rigid or not, with chord P-Delta (theory, Eq. K1).
-pub(crate) fn of_member(member: &Member, nodes: &[Node]) -> ElementStiffness {
-    let vertical = member.is_vertical(nodes);
-    let [a, b] = member.ends;
-    // From the left or the lower end.
-    let along = |node: usize| {
-        if vertical {
-            nodes[node].y
-        } else {
-            nodes[node].x
-        }
-    };
-    let (i, j) = if along(a) <= along(b) { (a, b) } else { (b, a) };
-    let l = along(j) - along(i);
-    let (ei, phi) = (
-        member.flexural_rigidity,
-        member.shear_rigidity.map_or(0.0, |shear| {
-            12.0 * member.flexural_rigidity / (shear * l * l)
-        }),
-    );
-    // Transverse displacement is 90° counter-clockwise from the axis: +y of a beam, −x of a column.
-    let (transverse, axial, sign) = if vertical { (X, Y, -1.0) } else { (Y, X, 1.0) };
-    let scale = ei / (l * l * l * (1.0 + phi));
-    let bending = [
-        [12.0, 6.0 * l, -12.0, 6.0 * l],
-        [6.0 * l, (4.0 + phi) * l * l, -6.0 * l, (2.0 - phi) * l * l],
-        [-12.0, -6.0 * l, 12.0, -6.0 * l],
-        [6.0 * l, (2.0 - phi) * l * l, -6.0 * l, (4.0 + phi) * l * l],
-    ];
-    let places = [(i, transverse), (i, THETA), (j, transverse), (j, THETA)];
-    let signs = [sign, 1.0, sign, 1.0];
-    let mut stiffness = ElementStiffness::default();
-    for (p, row) in bending.iter().enumerate() {
-        for (q, value) in row.iter().enumerate() {
-            stiffness.entries.push((
-                Part::Elastic,
-                places[p],
-                places[q],
-                scale * value * signs[p] * signs[q],
-            ));
-        }
-    }
-    stiffness.couple(
-        Part::Undamped,
-        (i, transverse),
-        (j, transverse),
-        -member.compression / l,
-    );
-    if let Some(ea) = member.axial_rigidity {
-        stiffness.couple(Part::Elastic, (i, axial), (j, axial), ea / l);
-    }
-    stiffness
-}
-
-/// Planar hinge (theory, Eq. K2).
-pub(crate) fn of_hinge(hinge: &Hinge) -> ElementStiffness {
-    let [i, j] = hinge.ends;
-    let mut stiffness = ElementStiffness::default();
-    let [horizontal, vertical] = hinge.translational_stiffness;
-    let turning = hinge.rotational_stiffness;
-    let directions = [(X, horizontal), (Y, vertical), (THETA, turning)];
-    for (component, value) in directions {
-        let (a, b) = ((i, component), (j, component));
-        let value = value.unwrap_or(0.0);
-        let yields = hinge.hysteresis.is_some() && component == THETA;
-        for (part, value) in parts_of(value, yields, hinge.proportional_damping) {
-            stiffness.couple(part, a, b, value);
-        }
-        stiffness.couple(Part::Dashpot, a, b, hinge.dashpots[component]);
-    }
-    stiffness
-}
-
-/// Storey spring (theory, Eqs. K3 and B22).
-pub(crate) fn of_spring(spring: &Spring, foundation: Option<&RigidFoundation>) -> ElementStiffness {
-    let [i, j] = spring.ends;
-    let mut stiffness = ElementStiffness::default();
-    let (yields, damping) = (spring.hysteresis.is_some(), spring.proportional_damping);
-    for (part, value) in parts_of(spring.stiffness, yields, damping) {
-        match (spring.lever, foundation) {
-            (Some(lever), Some(foundation)) => stiffness.combine(
-                part,
-                &[
-                    ((i, X), -1.0),
-                    ((j, X), 1.0),
-                    ((foundation.node, THETA), lever),
-                ],
-                value,
-            ),
-            _ => stiffness.couple(part, (i, X), (j, X), value),
-        }
-    }
-    stiffness.couple(Part::Undamped, (i, X), (j, X), -spring.softening);
-    stiffness.couple(Part::Dashpot, (i, X), (j, X), spring.dashpot);
-    stiffness
-}
-
-/// Springs and dashpots of the soil under a foundation.
-fn of_soil(foundation: &RigidFoundation) -> ElementStiffness {
-    let mut stiffness = ElementStiffness {
-        is_soil: true,
-        ..ElementStiffness::default()
-    };
-    let (u, turn) = ((foundation.node, X), (foundation.node, THETA));
-    for (part, [uu, ut, tt]) in [
-        (Part::Undamped, foundation.stiffness),
-        (Part::Dashpot, foundation.damping),
-    ] {
-        let entries = [(u, u, uu), (u, turn, ut), (turn, u, ut), (turn, turn, tt)];
-        let entries = entries.into_iter().filter(|(_, _, value)| *value != 0.0);
-        stiffness
-            .entries
-            .extend(entries.map(|(a, b, value)| (part, a, b, value)));
-    }
-    stiffness
-}
-
-/// Entry of a given matrix.
-fn of_coupling(coupling: &Coupling) -> ElementStiffness {
-    let [a, b] = coupling.ends;
-    let mut stiffness = ElementStiffness::default();
-    stiffness.couple(Part::Elastic, a, b, coupling.stiffness);
-    stiffness.couple(Part::Undamped, a, b, -coupling.softening);
-    stiffness.couple(Part::Dashpot, a, b, coupling.dashpot);
-    stiffness
-}
-
-/// k₁₁ d₁d₁ᵀ + k₁₁ d₂d₂ᵀ + k₁₂ (d₁d₂ᵀ + d₂d₁ᵀ).
-fn of_deformations(element: &DeformationElement) -> ElementStiffness {
-    let mut stiffness = ElementStiffness::default();
-    let [own, other] = element.stiffness;
-    for (i, first) in element.deformations.iter().enumerate() {
-        stiffness.combine(Part::Elastic, first, own);
-        for (j, second) in element.deformations.iter().enumerate() {
-            if i == j {
-                continue;
-            }
-            for &(a, of_a) in first {
-                for &(b, of_b) in second {
-                    let value = other * of_a * of_b;
-                    stiffness.entries.push((Part::Elastic, a, b, value));
-                }
-            }
-        }
-    }
-    stiffness
-}
-
-/// What yields between two floors in plan, as far as it is linear.
-fn of_plan_spring(spring: &StickPlanSpring) -> ElementStiffness {
-    let [lower, upper] = spring.ends;
-    let (initial, component) = (spring.hysteresis.backbone().initial(), spring.component);
-    let mut stiffness = ElementStiffness::default();
-    for (part, value) in parts_of(initial, true, spring.proportional_damping) {
-        let shares = [
-            ((upper, component), 1.0),
-            ((lower, component), -1.0),
-            ((upper, THETA), spring.levers[1]),
-            ((lower, THETA), -spring.levers[0]),
-        ];
-        stiffness.combine(part, &shares, value);
-    }
-    stiffness
-}
-
-/// The matrix for the stiffness of an elastic hinge or spring.
-pub(crate) fn part_of(proportional_damping: ProportionalDamping) -> Part {
-    match proportional_damping {
-        ProportionalDamping::Initial | ProportionalDamping::Tangent => Part::Elastic,
-        ProportionalDamping::None => Part::Undamped,
-    }
-}
-
-/// The matrices for a stiffness. What yields has its tangent among the springs, see `Equations::springs`; the damping of its initial
-/// stiffness stays, that stiffness itself cancels.
-fn parts_of(
-    stiffness: f64,
-    yields: bool,
-    damping: ProportionalDamping,
-) -> impl Iterator<Item = (Part, f64)> {
-    let parts = match (yields, damping) {
-        (false, _) => [Some((part_of(damping), stiffness)), None],
-        (true, ProportionalDamping::Initial) => [
-            Some((Part::Elastic, stiffness)),
-            Some((Part::Undamped, -stiffness)),
-        ],
-        (true, _) => [None, None],
-    };
-    parts.into_iter().flatten()
-}
-
 impl ElementStiffness {
-    /// Replaces displacements of frames by those of the floors to which they are tied.
-    fn tie_to_floors(&mut self, stick_model: &StickModel) {
+    /// Replaces displacements by those to which they are tied.
+    pub(super) fn tie(&mut self, stick_model: &StickModel) {
         let entries = std::mem::take(&mut self.entries);
         for (part, a, b, value) in entries {
-            for &(a, of_a) in &*stick_model.carried(a) {
-                for &(b, of_b) in &*stick_model.carried(b) {
+            for (a, of_a) in places(&stick_model.carried(a)) {
+                for (b, of_b) in places(&stick_model.carried(b)) {
                     let value = value * of_a * of_b;
                     if value != 0.0 {
                         self.entries.push((part, a, b, value));
@@ -376,10 +137,38 @@ impl ElementStiffness {
         }
     }
 
-    /// A spring that the sum of displacements times their shares stretches.
-    pub(crate) fn combine(&mut self, part: Part, shares: &[(Place, f64)], value: f64) {
-        for &(a, of_a) in shares {
-            for &(b, of_b) in shares {
+    fn add(&mut self, element: &Element) {
+        match element {
+            Element::Spring {
+                part,
+                stiffness,
+                row,
+            } => match *row.entries() {
+                [(a, 1.0), (b, -1.0)] => {
+                    self.couple(*part, place_of(a), place_of(b), *stiffness);
+                }
+                _ => self.combine(*part, row, row, *stiffness),
+            },
+            Element::Matrix { part, rows, .. } => {
+                for (index, row) in rows.iter().enumerate() {
+                    // Two that are coupled begin with their own: sums are rounded in this order.
+                    let first = if rows.len() == 2 { index } else { 0 };
+                    for other in (first..rows.len()).chain(0..first) {
+                        let value = element.entry(index, other);
+                        self.combine(*part, row, &rows[other], value);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Forces along a row per value of another, both over displacements of nodes.
+    fn combine(&mut self, part: Part, row: &Row, across: &Row, value: f64) {
+        if value == 0.0 {
+            return;
+        }
+        for (a, of_a) in places(row) {
+            for (b, of_b) in places(across) {
                 self.entries.push((part, a, b, value * of_a * of_b));
             }
         }
@@ -395,5 +184,75 @@ impl ElementStiffness {
                 (part, b, a, -value),
             ]);
         }
+    }
+}
+
+impl FromIterator<Element> for ElementStiffness {
+    fn from_iter<I: IntoIterator<Item = Element>>(elements: I) -> Self {
+        let mut stiffness = Self::default();
+        elements.into_iter().for_each(|own| stiffness.add(&own));
+        stiffness
+    }
+}
+
+impl From<&Element> for ElementStiffness {
+    fn from(element: &Element) -> Self {
+        let mut stiffness = Self::default();
+        stiffness.add(element);
+        stiffness
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A brace at an angle between two points that move both ways: k c cᵀ with the direction c (theory of trusses).
+    #[test]
+    fn a_brace_at_any_angle_is_an_element() {
+        let (stiffness, c, s) = (5e6, 0.8, 0.6);
+        let brace = Element::Spring {
+            part: Part::Elastic,
+            stiffness,
+            row: over_nodes([((1, X), c), ((1, Y), s), ((0, X), -c), ((0, Y), -s)]),
+        };
+        let moved = [[0.0, 0.0], [3e-3, -1e-3]];
+        let at = |(node, component): Place| moved[node][component];
+        let mut forces = [[0.0; 2]; 2];
+        for (part, a, b, value) in ElementStiffness::from(&brace).entries {
+            assert_eq!(part, Part::Elastic);
+            forces[a.0][a.1] += value * at(b);
+        }
+        let tension = stiffness * (c * 3e-3 - s * 1e-3);
+        for (force, expected) in forces[1].into_iter().zip([c * tension, s * tension]) {
+            assert!(
+                (force - expected).abs() < 1e-9 * tension,
+                "{force} {expected}"
+            );
+        }
+        assert_eq!(forces[0], forces[1].map(|force| -force));
+    }
+
+    /// A spring between the ends of two arms of rigid bodies is stretched by their turns as well.
+    #[test]
+    fn a_spring_between_any_two_points_is_an_element() {
+        let row = over_nodes([
+            ((1, X), 1.0),
+            ((1, THETA), -2.0),
+            ((0, X), -1.0),
+            ((0, THETA), 0.5),
+        ]);
+        let dashpot = Element::Spring {
+            part: Part::Dashpot,
+            stiffness: 4.0,
+            row,
+        };
+        let turned: f64 = ElementStiffness::from(&dashpot)
+            .entries
+            .iter()
+            .filter(|(_, a, b, _)| (*a, *b) == ((1, THETA), (0, THETA)))
+            .map(|(.., value)| value)
+            .sum();
+        assert_eq!(turned, 4.0 * -2.0 * 0.5);
     }
 }

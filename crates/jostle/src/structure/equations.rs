@@ -1,10 +1,11 @@
 //! Mass and stiffness of one building in the order of its transfer path.
 
 use crate::hysteresis::{Hysteresis, HysteresisMemory};
-use crate::linear::SparseSymmetric;
+use crate::linear::{Row, SparseSymmetric};
 use crate::model::ProportionalDamping;
-use crate::structure::element::{self, Part, X, Y};
+use crate::structure::element::{self, Part, Place, X, Y, over_nodes};
 use crate::structure::path::Path;
+use crate::structure::stick_elements;
 use crate::structure::{PlanMat, StickModel, Support};
 
 /// M ü + (α M + β K + C′) u̇ + (K + K′) u = −M r a_g + contact forces, for one building.
@@ -46,18 +47,16 @@ pub struct Equations {
     /// Whether K′ and C′ are zero.
     pub(crate) plain: bool,
     path: Path,
-    base_shear: Vec<(usize, f64)>,
+    base_shear: Row,
     total_mass: f64,
 }
 
-/// A spring between two displacements that yields.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A spring that yields.
+#[derive(Clone, Debug, PartialEq)]
 pub struct YieldingSpring {
-    /// The deformation is the first minus the second; `None` moves with the ground.
-    pub dofs: [Option<usize>; 2],
-    /// Rotations that add to the deformation, and by how much: that of the foundation under a storey, or of two floors in plan
-    /// \[m\].
-    pub levers: [Option<(usize, f64)>; 2],
+    /// Its deformation \[rad or m\]: one end minus the other, then rotations that add to it, such as that of the foundation under a
+    /// storey, or of two floors in plan.
+    pub row: Row,
     /// Rule and backbone.
     pub hysteresis: Hysteresis,
     /// Whether stiffness-proportional damping acts on it with its present stiffness.
@@ -67,42 +66,11 @@ pub struct YieldingSpring {
 }
 
 impl YieldingSpring {
-    /// How displacements deform it: degree of freedom and share.
-    pub(crate) fn row(&self) -> impl Iterator<Item = (usize, f64)> {
-        let ends = self.dofs.into_iter().zip([1.0, -1.0]);
-        let ends = ends.filter_map(|(dof, sign)| Some((dof?, sign)));
-        ends.chain(self.levers.into_iter().flatten())
-    }
-
     /// Deformation under displacements of the building \[rad or m\].
     #[must_use]
     #[inline]
     pub fn deformation(&self, displacement: &[f64]) -> f64 {
-        let at = |dof: Option<usize>| dof.map_or(0.0, |dof| displacement[dof]);
-        let between = at(self.dofs[0]) - at(self.dofs[1]);
-        let turned = |sum: f64, lever: &(usize, f64)| sum + lever.1 * displacement[lever.0];
-        self.levers.iter().flatten().fold(between, turned)
-    }
-
-    /// Degrees of freedom of the building and their shares of the deformation.
-    pub(crate) fn shares(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
-        let ends = self.dofs.into_iter().zip([1.0, -1.0]);
-        let ends = ends.filter_map(|(dof, sign)| dof.map(|dof| (dof, sign)));
-        ends.chain(self.levers.iter().flatten().copied())
-    }
-
-    /// Adds a force conjugate to the deformation to loads of the building.
-    #[inline]
-    pub(crate) fn push(&self, force: f64, load: &mut [f64]) {
-        if let Some(dof) = self.dofs[0] {
-            load[dof] += force;
-        }
-        if let Some(dof) = self.dofs[1] {
-            load[dof] -= force;
-        }
-        for (turning, arm) in self.levers.iter().flatten() {
-            load[*turning] += arm * force;
-        }
+        self.row.value(displacement)
     }
 }
 
@@ -146,9 +114,11 @@ impl Equations {
                 .into_iter()
                 .enumerate()
             {
-                let [(place, share)] = stick_model.carried((index, component))[..] else {
+                let carried = stick_model.carried((index, component));
+                let [(place, share)] = *carried.entries() else {
                     continue;
                 };
+                let place = element::place_of(place);
                 let Some(dof) = path.dof(place.0, place.1) else {
                     continue;
                 };
@@ -182,16 +152,16 @@ impl Equations {
             }
         }
         let mut triplets = [Vec::new(), Vec::new(), Vec::new()];
-        let mut base_shear = Vec::new();
-        // What couplings leave of a row at the ground is no force there: the base shear is the sum of all rows.
+        let mut base_shear = Row::default();
+        // What elements of a matrix leave of a row at the ground is no force there: the base shear is the sum of all rows.
         let on_soil = stick_model.foundation.is_some();
         let of_supports =
-            stick_model.couplings.is_empty() && stick_model.frame_nodes.is_empty() || on_soil;
+            stick_model.elements.is_empty() && stick_model.frame_nodes.is_empty() || on_soil;
         // Over a foundation, the base shear is what it takes from the building above.
         let sway = stick_model.foundation.as_ref();
         let sway = sway.and_then(|foundation| path.dof(foundation.node, X));
         for (is_soil, (part, a, b, value)) in
-            element::stiffnesses(stick_model).flat_map(|element| {
+            stick_elements::stiffnesses(stick_model).flat_map(|element| {
                 let is_soil = element.is_soil;
                 element
                     .entries
@@ -205,7 +175,7 @@ impl Equations {
                 && part != Part::Dashpot
                 && let Some(column) = path.dof(b.0, b.1)
             {
-                base_shear.push((column, -value));
+                base_shear.add(column, -value);
             }
             match (path.dof(a.0, a.1), path.dof(b.0, b.1)) {
                 (Some(row), Some(column)) if row >= column => {
@@ -215,7 +185,7 @@ impl Equations {
                 (None, Some(column))
                     if of_supports && !on_soil && a.1 == X && part != Part::Dashpot =>
                 {
-                    base_shear.push((column, -value));
+                    base_shear.add(column, -value);
                 }
                 _ => {}
             }
@@ -225,11 +195,14 @@ impl Equations {
                 path.dof(a.0, a.1),
                 path.dof(b.0, b.1),
             ) {
-                base_shear.push((column, along * value));
+                base_shear.add(column, along * value);
             }
         }
         if !of_supports || on_soil {
-            base_shear = summed(&base_shear, n);
+            let mut sums = vec![0.0; n];
+            base_shear.push(1.0, &mut sums);
+            let sums = sums.into_iter().enumerate();
+            base_shear = sums.filter(|(_, sum)| *sum != 0.0).collect();
         }
         let springs = yielding_springs(stick_model, &path);
         let in_plan = stick_model.plan_mat.iter().flat_map(PlanMat::forces);
@@ -324,7 +297,7 @@ impl Equations {
     }
 
     /// Degree of freedom of (node, component).
-    pub(crate) fn dof(&self, place: element::Place) -> Option<usize> {
+    pub(crate) fn dof(&self, place: Place) -> Option<usize> {
         self.path.dof(place.0, place.1)
     }
 
@@ -356,89 +329,46 @@ impl Equations {
     /// right \[N\].
     #[must_use]
     pub fn base_shear(&self, displacement: &[f64]) -> f64 {
-        self.base_shear
-            .iter()
-            .map(|(dof, stiffness)| stiffness * displacement[*dof])
-            .sum()
+        self.base_shear.value(displacement)
     }
 }
 
-/// Entries of one degree of freedom added up.
-fn summed(entries: &[(usize, f64)], count: usize) -> Vec<(usize, f64)> {
-    let mut sums = vec![0.0; count];
-    for (dof, value) in entries {
-        sums[*dof] += value;
-    }
-    sums.into_iter()
-        .enumerate()
-        .filter(|(_, value)| *value != 0.0)
-        .collect()
-}
-
+/// Springs that yield: hinges, storeys, those in plan, then bearings.
 fn yielding_springs(stick_model: &StickModel, path: &Path) -> Vec<YieldingSpring> {
-    let foundation = stick_model.foundation.as_ref().map(|own| own.node);
-    let sway = foundation.and_then(|node| path.dof(node, X));
-    let turning = foundation.and_then(|node| path.dof(node, element::THETA));
-    let spring = |[first, second]: [usize; 2],
-                  component: usize,
-                  hysteresis: Hysteresis,
-                  damping: ProportionalDamping| {
-        let dofs = [first, second].map(|node| path.dof(node, component));
-        YieldingSpring {
-            dofs,
-            levers: [None; 2],
-            hysteresis,
-            damped_by_tangent: damping == ProportionalDamping::Tangent,
-            carries_base_shear: component == X && dofs.contains(&sway),
-        }
-    };
-    let hinges = stick_model.hinges.iter().filter_map(|hinge| {
-        let hysteresis = hinge.hysteresis?;
-        let damping = hinge.proportional_damping;
-        Some(spring(hinge.ends, element::THETA, hysteresis, damping))
-    });
-    // A storey is positive when its upper floor is to the right of its lower one.
-    let storeys = stick_model.springs.iter().filter_map(|storey| {
-        let [lower, upper] = storey.ends;
-        Some(YieldingSpring {
-            levers: [turning.zip(storey.lever), None],
-            ..spring(
-                [upper, lower],
-                X,
-                storey.hysteresis?,
-                storey.proportional_damping,
-            )
-        })
-    });
-    let in_plan = stick_model.plan_springs.iter().map(|own| {
-        let [lower, upper] = own.ends;
-        let lever = |node: usize, arm: f64| {
-            let turning = path.dof(node, element::THETA)?;
-            (arm != 0.0).then_some((turning, arm))
+    let foundation = stick_model.foundation.as_ref();
+    let sway = foundation.and_then(|own| path.dof(own.node, X));
+    let spring = |row: &Row, hysteresis: Hysteresis, damping: ProportionalDamping| {
+        let stands = |((node, component), _): (Place, f64)| {
+            component == X && path.dof(node, component) == sway
         };
         YieldingSpring {
-            levers: [lever(upper, own.levers[1]), lever(lower, -own.levers[0])],
-            ..spring(
-                [upper, lower],
-                own.component,
-                own.hysteresis,
-                own.proportional_damping,
-            )
+            row: path.row(row),
+            hysteresis,
+            damped_by_tangent: damping == ProportionalDamping::Tangent,
+            carries_base_shear: element::places(row).any(stands),
         }
+    };
+    let hinges = stick_model.hinges.iter().filter_map(|own| {
+        let row = own.rotation();
+        Some(spring(&row, own.hysteresis?, own.proportional_damping))
     });
+    let storeys = stick_model.springs.iter().filter_map(|own| {
+        let row = own.deformation(foundation);
+        Some(spring(&row, own.hysteresis?, own.proportional_damping))
+    });
+    let in_plan = stick_model.plan_springs.iter();
+    let in_plan = in_plan.map(|own| spring(&own.row, own.hysteresis, own.proportional_damping));
     let bearings = stick_model.plan_mat.iter().flat_map(|mat| {
-        let dof = |component: usize| path.dof(mat.node, component);
-        let [x, y, turning] = [dof(X), dof(Y), dof(element::THETA)];
-        mat.forces().flat_map(move |(rows, [along, across])| {
-            let places = [
-                ([x, None], along),
-                ([y, None], across),
-                ([x, y], along - across),
+        let [x, y, turning] = [X, Y, element::THETA].map(|component| (mat.node, component));
+        mat.forces().flat_map(move |(laws, [along, across])| {
+            let rows = [
+                over_nodes([(x, 1.0), (turning, along)]),
+                over_nodes([(y, 1.0), (turning, across)]),
+                over_nodes([(x, 1.0), (y, -1.0), (turning, along - across)]),
             ];
-            let rows = places.into_iter().zip(rows).enumerate();
-            rows.map(move |(row, ((dofs, arm), hysteresis))| YieldingSpring {
-                dofs,
-                levers: [turning.zip((arm != 0.0).then_some(arm)), None],
+            let rows = rows.into_iter().zip(laws).enumerate();
+            rows.map(|(row, (moved, hysteresis))| YieldingSpring {
+                row: path.row(&moved),
                 hysteresis,
                 damped_by_tangent: false,
                 carries_base_shear: row == 0,

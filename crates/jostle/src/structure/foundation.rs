@@ -1,8 +1,9 @@
 //! Buildings on rigid foundations.
 
 use super::Discretization;
-use super::element::{Place, THETA, X, Y};
-use super::stick_model::{Coupling, RigidFoundation, StickModel, Support};
+use super::element::{Element, Part, Place, THETA, X, Y, index_of, over_nodes, places};
+use super::stick_model::{RigidFoundation, StickModel, Support};
+use crate::linear::Row;
 use crate::model::Foundation;
 
 impl Discretization {
@@ -36,15 +37,17 @@ impl Discretization {
             let [lower, upper] = spring.ends.map(|end| sticks.nodes[end].y);
             spring.lever = Some(upper - lower);
         }
-        let levers = if feet.len() == 1 {
-            Vec::new()
-        } else {
-            levers(sticks, &feet, middle)
-        };
+        if feet.len() > 1 {
+            let levers = levers(sticks, &feet, middle).into_iter().enumerate();
+            let ties = levers.filter_map(|(at, lever)| {
+                let turned = over_nodes([((node, THETA), lever?)]);
+                Some((index_of((at, Y)), turned))
+            });
+            sticks.ties.extend(ties);
+        }
         sticks.foundation = Some(RigidFoundation {
             node,
             feet,
-            levers,
             stiffness,
             damping,
         });
@@ -73,22 +76,23 @@ impl Discretization {
             let of_mass = alpha * own.mass;
             if own.mass > 0.0 {
                 let place = (node, X);
-                sticks.add_dashpot(ground, &[(place, 1.0)], -of_mass);
+                sticks.add_dashpot(ground, &over_nodes([(place, 1.0)]), -of_mass);
                 if own.y > 0.0 {
                     let relative = [(place, 1.0), ((foundation.node, X), -1.0), (turning, own.y)];
-                    sticks.add_dashpot(ground, &relative, of_mass);
+                    sticks.add_dashpot(ground, &over_nodes(relative), of_mass);
                 }
                 // Floors of a shear building do not rise.
                 if own.support == Support::Free && node != foundation.node {
                     let lever = own.x - base.x;
-                    sticks.add_dashpot(ground, &[((node, Y), 1.0)], -of_mass);
+                    sticks.add_dashpot(ground, &over_nodes([((node, Y), 1.0)]), -of_mass);
                     let relative = [((node, Y), 1.0), (turning, -lever)];
-                    sticks.add_dashpot(ground, &relative, of_mass);
+                    sticks.add_dashpot(ground, &over_nodes(relative), of_mass);
                 }
             }
             if own.rotary_inertia > 0.0 {
                 let of_inertia = alpha * own.rotary_inertia;
-                sticks.add_dashpot(ground, &[((node, THETA), 1.0)], -of_inertia);
+                let turned = over_nodes([((node, THETA), 1.0)]);
+                sticks.add_dashpot(ground, &turned, -of_inertia);
             }
         }
     }
@@ -128,22 +132,18 @@ fn levers(sticks: &StickModel, feet: &[usize], middle: f64) -> Vec<Option<f64>> 
 }
 
 impl StickModel {
-    /// Adds a dashpot that the sum of displacements times their shares moves, as one between every two of them and one from each
+    /// Adds a dashpot whose deformation is a row over displacements of nodes, as one between every two of them and one from each
     /// to the ground.
-    fn add_dashpot(&mut self, ground: usize, shares: &[(Place, f64)], value: f64) {
+    fn add_dashpot(&mut self, ground: usize, row: &Row, value: f64) {
         let mut add = |ends: [Place; 2], dashpot: f64| {
             if dashpot != 0.0 {
-                self.couplings.push(Coupling {
-                    ends,
-                    stiffness: 0.0,
-                    softening: 0.0,
-                    dashpot,
-                });
+                self.elements
+                    .push(Element::between(ends, Part::Dashpot, dashpot));
             }
         };
-        let sum: f64 = shares.iter().map(|(_, share)| share).sum();
-        for (index, &(a, of_a)) in shares.iter().enumerate() {
-            for &(b, of_b) in &shares[index + 1..] {
+        let sum: f64 = row.entries().iter().map(|(_, share)| share).sum();
+        for (index, (a, of_a)) in places(row).enumerate() {
+            for (b, of_b) in places(row).skip(index + 1) {
                 add([a, b], -value * of_a * of_b);
             }
             add([(ground, X), a], value * of_a * sum);

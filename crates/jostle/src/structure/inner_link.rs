@@ -1,14 +1,15 @@
 //! Links between floors of one building, as far as its storey forces, modes and capacity curve follow from them.
 
 use crate::hysteresis::Hysteresis;
+use crate::linear::Row;
 
 /// A link between two floors of a building, or a floor and its base: a brace, an infill, a device.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InnerLink {
     /// Index among the links of the system.
     pub link: usize,
-    /// How displacements of the building shorten it: degree of freedom and coefficient.
-    pub shortening: Vec<(usize, f64)>,
+    /// How much shorter displacements of the building make it, or velocities its rate \[m, m/s\].
+    pub shortening: Row,
     /// Initial stiffness, ≥ 0; zero of one that takes no static load \[N/m\].
     pub stiffness: f64,
     /// What resists a slow change of length, compression being positive.
@@ -36,12 +37,5 @@ impl InnerLink {
             [0, floor] | [floor, 0] => format!("link between the base and floor {floor}"),
             [one, other] => format!("link between floors {one} and {other}"),
         }
-    }
-
-    /// How much shorter displacements make it, or its rate for velocities \[m, m/s\].
-    #[must_use]
-    pub fn shortened_by(&self, values: &[f64]) -> f64 {
-        let entries = self.shortening.iter();
-        entries.map(|(dof, share)| share * values[*dof]).sum()
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::hysteresis::{Hysteresis, Side};
 use crate::structure::StickModel;
+use crate::structure::element::places;
 
 /// Stiffness 6 EI/L of the member behind every hinge that yields, in the order of the hinges, antisymmetric bending
 /// between its two ends, less with shear deformation; `None` where no member is found \[N·m/rad\].
@@ -18,10 +19,12 @@ pub(crate) fn end_stiffnesses(stick_model: &StickModel) -> Vec<Option<f64>> {
     let yielding = stick_model.hinges.iter().filter(|h| h.hysteresis.is_some());
     // In a space frame k₁₁ + k₁₂ is that stiffness.
     let mut in_space = vec![None; stick_model.nodes.len()];
-    for element in &stick_model.deformation_elements {
-        for ((node, _), _) in element.deformations.iter().flatten() {
-            if stick_model.space_ends.contains(node) {
-                in_space[*node] = Some(element.stiffness[0] + element.stiffness[1]);
+    for element in &stick_model.space_elements {
+        let entries = 0..element.deformations().len();
+        let bent: f64 = entries.map(|end| element.entry(0, end)).sum();
+        for ((node, _), _) in element.deformations().iter().flat_map(places) {
+            if stick_model.space_ends.contains(&node) {
+                in_space[node] = Some(bent);
             }
         }
     }

@@ -2,9 +2,10 @@
 
 use std::ops::Range;
 
-use crate::linear::sort_by_key;
+use crate::linear::Row;
 use crate::model::{SharedColumn, SpacePlace};
 use crate::structure::element::{self, ElementStiffness, Part, THETA, X, Y};
+use crate::structure::stick_elements;
 use crate::structure::{AssembledBuilding, Member, MemberEnd, SpringPlace};
 
 /// Where a column or a beam of a frame is; all count from 1.
@@ -166,14 +167,14 @@ pub struct MemberForces {
 /// A force as a sum over the motion of a building.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LinearForm {
-    /// Degree of freedom of the building, and the force per displacement \[N/m, N, N·m, N·m/rad\].
-    pub(crate) displacement: Vec<(usize, f64)>,
+    /// The force per displacement \[N/m, N, N·m, N·m/rad\].
+    pub(crate) displacement: Row,
     /// The same per velocity.
-    pub(crate) velocity: Vec<(usize, f64)>,
+    pub(crate) velocity: Row,
     /// The same per acceleration relative to the ground.
-    pub(crate) acceleration: Vec<(usize, f64)>,
-    /// Spring that yields, and its share of the force.
-    pub(crate) springs: Vec<(usize, f64)>,
+    pub(crate) acceleration: Row,
+    /// The same per force of a spring that yields.
+    pub(crate) springs: Row,
     /// Force per ground acceleration \[kg\].
     pub(crate) ground: f64,
     /// Force of self weight beyond that of the displacements at rest \[N\].
@@ -205,18 +206,12 @@ impl LinearForm {
         contact: impl Fn(usize) -> f64,
         link: impl Fn(usize) -> f64,
     ) -> f64 {
-        let dot = |list: &[(usize, f64)], of: &[f64]| -> f64 {
-            list.iter().map(|(dof, share)| share * of[*dof]).sum()
-        };
-        let mut sum = dot(&self.displacement, motion.displacement) + self.constant;
+        let mut sum = self.displacement.value(motion.displacement) + self.constant;
         if !self.follows_displacements() {
-            sum += dot(&self.velocity, motion.velocity)
-                + dot(&self.acceleration, motion.acceleration)
+            sum += self.velocity.value(motion.velocity)
+                + self.acceleration.value(motion.acceleration)
                 + self.ground * motion.ground;
-            let springs = self.springs.iter();
-            sum += springs
-                .map(|(index, share)| share * spring(*index))
-                .sum::<f64>();
+            sum += self.springs.value_of(spring);
             sum -= self
                 .contacts
                 .iter()
@@ -225,17 +220,6 @@ impl LinearForm {
             sum -= self.links.iter().map(|index| link(*index)).sum::<f64>();
         }
         sum
-    }
-
-    /// What several displacements of the building add to the force; `displacement`: all of them, by degree of freedom.
-    pub(crate) fn of_displacements<const N: usize>(&self, displacement: &[[f64; N]]) -> [f64; N] {
-        let mut sums = [-0.0; N];
-        for (dof, share) in &self.displacement {
-            for (sum, value) in sums.iter_mut().zip(&displacement[*dof]) {
-                *sum += share * value;
-            }
-        }
-        sums
     }
 
     /// Whether displacements and self weight alone determine it.
@@ -453,13 +437,14 @@ impl<'a> Cuts<'a> {
                 vertical,
                 rigid: member.axial_rigidity.is_none(),
                 compression: member.compression,
-                stiffness: element::of_member(member, nodes),
+                stiffness: stick_elements::of_member(member, nodes),
             }
         };
         let mut rows = vec![[const { Vec::new() }; 3]; nodes.len()];
-        for (part, a, b, value) in element::untied(stick_model).flat_map(|element| element.entries)
+        for (part, a, b, value) in
+            stick_elements::untied(stick_model).flat_map(|element| element.entries)
         {
-            for &(b, share) in &*stick_model.carried(b) {
+            for (b, share) in element::places(&stick_model.carried(b)) {
                 let value = value * share;
                 if let Some(dof) = building.equations.dof(b) {
                     rows[a.0][a.1].push((part, dof, value));
@@ -483,13 +468,14 @@ impl<'a> Cuts<'a> {
             if *a != place || *part == Part::Dashpot {
                 continue;
             }
-            for &(b, share) in &*self.building.discretization.stick_model.carried(*b) {
+            let stick_model = &self.building.discretization.stick_model;
+            for (b, share) in element::places(&stick_model.carried(*b)) {
                 if let Some(dof) = self.building.equations.dof(b) {
-                    form.displacement.push((dof, sign * value * share));
+                    form.displacement.add(dof, sign * value * share);
                 }
             }
         }
-        form.displacement = merged(form.displacement);
+        form.displacement = form.displacement.merged();
         form
     }
 
@@ -533,7 +519,7 @@ impl<'a> Cuts<'a> {
         });
         match hinge {
             Some(spring) => LinearForm {
-                springs: vec![(spring, 1.0)],
+                springs: Row::single(spring),
                 ..LinearForm::default()
             },
             None => self.end_force(element, side, THETA, [-1.0, 1.0][side]),
@@ -562,26 +548,30 @@ impl<'a> Cuts<'a> {
     fn carried_by_column(&self, cut: &Element) -> LinearForm {
         let stick_model = &self.building.discretization.stick_model;
         let top = stick_model.nodes[cut.ends[1]];
+        let elevation = stick_model.turn(cut.ends[1]).elevation;
         let equations = &self.building.equations;
         let mut form = LinearForm::default();
         for (index, node) in stick_model.nodes.iter().enumerate() {
-            if (node.x - top.x).abs() > SAME_LINE || node.y < top.y - SAME_LINE {
+            let beside = stick_model.turn(index).elevation != elevation
+                || (node.x - top.x).abs() > SAME_LINE;
+            if beside || node.y < top.y - SAME_LINE {
                 continue;
             }
             for (part, dof, value) in &self.rows[index][Y] {
                 match part {
                     // Among them those that keep the damping of masses relative to a foundation.
-                    Part::Dashpot => form.velocity.push((*dof, -value)),
-                    Part::Elastic | Part::Undamped => form.displacement.push((*dof, -value)),
+                    Part::Dashpot => form.velocity.add(*dof, -value),
+                    Part::Elastic | Part::Undamped => form.displacement.add(*dof, -value),
                 }
             }
-            let [(place, share)] = stick_model.carried((index, Y))[..] else {
+            let carried = stick_model.carried((index, Y));
+            let [(place, share)] = *carried.entries() else {
                 continue;
             };
-            if let Some(dof) = equations.dof(place) {
+            if let Some(dof) = equations.dof(element::place_of(place)) {
                 let mass = stick_model.vertical_mass(index) * share;
-                form.acceleration.push((dof, -mass));
-                form.velocity.push((dof, -equations.alpha * mass));
+                form.acceleration.add(dof, -mass);
+                form.velocity.add(dof, -equations.alpha * mass);
             }
             form.constant -= self.gravity * node.mass;
         }
@@ -610,17 +600,17 @@ impl<'a> Cuts<'a> {
             }
             for (part, dof, value) in &self.rows[index][X] {
                 match part {
-                    Part::Dashpot => form.velocity.push((*dof, *value)),
-                    Part::Undamped => form.displacement.push((*dof, *value)),
+                    Part::Dashpot => form.velocity.add(*dof, *value),
+                    Part::Undamped => form.displacement.add(*dof, *value),
                     Part::Elastic => {
-                        form.displacement.push((*dof, *value));
-                        form.velocity.push((*dof, equations.beta * value));
+                        form.displacement.add(*dof, *value);
+                        form.velocity.add(*dof, equations.beta * value);
                     }
                 }
             }
             if let Some(dof) = equations.dof((index, X)) {
-                form.acceleration.push((dof, node.mass));
-                form.velocity.push((dof, equations.alpha * node.mass));
+                form.acceleration.add(dof, node.mass);
+                form.velocity.add(dof, equations.alpha * node.mass);
                 form.ground += node.mass;
             }
         }
@@ -631,15 +621,11 @@ impl<'a> Cuts<'a> {
 impl LinearForm {
     /// The sum of two forces.
     fn plus(&self, other: &Self) -> Self {
-        let both = |of: fn(&Self) -> &Vec<(usize, f64)>| {
-            let entries = of(self).iter().chain(of(other));
-            entries.copied().collect::<Vec<_>>()
-        };
         Self {
-            displacement: both(|form| &form.displacement),
-            velocity: both(|form| &form.velocity),
-            acceleration: both(|form| &form.acceleration),
-            springs: both(|form| &form.springs),
+            displacement: self.displacement.plus(&other.displacement),
+            velocity: self.velocity.plus(&other.velocity),
+            acceleration: self.acceleration.plus(&other.acceleration),
+            springs: self.springs.plus(&other.springs),
             ground: self.ground + other.ground,
             constant: self.constant + other.constant,
             ..Self::default()
@@ -649,43 +635,19 @@ impl LinearForm {
 
     /// Adds a share of a force on which neither contacts nor links act directly.
     pub(super) fn add(&mut self, share: f64, other: &Self) {
-        let scaled = |list: &[(usize, f64)]| -> Vec<(usize, f64)> {
-            list.iter()
-                .map(|(index, value)| (*index, share * value))
-                .collect()
-        };
-        self.displacement.extend(scaled(&other.displacement));
-        self.velocity.extend(scaled(&other.velocity));
-        self.acceleration.extend(scaled(&other.acceleration));
-        self.springs.extend(scaled(&other.springs));
+        let add = |to: &mut Row, row: &Row| to.add_times(share, row);
+        add(&mut self.displacement, &other.displacement);
+        add(&mut self.velocity, &other.velocity);
+        add(&mut self.acceleration, &other.acceleration);
+        add(&mut self.springs, &other.springs);
         self.ground += share * other.ground;
         self.constant += share * other.constant;
     }
 
     pub(super) fn tidy(mut self) -> Self {
-        self.displacement = merged(self.displacement);
-        self.velocity = merged(self.velocity);
-        self.acceleration = merged(self.acceleration);
+        self.displacement = self.displacement.merged();
+        self.velocity = self.velocity.merged();
+        self.acceleration = self.acceleration.merged();
         self
     }
 }
-
-/// Entries of one degree of freedom added up, without those that cancel.
-fn merged(mut entries: Vec<(usize, f64)>) -> Vec<(usize, f64)> {
-    let greatest = entries
-        .iter()
-        .fold(0.0_f64, |most, (_, v)| most.max(v.abs()));
-    sort_by_key(&mut entries, |(dof, _)| *dof);
-    let mut list: Vec<(usize, f64)> = Vec::new();
-    for (dof, value) in entries {
-        match list.last_mut() {
-            Some((last, sum)) if *last == dof => *sum += value,
-            _ => list.push((dof, value)),
-        }
-    }
-    list.retain(|(_, value)| value.abs() > ROUNDING * greatest);
-    list
-}
-
-/// What is left of stiffnesses that cancel.
-const ROUNDING: f64 = 1e-13;

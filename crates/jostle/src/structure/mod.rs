@@ -8,6 +8,7 @@ mod foundation;
 mod inner_link;
 mod member_end;
 mod member_forces;
+mod order;
 mod path;
 mod plan_frames;
 mod plan_mat;
@@ -17,6 +18,7 @@ mod space_joints;
 mod space_member_forces;
 mod spring_place;
 mod step_equations;
+pub(crate) mod stick_elements;
 mod stick_model;
 mod storey_forces;
 #[cfg(test)]
@@ -25,6 +27,7 @@ mod tiers;
 
 pub use assembled_building::AssembledBuilding;
 pub use discretization::{Discretization, Mat};
+pub use element::{Element, Part};
 pub use equations::{Equations, YieldingSpring};
 pub use inner_link::InnerLink;
 pub(crate) use member_end::{ductility, end_stiffnesses};
@@ -33,13 +36,14 @@ pub use member_forces::{
     FrameMember, JointCore, LinearForm, MemberForces, MemberPlace, MemberSection, MemberSections,
     SectionAt,
 };
+pub use order::{Stage, Turn};
 pub use space_frame::{Bending, CondensedFrame, CondensedJoint, CondensedMember};
 pub use space_joints::{JointNodes, JointedFrame, JointedMember};
 pub use spring_place::{BaseMotion, MemberEnd, SpringPlace};
 pub use step_equations::{StepEquations, solve_once};
 pub use stick_model::{
-    Coupling, DeformationElement, FrameNode, Hinge, Member, Node, PlanMat, RigidFoundation, Spring,
-    StickModel, StickPlanSpring, Support,
+    FrameNode, Hinge, Member, Node, PlanMat, RigidFoundation, Spring, StickModel, StickPlanSpring,
+    Support,
 };
 pub use storey_forces::{StoreyForce, StoreyForces};
 pub(crate) use tiers::motion_at;

@@ -1,7 +1,8 @@
 //! The transfer path: displacements of a building in the order of the recursion.
 
-use crate::linear::{sort_by, sort_by_key};
-use crate::structure::element::{THETA, X, Y};
+use crate::linear::{Row, sort_by_key};
+use crate::structure::element::{THETA, X, Y, index_of, place_of, places};
+use crate::structure::order::{Rank, node_order};
 use crate::structure::{StickModel, Support};
 
 /// Degrees of freedom of a stick model in the order of the transfer path.
@@ -18,7 +19,7 @@ impl Path {
     /// shared by several nodes comes when the last of them does.
     pub(crate) fn through(stick_model: &StickModel) -> Self {
         let mut ties = Ties::new(stick_model);
-        let mut last_met = vec![None; ties.len()];
+        let mut last_met: Vec<Option<(Rank, usize, usize)>> = vec![None; ties.len()];
         for (position, &(rank, node)) in node_order(stick_model).iter().enumerate() {
             for component in [X, Y, THETA] {
                 if let Some(root) = ties.root(node, component) {
@@ -31,8 +32,7 @@ impl Path {
         if let Some(foundation) = &stick_model.foundation {
             let turning = ties.root(foundation.node, THETA);
             let stands = |node: &usize| {
-                let levers = foundation.levers.get(*node);
-                let carried = levers.is_some_and(Option::is_some);
+                let carried = stick_model.ties.contains_key(&index_of((*node, Y)));
                 let mut springs = stick_model.springs.iter();
                 carried || springs.any(|own| own.lever.is_some() && own.ends.contains(node))
             };
@@ -67,6 +67,14 @@ impl Path {
     /// Degree of freedom of a displacement of a node.
     pub(crate) fn dof(&self, node: usize, component: usize) -> Option<usize> {
         self.dofs[node][component]
+    }
+
+    /// A row over displacements of nodes as one over degrees of freedom; the ground does not move.
+    pub(crate) fn row(&self, over_nodes: &Row) -> Row {
+        let moved = places(over_nodes).filter(|(_, share)| *share != 0.0);
+        moved
+            .filter_map(|((node, component), share)| Some((self.dof(node, component)?, share)))
+            .collect()
     }
 
     /// Number of degrees of freedom.
@@ -126,11 +134,10 @@ impl Ties {
                 }
             }
         }
-        // What a floor moves along the line of a frame is no displacement of its own.
-        for (node, own) in stick_model.frame_nodes.iter().enumerate() {
-            if own.is_some_and(|own| own.floor.is_some()) {
-                ties.merge(Self::place(node, X), GROUND);
-            }
+        // What moves with others is no displacement of its own.
+        for index in stick_model.ties.keys() {
+            let (node, component) = place_of(*index);
+            ties.merge(Self::place(node, component), GROUND);
         }
         if let Some(foundation) = &stick_model.foundation {
             for &foot in &foundation.feet {
@@ -141,13 +148,8 @@ impl Ties {
                     );
                 }
             }
-            // It does not rise itself, and what rises with its rotation is no displacement of its own.
+            // It does not rise itself.
             ties.merge(Self::place(foundation.node, Y), GROUND);
-            for (node, lever) in foundation.levers.iter().enumerate() {
-                if lever.is_some() {
-                    ties.merge(Self::place(node, Y), GROUND);
-                }
-            }
         }
         ties
     }
@@ -177,123 +179,4 @@ impl Ties {
     fn root(&mut self, node: usize, component: usize) -> Option<usize> {
         Some(self.find(Self::place(node, component))).filter(|root| *root != GROUND)
     }
-}
-
-/// Nodes in the order of the transfer path: all beams at once, step by step from their left ends; all columns
-/// between floors at once, step by step upwards; then the floors. The beams do not meet, and taking them
-/// side by side keep a processor busy that would otherwise wait for every link of a single chain.
-///
-/// Every node comes with its rank: nodes side by side share one, every joint has its own.
-fn node_order(stick_model: &StickModel) -> Vec<(usize, usize)> {
-    let nodes = &stick_model.nodes;
-    let mut neighbours = vec![Vec::new(); nodes.len()];
-    let (mut horizontal, mut vertical) = (vec![0; nodes.len()], vec![0; nodes.len()]);
-    let members = stick_model
-        .members
-        .iter()
-        .map(|member| (member.ends, member.is_vertical(nodes)));
-    // A hinge belongs to the member at whose end it is: the one with no other element there.
-    let mut at_end = vec![[0; 2]; nodes.len()];
-    for member in &stick_model.members {
-        for end in member.ends {
-            at_end[end][usize::from(member.is_vertical(nodes))] += 1;
-        }
-    }
-    let hinges = stick_model.hinges.iter().map(|hinge| {
-        let [mut beam, mut column] = [false; 2];
-        for end in hinge.ends {
-            beam |= at_end[end] == [1, 0];
-            column |= at_end[end] == [0, 1];
-        }
-        (hinge.ends, column && !beam)
-    });
-    for ([a, b], is_vertical) in members.chain(hinges) {
-        neighbours[a].push(b);
-        neighbours[b].push(a);
-        let count = if is_vertical {
-            &mut vertical
-        } else {
-            &mut horizontal
-        };
-        count[a] += 1;
-        count[b] += 1;
-    }
-    // An interior node of a beam or a column has two elements of one direction. Those of a space frame are known.
-    let stage = |node: usize| match (horizontal[node], vertical[node]) {
-        _ if stick_model.space_joints.contains(&node) => 2,
-        _ if stick_model.space_ends.contains(&node) => 0,
-        (2, 0) => 0,
-        (0, 2) => 1,
-        _ => 2,
-    };
-    // A mat couples all that stands on it: it comes after the joints of the lowest floor, just before that floor.
-    let under_frames = stick_model.plan_mat.as_ref();
-    let under_frames = under_frames.filter(|_| !stick_model.frame_nodes.is_empty());
-    let is_floor = |node: &usize| {
-        let of_frame = stick_model
-            .frame_nodes
-            .get(*node)
-            .is_some_and(Option::is_some);
-        !of_frame && nodes[*node].y > 0.0
-    };
-    let lowest = (0..nodes.len()).filter(is_floor);
-    let lowest = lowest.map(|node| nodes[node].y).min_by(f64::total_cmp);
-    let height = |node: usize| match (under_frames, lowest) {
-        (Some(mat), Some(lowest)) if mat.node == node => lowest,
-        _ => nodes[node].y,
-    };
-    let by_height = |a: &usize, b: &usize| {
-        let (p, q) = (&nodes[*a], &nodes[*b]);
-        let rise = height(*a).total_cmp(&height(*b));
-        rise.then(p.x.total_cmp(&q.x)).then(a.cmp(b))
-    };
-    let along_column = |a: &usize, b: &usize| {
-        let (p, q) = (&nodes[*a], &nodes[*b]);
-        p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)).then(a.cmp(b))
-    };
-    let mut order: Vec<(usize, usize)> = Vec::new();
-    let mut rank = 0;
-    for inside in 0..2 {
-        let mut interior: Vec<usize> = (0..nodes.len())
-            .filter(|&node| stage(node) == inside)
-            .collect();
-        if inside == 0 {
-            sort_by(&mut interior, by_height);
-        } else {
-            sort_by(&mut interior, along_column);
-        }
-        let mut chains: Vec<Vec<usize>> = Vec::new();
-        for &node in &interior {
-            match chains.last_mut() {
-                Some(chain)
-                    if chain
-                        .last()
-                        .is_some_and(|last| neighbours[node].contains(last)) =>
-                {
-                    chain.push(node);
-                }
-                _ => chains.push(vec![node]),
-            }
-        }
-        // Longest first: chains that are parallel at one link are parallel at every link before. Upwards, so that
-        // those on the ground, with one end less, are adjacent.
-        sort_by(&mut chains, |a, b| {
-            b.len().cmp(&a.len()).then_with(|| by_height(&a[0], &b[0]))
-        });
-        let longest = chains.first().map_or(0, Vec::len);
-        for link in 0..longest {
-            let side_by_side = chains.iter().filter_map(|chain| chain.get(link));
-            order.extend(side_by_side.map(|&node| (rank + link, node)));
-        }
-        rank += longest;
-    }
-    let mut joints: Vec<usize> = (0..nodes.len()).filter(|&node| stage(node) == 2).collect();
-    sort_by(&mut joints, by_height);
-    order.extend(
-        joints
-            .into_iter()
-            .enumerate()
-            .map(|(index, node)| (rank + index, node)),
-    );
-    order
 }

@@ -3,19 +3,16 @@
 use std::ops::Range;
 
 use super::discretization::{Discretization, discretize_frame};
-use super::element::{X, Y};
+use super::element::{THETA, X, Y, index_of, over_nodes};
 use super::member_forces::FrameMember;
+use super::order::Turn;
 use super::stick_model::{FrameNode, Node, StickModel, Support};
 use crate::model::{Frame, LEVEL_TOLERANCE, LumpedFloor, PlanFrame, PlanPoint, Tiers};
-
-/// Distance between frames in the elevation that shows them side by side, so that no two column lines coincide \[m\].
-const APART: f64 = 1.0;
 
 /// Adds the frames of a building, whose ground, mat and floors are the nodes of the stick model so far. Feet are tied to the mat, if
 /// there is one, as joints are to floors.
 ///
-/// The nodes of frames stand side by side in one elevation; floors are moved behind them, so that a floor comes after all joints at
-/// its height in the transfer path.
+/// Frames are eliminated one beside the other, and a floor after all joints at its height.
 pub(super) fn add_frames(
     tiers: &Tiers,
     lumped: &[LumpedFloor],
@@ -31,7 +28,7 @@ pub(super) fn add_frames(
     let first_place = sticks.hinges.len();
     sticks.frame_nodes.resize(sticks.nodes.len(), None);
     let shared = tiers.shared_columns();
-    let (mut offset, mut hinge_places) = (0.0, Vec::new());
+    let mut hinge_places = Vec::new();
     for (index, plan_frame) in tiers.frames.iter().enumerate() {
         let own = discretize(plan_frame, &plan_frame.frame);
         let mut without_columns = plan_frame.frame.clone();
@@ -45,7 +42,7 @@ pub(super) fn add_frames(
             .collect();
         let place = Place {
             plan_frame,
-            offset,
+            elevation: index + 1,
             floors: &floors,
             lumped,
             mat: mat.map(|(node, own)| (node, own.tier.centre)),
@@ -61,13 +58,10 @@ pub(super) fn add_frames(
             ..member
         });
         discretization.members.extend(members);
-        offset += plan_frame.frame.spans.iter().sum::<f64>() + APART;
     }
     let mat = mat.into_iter();
     let moving: Vec<_> = mat.chain(floors.iter().copied().zip(lumped)).collect();
-    for (node, _) in &moving {
-        sticks.nodes[*node].x = offset;
-    }
+    sticks.eliminate_after_joints(moving.iter().map(|(node, _)| *node), floors[0]);
     for (node, lumped) in &moving {
         for (component, mass) in [X, Y].into_iter().zip(lumped.one_way) {
             if mass > 0.0 {
@@ -89,8 +83,8 @@ fn discretize(plan_frame: &PlanFrame, frame: &Frame) -> Discretization {
 /// Where a frame stands.
 struct Place<'a> {
     plan_frame: &'a PlanFrame,
-    /// What is added to the distances from its first column line \[m\].
-    offset: f64,
+    /// Its number, from 1; what belongs to no plane frame comes before.
+    elevation: usize,
     floors: &'a [usize],
     lumped: &'a [LumpedFloor],
     /// Node and centre of the mat on which it stands.
@@ -102,13 +96,37 @@ struct Place<'a> {
 }
 
 impl StickModel {
+    /// Has floors, and the mat, follow all joints at their height: they couple all that stands on them.
+    pub(super) fn eliminate_after_joints(
+        &mut self,
+        floors: impl Iterator<Item = usize>,
+        lowest: usize,
+    ) {
+        let lowest = self.nodes[lowest].y;
+        for floor in floors {
+            let turn = Turn::of_floor(self.nodes[floor].y, lowest);
+            self.turns.insert(floor, turn);
+        }
+    }
+
     /// Appends the nodes and elements of a frame; returns the range of its members.
     fn append(&mut self, frame: StickModel, place: &Place<'_>) -> Range<usize> {
         let (nodes, members) = (self.nodes.len(), self.members.len());
-        for (index, mut node) in frame.nodes.into_iter().enumerate() {
-            let own = self.frame_node(index, &node, place);
+        for (index, node) in frame.nodes.into_iter().enumerate() {
+            let (own, floor) = self.frame_node(index, &node, place);
             self.frame_nodes.push(Some(own));
-            node.x += place.offset;
+            if let Some(floor) = floor {
+                let components = [X, Y, THETA].map(|component| (floor, component));
+                let moved = over_nodes(components.into_iter().zip(own.shares));
+                self.ties.insert(index_of((self.nodes.len(), X)), moved);
+            }
+            let turn = Turn {
+                stage: None,
+                height: node.y,
+                elevation: place.elevation,
+                position: node.x,
+            };
+            self.turns.insert(self.nodes.len(), turn);
             self.nodes.push(node);
         }
         let moved = |ends: [usize; 2]| ends.map(|end| nodes + end);
@@ -129,7 +147,13 @@ impl StickModel {
         members..self.members.len()
     }
 
-    fn frame_node(&self, index: usize, node: &Node, place: &Place<'_>) -> FrameNode {
+    /// A node of a frame, and the floor or the mat to which it belongs: its displacement along its line is that of the floor.
+    fn frame_node(
+        &self,
+        index: usize,
+        node: &Node,
+        place: &Place<'_>,
+    ) -> (FrameNode, Option<usize>) {
         let height = |floor: &usize| self.nodes[*floor].y;
         let mut floors = place.floors.iter();
         let level = floors.position(|floor| node.y <= height(floor) + LEVEL_TOLERANCE);
@@ -144,18 +168,18 @@ impl StickModel {
                 place.lumped[level].tier.centre,
             ),
         };
-        FrameNode {
+        let own = FrameNode {
             shares: place.plan_frame.shares(centre),
             at_mat: place
                 .mat
                 .map_or([0.0; 3], |(_, centre)| place.plan_frame.shares(centre)),
-            floor: carrier,
             level,
             counted_elsewhere: carrier.is_some() || on_floor || is_doubled,
             vertical_mass: match is_doubled {
                 true => place.light.nodes[index].mass,
                 false => node.mass,
             },
-        }
+        };
+        (own, carrier)
     }
 }

@@ -1,10 +1,10 @@
 //! The mat of an isolated building in plan, and its bearings.
 
 use super::discretization::{Discretization, Mat};
-use super::element::{Place, THETA, X, Y};
-use super::plan_matrix::{Part, PlanMatrix};
+use super::element::{Element, Part, Place, THETA, X, Y, index_of};
+use super::plan_matrix::PlanMatrix;
 use super::spring_place::SpringPlace;
-use super::stick_model::{Coupling, PlanMat, StickModel, Support};
+use super::stick_model::{PlanMat, StickModel, Support};
 use crate::hysteresis::{CircularLaw, ForceRow, Hysteresis};
 use crate::model::{Isolation, Isolator, LumpedFloor, PlanPoint, Tier, TierStorey, Tiers};
 
@@ -53,7 +53,7 @@ pub(super) fn put_on_mat(
     let lumped = [mat.clone()];
     let mut matrix = PlanMatrix::new(3);
     // Stiffness-proportional damping does not act on bearings.
-    for (value, part) in [(-elastic, Part::Softening), (dashpot, Part::Dashpot)] {
+    for (value, part) in [(elastic, Part::Undamped), (dashpot, Part::Dashpot)] {
         let each: Vec<_> = bearings
             .iter()
             .map(|at| (*at, [share * value; 2]))
@@ -62,7 +62,7 @@ pub(super) fn put_on_mat(
             matrix.add_storey(&lumped, 0, &TierStorey::of_elements(&each), part);
         }
     }
-    sticks.couplings.extend(matrix.couplings(ground, &[node]));
+    sticks.elements.extend(matrix.elements(ground, &[node]));
     let places = &mut discretization.spring_places;
     if slider.is_some() {
         let numbers = 1..=bearings.len();
@@ -133,7 +133,7 @@ impl Discretization {
                 plan: Vec::new(),
             })
         };
-        let mut couplings = Vec::new();
+        let mut elements = Vec::new();
         let own = point(mat.node, mat.centre);
         let moved = |node: usize, centre: PlanPoint, factor: f64| TierStorey {
             stiffness: self
@@ -146,17 +146,17 @@ impl Discretization {
             let pair = [own.clone(), point(floor, centre)];
             let mut matrix = PlanMatrix::new(6);
             matrix.add_storey(&pair, 1, &moved(floor, centre, alpha), Part::Dashpot);
-            couplings.extend(matrix.couplings(ground, &[mat.node, floor]));
+            elements.extend(matrix.elements(ground, &[mat.node, floor]));
             let mut alone = PlanMatrix::new(3);
             alone.add_storey(&pair[1..], 0, &moved(floor, centre, -alpha), Part::Dashpot);
-            couplings.extend(alone.couplings(ground, &[floor]));
+            elements.extend(alone.elements(ground, &[floor]));
         }
         let mut alone = PlanMatrix::new(3);
         let of_mat = moved(mat.node, mat.centre, -alpha);
         alone.add_storey(&[own], 0, &of_mat, Part::Dashpot);
-        couplings.extend(alone.couplings(ground, &[mat.node]));
-        couplings.extend(self.between_floors_relative_to_mat(&mat, ground, alpha));
-        self.stick_model.couplings.extend(couplings);
+        elements.extend(alone.elements(ground, &[mat.node]));
+        elements.extend(self.between_floors_relative_to_mat(&mat, ground, alpha));
+        self.stick_model.elements.extend(elements);
     }
 
     /// The same of the masses of columns between floors: α m (u − s·q)² − α m u², s being how far motions q of the mat move their line.
@@ -165,30 +165,25 @@ impl Discretization {
         mat: &PlanMat,
         ground: usize,
         alpha: f64,
-    ) -> Vec<Coupling> {
+    ) -> Vec<Element> {
         let sticks = &self.stick_model;
         let of_mat = [X, Y, THETA].map(|component| (mat.node, component));
-        let mut couplings = Vec::new();
+        let mut elements = Vec::new();
         let mut add = |ends: [Place; 2], dashpot: f64| {
             if dashpot != 0.0 {
-                couplings.push(Coupling {
-                    ends,
-                    stiffness: 0.0,
-                    softening: 0.0,
-                    dashpot,
-                });
+                elements.push(Element::between(ends, Part::Dashpot, dashpot));
             }
         };
         for (node, own) in sticks.frame_nodes.iter().enumerate() {
             let (Some(own), value) = (own, alpha * sticks.nodes[node].mass) else {
                 continue;
             };
-            if own.floor.is_some() || value == 0.0 {
+            if sticks.ties.contains_key(&index_of((node, X))) || value == 0.0 {
                 continue;
             }
             let shares = own.at_mat;
             let sum: f64 = shares.iter().sum();
-            // α m u² cancels. A coupling between two displacements is minus the entry of the matrix, one to the ground the sum of a row.
+            // α m u² cancels. A dashpot between two displacements is minus the entry of the matrix, one to the ground the sum of a row.
             add([(ground, X), (node, X)], -value * sum);
             for (index, (place, share)) in of_mat.into_iter().zip(shares).enumerate() {
                 add([(node, X), place], value * share);
@@ -198,6 +193,6 @@ impl Discretization {
                 }
             }
         }
-        couplings
+        elements
     }
 }

@@ -1,23 +1,14 @@
 //! Symmetric matrices over the displacements of floors in plan, as springs and dashpots between them.
 
-use super::element::{THETA, X, Y};
-use super::stick_model::Coupling;
+use super::element::{Element, Part, Place, THETA, X, Y};
 use super::tiers::motion_at;
 use crate::model::{LumpedFloor, TierStorey};
 
 /// Displacements of a floor.
 const COMPONENTS: [usize; 3] = [X, Y, THETA];
 
-/// The matrix an entry belongs to.
-#[derive(Clone, Copy)]
-pub(super) enum Part {
-    /// Stiffness that takes part in stiffness-proportional damping.
-    Stiffness,
-    /// Stiffness that does not: what P-Delta takes away, with its sign turned that of bearings.
-    Softening,
-    /// Dashpots.
-    Dashpot,
-}
+/// Matrices to which an entry may belong.
+const PARTS: [Part; 3] = [Part::Elastic, Part::Undamped, Part::Dashpot];
 
 /// A symmetric matrix over three displacements of every floor, in parts; block tridiagonal without a space frame.
 pub(super) struct PlanMatrix {
@@ -58,21 +49,20 @@ impl PlanMatrix {
     pub(super) fn add_stiffness(&mut self, triangle: &[Vec<f64>]) {
         for (row, own) in self.rows.iter_mut().zip(triangle) {
             for (entry, value) in row.iter_mut().zip(own) {
-                entry[Part::Stiffness as usize] += value;
+                entry[Part::Elastic as usize] += value;
             }
         }
     }
 
-    /// As springs between displacements, and between displacements and the ground.
-    pub(super) fn couplings(&self, ground: usize, floors: &[usize]) -> Vec<Coupling> {
+    /// As springs and dashpots between displacements, and between displacements and the ground.
+    pub(super) fn elements(&self, ground: usize, floors: &[usize]) -> Vec<Element> {
         let place = |at: usize| (floors[at / 3], COMPONENTS[at % 3]);
-        let coupling = |ends, [stiffness, softening, dashpot]: [f64; 3]| Coupling {
-            ends,
-            stiffness,
-            softening,
-            dashpot,
-        };
         let mut list = Vec::new();
+        let mut add = |ends: [Place; 2], values: [f64; 3]| {
+            let values = PARTS.into_iter().zip(values);
+            let values = values.filter(|(_, value)| *value != 0.0);
+            list.extend(values.map(|(part, value)| Element::between(ends, part, value)));
+        };
         let mut sums = vec![[0.0; 3]; self.rows.len()];
         for (row, values) in self.rows.iter().enumerate() {
             for (column, value) in values.iter().enumerate() {
@@ -82,15 +72,13 @@ impl PlanMatrix {
                         sums[column][part] += value[part];
                     }
                 }
-                if row != column && *value != [0.0; 3] {
-                    list.push(coupling([place(row), place(column)], value.map(|v| -v)));
+                if row != column {
+                    add([place(row), place(column)], value.map(|v| -v));
                 }
             }
         }
         for (at, sum) in sums.into_iter().enumerate() {
-            if sum != [0.0; 3] {
-                list.push(coupling([(ground, X), place(at)], sum));
-            }
+            add([(ground, X), place(at)], sum);
         }
         list
     }

@@ -7,10 +7,12 @@
 
 use std::ops::Range;
 
-use super::element::{Place, THETA, X, Y};
+use super::element::{Element, Part, Place, THETA, X, Y, over_nodes};
+use super::order::{Stage, Turn};
 use super::space_frame::{Assembly, Deformation, SpringMember, Unknown, planes};
 use super::spring_place::{MemberEnd, SpringPlace};
-use super::stick_model::{DeformationElement, FrameNode, Hinge, Node, StickModel, Support};
+use super::stick_model::{FrameNode, Hinge, Node, StickModel, Support};
+use crate::linear::Row;
 use crate::model::{PlanAxis, SpaceFrame, SpaceMember, SpacePlace};
 
 /// A column or a beam of a space frame with hinges, and its elements in the stick model.
@@ -61,10 +63,7 @@ pub(super) fn add_space_joints(
     let (frame, storey_heights) = (assembly.frame, assembly.heights);
     let floors = &moving[moving.len() - storey_heights.len()..];
     let joint_nodes = add_joints(&assembly, sticks, floors);
-    // Floors, and the mat, come after all joints at their height.
-    for &node in moving {
-        sticks.nodes[node].x = assembly.joints.count as f64;
-    }
+    sticks.eliminate_after_joints(moving.iter().copied(), floors[0]);
     let mut builder = Builder {
         assembly,
         sticks,
@@ -111,19 +110,18 @@ fn add_joints(assembly: &Assembly<'_>, sticks: &mut StickModel, floors: &[usize]
     let first = sticks.nodes.len();
     for (unknown, level) in levels.into_iter().enumerate() {
         let height = sticks.nodes[floors[level]].y;
-        sticks.add_turning(unknown as f64, height, level);
+        sticks.add_turning(Stage::Joints, unknown, height, level);
     }
-    sticks.space_joints = first..sticks.nodes.len();
-    sticks.space_joints.clone()
+    first..sticks.nodes.len()
 }
 
 impl StickModel {
     /// Adds a node without mass that has a single displacement, its rotation, and belongs to no floor.
-    fn add_turning(&mut self, x: f64, height: f64, level: usize) -> usize {
+    fn add_turning(&mut self, stage: Stage, number: usize, height: f64, level: usize) -> usize {
         let index = self.nodes.len();
         self.frame_nodes.resize(index, None);
         self.nodes.push(Node {
-            x,
+            x: 0.0,
             y: height,
             mass: 0.0,
             rotary_inertia: 0.0,
@@ -132,11 +130,17 @@ impl StickModel {
         self.frame_nodes.push(Some(FrameNode {
             shares: [0.0; 3],
             at_mat: [0.0; 3],
-            floor: None,
             level,
             counted_elsewhere: true,
             vertical_mass: 0.0,
         }));
+        let turn = Turn {
+            stage: Some(stage),
+            height,
+            elevation: 0,
+            position: number as f64,
+        };
+        self.turns.insert(index, turn);
         index
     }
 }
@@ -165,25 +169,30 @@ impl Builder<'_> {
             bending,
             across,
         } = own;
-        let mut add = |stiffness: [f64; 2], deformations: &[Deformation]| {
-            let deformations = deformations.iter();
-            let deformations = deformations.map(|own| self.places_of(own, direction));
-            self.sticks.deformation_elements.push(DeformationElement {
-                stiffness,
-                deformations: deformations.collect(),
-            });
-            self.sticks.deformation_elements.len() - 1
+        let row = |own: &Deformation| self.over_nodes(own, direction);
+        let single = |(stiffness, own): &(f64, Deformation)| Element::Spring {
+            part: Part::Elastic,
+            stiffness: *stiffness,
+            row: row(own),
+        };
+        let bend = |([own, other], ends): &([f64; 2], [Deformation; 2])| Element::Matrix {
+            part: Part::Elastic,
+            rows: ends.iter().map(row).collect(),
+            lower: vec![*own, *other, *own],
+        };
+        let (axial, torsion) = (axial.as_ref().map(single), single(&torsion));
+        let (bending, across) = (bend(&bending), across.as_ref().map(bend));
+        let mut add = |element: Element| {
+            self.sticks.space_elements.push(element);
+            self.sticks.space_elements.len() - 1
         };
         JointedMember {
             place: member.place,
             heights: [0.0; 2],
             length,
-            axial: axial.map(|(stiffness, own)| add([stiffness, 0.0], &[own])),
-            torsion: add([torsion.0, 0.0], &[torsion.1]),
-            bending: [
-                Some(add(bending.0, &bending.1)),
-                across.map(|(stiffness, own)| add(stiffness, &own)),
-            ],
+            axial: axial.map(&mut add),
+            torsion: add(torsion),
+            bending: [Some(add(bending)), across.map(&mut add)],
         }
     }
 
@@ -208,8 +217,9 @@ impl Builder<'_> {
             let node = {
                 let moving = self.assembly.moving(floor);
                 let at = self.sticks.nodes[moving.map_or(self.ground, |own| self.moving[own])];
-                let x = self.ends.len() as f64;
-                self.sticks.add_turning(x, at.y, floor.unwrap_or(0))
+                let number = self.ends.len();
+                self.sticks
+                    .add_turning(Stage::Beams, number, at.y, floor.unwrap_or(0))
             };
             let joint_leads = (is_column == (end == MemberEnd::First)) == (slope > 0.0);
             let ends = if joint_leads {
@@ -233,8 +243,8 @@ impl Builder<'_> {
     }
 
     /// A deformation over displacements of nodes; those of floors are along the axes of the site.
-    fn places_of(&self, own: &Deformation, [c, s]: [f64; 2]) -> Vec<(Place, f64)> {
-        let mut list: Vec<(Place, f64)> = Vec::with_capacity(own.len() + 2);
+    fn over_nodes(&self, own: &Deformation, [c, s]: [f64; 2]) -> Row {
+        let mut list = Vec::with_capacity(own.len() + 2);
         let mut add =
             |place: Place, share: f64| match list.iter_mut().find(|(known, _)| *known == place) {
                 Some((_, sum)) => *sum += share,
@@ -260,8 +270,7 @@ impl Builder<'_> {
                 }
             }
         }
-        list.retain(|(_, share)| *share != 0.0);
-        list
+        over_nodes(list.into_iter().filter(|(_, share)| *share != 0.0))
     }
 
     fn joint_list(&self, frame: &SpaceFrame) -> Vec<JointNodes> {

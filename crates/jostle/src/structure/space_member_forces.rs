@@ -1,14 +1,13 @@
 //! Forces of columns and beams of space frames as linear forms of the motion.
 
-use super::element::{THETA, X, Y};
+use super::element::{THETA, X, Y, places};
 use super::member_forces::{
     LinearForm, MemberForces, MemberPlace, MemberSection, MemberSections, SectionAt,
 };
 use super::space_frame::CondensedFrame;
 use super::space_joints::{JointedFrame, JointedMember};
 use super::spring_place::{MemberEnd, SpringPlace};
-use super::stick_model::DeformationElement;
-use crate::linear::sort_by_key;
+use crate::linear::{Row, sort_by_key};
 use crate::model::{PlanAxis, SpacePlace};
 use crate::structure::AssembledBuilding;
 
@@ -27,8 +26,7 @@ impl MemberForces {
             let mut add = |row: &[f64]| {
                 let entries = dofs.iter().zip(row);
                 let entries = entries.filter_map(|(dof, share)| Some(((*dof)?, *share)));
-                let mut displacement: Vec<(usize, f64)> = entries.collect();
-                displacement.retain(|(_, share)| *share != 0.0);
+                let displacement: Row = entries.filter(|(_, share)| *share != 0.0).collect();
                 if displacement.is_empty() {
                     return nothing;
                 }
@@ -133,16 +131,14 @@ impl JointedCuts<'_> {
     /// The forces that belong to the deformations of an element.
     fn forces(&self, element: usize) -> Vec<LinearForm> {
         let sticks = &self.building.discretization.stick_model;
-        let DeformationElement {
-            stiffness: [own, other],
-            deformations,
-        } = &sticks.deformation_elements[element];
+        let element = &sticks.space_elements[element];
+        let deformations = element.deformations();
         let force = |index: usize| {
             let mut form = LinearForm::default();
             for (at, deformation) in deformations.iter().enumerate() {
-                let stiffness = if at == index { own } else { other };
-                let entries = deformation.iter().filter_map(|(place, share)| {
-                    Some((self.building.equations.dof(*place)?, stiffness * share))
+                let stiffness = element.entry(index, at);
+                let entries = places(deformation).filter_map(|(place, share)| {
+                    Some((self.building.equations.dof(place)?, stiffness * share))
                 });
                 form.displacement.extend(entries);
             }
@@ -179,7 +175,7 @@ impl JointedCuts<'_> {
             let moment = |end: MemberEnd, own: &LinearForm, sign: f64| {
                 let mut form = LinearForm::default();
                 match hinge(end, plane) {
-                    Some(spring) => form.springs.push((spring, 1.0)),
+                    Some(spring) => form.springs.add(spring, 1.0),
                     None => form.add(sign, own),
                 }
                 form

@@ -1,8 +1,12 @@
 //! Lumped masses joined by massless beams, hinges and springs.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
+use super::element::Element;
+use super::order::Turn;
 use crate::hysteresis::Hysteresis;
+use crate::linear::Row;
 use crate::model::ProportionalDamping;
 
 /// Lumped masses and the massless elements between them, in the plane.
@@ -16,12 +20,10 @@ pub struct StickModel {
     pub hinges: Vec<Hinge>,
     /// Horizontal springs.
     pub springs: Vec<Spring>,
-    /// Entries of given matrices.
-    pub couplings: Vec<Coupling>,
+    /// Springs and dashpots between any displacements, such as those that stand for entries of given matrices.
+    pub elements: Vec<Element>,
     /// Members of a space frame whose joints have displacements of their own.
-    pub deformation_elements: Vec<DeformationElement>,
-    /// Nodes that are the displacements of its joints.
-    pub space_joints: Range<usize>,
+    pub space_elements: Vec<Element>,
     /// Nodes that are rotations of member ends beyond hinges.
     pub space_ends: Range<usize>,
     /// Springs between floors in plan that yield.
@@ -36,6 +38,11 @@ pub struct StickModel {
     pub frame_nodes: Vec<Option<FrameNode>>,
     /// Masses that act on one displacement of a node alone: node, displacement, mass \[kg\].
     pub one_way_masses: Vec<(usize, usize, f64)>,
+    /// Displacements that move with others, 3 × node + component, as rows over those: joints of frames with rigid floors along their
+    /// lines, and nodes that rise and sink with the rotation of a foundation.
+    pub ties: BTreeMap<usize, Row>,
+    /// Nodes that are not eliminated in the order of their coordinates.
+    pub turns: BTreeMap<usize, Turn>,
     /// Rigid foundation on springs and dashpots, if it stands on one.
     pub foundation: Option<RigidFoundation>,
 }
@@ -47,9 +54,6 @@ pub struct RigidFoundation {
     pub node: usize,
     /// The feet of columns, which move and turn with it.
     pub feet: Vec<usize>,
-    /// Distance to the right of its node, for nodes that rise by that times its rotation: the feet, and what stands on them on
-    /// columns that keep their length \[m\].
-    pub levers: Vec<Option<f64>>,
     /// Stiffness of the soil over displacement and rotation: uu, uθ, θθ \[N/m, N, N·m\].
     pub stiffness: [f64; 3],
     /// Dashpots of the soil over the same \[N·s/m, N·s, N·m·s\].
@@ -64,8 +68,6 @@ pub struct FrameNode {
     pub shares: [f64; 3],
     /// The same for motions of the mat on which it stands; zero without one \[–, –, m\].
     pub at_mat: [f64; 3],
-    /// Node of the floor, or of the mat, to which it belongs; its displacement along its line is that of the floor.
-    pub floor: Option<usize>,
     /// Index of the floor at its height, or of the next one above.
     pub level: usize,
     /// Whether its mass is part of that of a floor, or of another frame that shares the column.
@@ -210,29 +212,20 @@ impl Spring {
 }
 
 /// A spring at a point of a plan that yields.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct StickPlanSpring {
     /// The floor below, or the ground, and the floor above.
     pub ends: [usize; 2],
     /// Displacement there: 0 along x, 1 across.
     pub component: usize,
-    /// How far a rotation of either end moves the point in that direction \[m\].
-    pub levers: [f64; 2],
+    /// Its deformation over displacements of nodes, 3 × node + (0 along x, 1 across, 2 rotation).
+    pub row: Row,
     /// Place on the site \[m\].
     pub at: [f64; 2],
     /// What it remembers; positive is the displacement of the upper end against the lower one.
     pub hysteresis: Hysteresis,
     /// How stiffness-proportional damping of the building acts here.
     pub proportional_damping: ProportionalDamping,
-}
-
-/// A stiffness over one deformation, or over two that are coupled: an element of a member of a space frame.
-#[derive(Clone, Debug, PartialEq)]
-pub struct DeformationElement {
-    /// Force per deformation: of each by itself, and of each by the other \[N/m, N·m/rad\].
-    pub stiffness: [f64; 2],
-    /// One or two deformations, as displacements of nodes (0 horizontal, 1 vertical, 2 rotation) with their shares.
-    pub deformations: Vec<Vec<((usize, usize), f64)>>,
 }
 
 /// A mat on bearings that moves in both horizontal directions and turns.
@@ -261,18 +254,4 @@ impl PlanMat {
         });
         sliders.chain(self.ring.map(|ring| (ring, [0.0; 2])))
     }
-}
-
-/// A spring and dashpot between any two displacements, as an entry of a given matrix off its diagonal stands for one. Its
-/// stiffness and its dashpot may be negative.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Coupling {
-    /// Node and displacement there, twice: 0 horizontal, 1 vertical, 2 rotation.
-    pub ends: [(usize, usize); 2],
-    /// Force per difference of both \[N/m, N, N·m\].
-    pub stiffness: f64,
-    /// What P-Delta takes from the stiffness, negative for bearings; stiffness-proportional damping does not act on it.
-    pub softening: f64,
-    /// Force per difference of their rates \[N·s/m, N·s, N·m·s\].
-    pub dashpot: f64,
 }

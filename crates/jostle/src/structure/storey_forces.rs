@@ -1,10 +1,11 @@
 //! Storey shears and overturning moments of one building.
 
-use crate::linear::counting_sort::in_order;
+use crate::linear::Row;
 use crate::model::LEVEL_TOLERANCE;
 use crate::structure::Equations;
 use crate::structure::StickModel;
-use crate::structure::element::{self, Part, THETA, X, Y};
+use crate::structure::element::{Part, THETA, X, Y};
+use crate::structure::stick_elements;
 
 /// Storey forces as linear forms of displacements.
 ///
@@ -24,13 +25,34 @@ pub struct StoreyForces {
 struct Storey {
     /// Height of the storey \[m\].
     height: f64,
-    /// Degree of freedom of the building, and the contribution of its displacement to the sum of forces \[N/m,
-    /// N/rad\] and to their moment about the base of the storey \[N, N·m/rad\].
-    of_displacements: Vec<(usize, [f64; 2])>,
+    /// What displacements of the building contribute to the sum of forces \[N/m, N/rad\] and to their moment about the base of the
+    /// storey \[N, N·m/rad\], over the same degrees of freedom.
+    of_displacements: [Row; 2],
     /// Spring that yields, and the contribution of its force \[–, m\].
     of_springs: Vec<(usize, [f64; 2])>,
     /// Link between floors, among those of the building, and the contribution of its compression \[–, m\].
     of_links: Vec<(usize, [f64; 2])>,
+}
+
+/// Rounding errors of stiffnesses that cancel.
+const ROUNDING: f64 = 1e-13;
+
+impl Storey {
+    fn displace(&mut self, dof: usize, shares: [f64; 2]) {
+        for (row, share) in self.of_displacements.iter_mut().zip(shares) {
+            row.add(dof, share);
+        }
+    }
+
+    /// Adds up terms of one degree of freedom. Those that cancel are left out where they cancel in the moment as well.
+    fn merge(&mut self) {
+        let least = ROUNDING * self.of_displacements[0].greatest();
+        let [shear, moment] = self.of_displacements.each_ref().map(Row::summed);
+        let both = shear.entries().iter().zip(moment.entries());
+        let kept = both.filter(|((_, force), (_, moment))| force.abs().max(moment.abs()) > least);
+        let (shear, moment): (Vec<_>, Vec<_>) = kept.unzip();
+        self.of_displacements = [shear, moment].map(Row::from_iter);
+    }
 }
 
 /// Forces of a storey.
@@ -59,13 +81,13 @@ impl StoreyForces {
             storeys,
         };
         for (part, a, b, value) in
-            element::stiffnesses(stick_model).flat_map(|element| element.entries)
+            stick_elements::stiffnesses(stick_model).flat_map(|element| element.entries)
         {
             let (true, Some(dof)) = (a.1 == X && part != Part::Dashpot, equations.dof(b)) else {
                 continue;
             };
             if let Some((storey, arm)) = found.arm(tops, stick_model.nodes[a.0].y) {
-                storey.of_displacements.push((dof, [value, arm * value]));
+                storey.displace(dof, [value, arm * value]);
             }
         }
         let frame_hinges = stick_model.hinges.iter().filter(|h| h.hysteresis.is_some());
@@ -81,9 +103,7 @@ impl StoreyForces {
                 }
             }
         }
-        for storey in &mut found.storeys {
-            storey.of_displacements = merged(&storey.of_displacements);
-        }
+        found.storeys.iter_mut().for_each(Storey::merge);
         found
     }
 
@@ -113,7 +133,8 @@ impl StoreyForces {
                     ..Storey::default()
                 });
             }
-            let entries = element::stiffnesses(stick_model).flat_map(|element| element.entries);
+            let entries =
+                stick_elements::stiffnesses(stick_model).flat_map(|element| element.entries);
             for (part, a, b, value) in entries {
                 let height = stick_model.nodes[a.0].y;
                 let Some(dof) = equations.dof(b).filter(|_| part != Part::Dashpot) else {
@@ -134,7 +155,7 @@ impl StoreyForces {
                     continue;
                 }
                 let force = share * value;
-                storey.of_displacements.push((dof, [force, arm * force]));
+                storey.displace(dof, [force, arm * force]);
             }
             let others = equations.single_springs - stick_model.plan_springs.len();
             for (index, spring) in stick_model.plan_springs.iter().enumerate() {
@@ -155,9 +176,7 @@ impl StoreyForces {
                     }
                 }
             }
-            for storey in &mut own.storeys {
-                storey.of_displacements = merged(&storey.of_displacements);
-            }
+            own.storeys.iter_mut().for_each(Storey::merge);
             all.storeys.append(&mut own.storeys);
         }
         all
@@ -224,8 +243,9 @@ impl StoreyForces {
                 own.shear += force * by;
                 own.moment += moment * by;
             };
-            for (dof, share) in &storey.of_displacements {
-                add(*share, displacement[*dof]);
+            let [shear, moment] = storey.of_displacements.each_ref().map(Row::entries);
+            for ((dof, force), (_, moment)) in shear.iter().zip(moment) {
+                add([*force, *moment], displacement[*dof]);
             }
             for (index, share) in &storey.of_springs {
                 add(*share, spring(*index));
@@ -238,26 +258,3 @@ impl StoreyForces {
         }
     }
 }
-
-/// Entries of one degree of freedom added up, without those that cancel.
-fn merged(entries: &[(usize, [f64; 2])]) -> Vec<(usize, [f64; 2])> {
-    let keys = entries.iter().map(|(dof, _)| dof + 1).max().unwrap_or(0);
-    let mut list: Vec<(usize, [f64; 2])> = Vec::new();
-    let greatest = entries
-        .iter()
-        .fold(0.0_f64, |most, (_, [force, _])| most.max(force.abs()));
-    for (dof, share) in in_order(entries, keys, |(dof, _)| *dof) {
-        match list.last_mut() {
-            Some((last, sum)) if *last == dof => {
-                sum[0] += share[0];
-                sum[1] += share[1];
-            }
-            _ => list.push((dof, share)),
-        }
-    }
-    list.retain(|(_, [force, moment])| force.abs().max(moment.abs()) > ROUNDING * greatest);
-    list
-}
-
-/// Rounding errors of stiffnesses that cancel.
-const ROUNDING: f64 = 1e-13;

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use super::discretization::Discretization;
-use super::element::{X, Y};
+use super::element::{Part, THETA, X, Y, over_nodes};
 use super::plan_frames::add_frames;
 use super::plan_mat::put_on_mat;
-use super::plan_matrix::{Part, PlanMatrix};
+use super::plan_matrix::PlanMatrix;
 use super::space_frame::{Assembly, condense};
 use super::space_joints::add_space_joints;
 use super::spring_place::SpringPlace;
@@ -59,11 +59,12 @@ pub(super) fn discretize_tiers(
     let mut matrix = PlanMatrix::new(3 * moving.len());
     for index in 0..floors.len() {
         if let Some(storey) = tiers.storeys.get(index) {
-            matrix.add_storey(&moving, first + index, storey, Part::Stiffness);
+            matrix.add_storey(&moving, first + index, storey, Part::Elastic);
         }
         if gravity.p_delta {
-            let softening = tiers.softening(&lumped, index);
-            matrix.add_storey(&moving, first + index, &softening, Part::Softening);
+            let mut taken = tiers.softening(&lumped, index);
+            taken.stiffness = taken.stiffness.map(|stiffness| -stiffness);
+            matrix.add_storey(&moving, first + index, &taken, Part::Undamped);
         }
     }
     // Joints follow the floors until a hinge yields.
@@ -79,7 +80,7 @@ pub(super) fn discretize_tiers(
         .map(|_| foot)
         .chain(floors.iter().copied())
         .collect();
-    stick_model.couplings = matrix.couplings(ground, &nodes);
+    stick_model.elements = matrix.elements(ground, &nodes);
     let (jointed, mut spring_places) = match yielding {
         Some(frame) => {
             let assembly = Assembly::new(frame, &tiers.storey_heights, mat.as_ref(), &lumped);
@@ -95,10 +96,18 @@ pub(super) fn discretize_tiers(
             motion_at(own.at, mat.tier.centre)[axis.index()][2]
         });
         let below = storey.checked_sub(1);
+        let ends = [below.map_or(foot, |below| floors[below]), floors[storey]];
+        let component = [X, Y][axis.index()];
+        let [lower, upper] = ends;
         stick_model.plan_springs.push(StickPlanSpring {
-            ends: [below.map_or(foot, |below| floors[below]), floors[storey]],
-            component: [X, Y][axis.index()],
-            levers: [below.map_or(arm_of_mat, arm), arm(storey)],
+            ends,
+            component,
+            row: over_nodes([
+                ((upper, component), 1.0),
+                ((lower, component), -1.0),
+                ((upper, THETA), arm(storey)),
+                ((lower, THETA), -below.map_or(arm_of_mat, arm)),
+            ]),
             at: own.at,
             hysteresis: own.hysteresis,
             proportional_damping: ProportionalDamping::Initial,

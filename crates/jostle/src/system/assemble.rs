@@ -5,10 +5,10 @@ use super::{BuildingSystem, FoundationPlace, SpringSupport, System, WallPlace, f
 use crate::contact::{ContactLaw, effective_mass};
 use crate::interface::contact_points::{PointPair, SAME, mean};
 use crate::interface::{
-    Contact, Coulomb, DofRow, EdgeEnd, Friction, LinkElement, PlanPlace, Port, PortPair,
-    PushedFloor, Row, faces_of_gap, narrowest, sticking_stiffness, unique_below,
+    Contact, Coulomb, EdgeEnd, Friction, JoinedPoints, LinkElement, PlanPlace, Port, PortPair,
+    PushedFloor, faces_of_gap, narrowest, sticking_stiffness, unique_below,
 };
-use crate::linear::sort_by;
+use crate::linear::{Row, sort_by};
 use crate::model::{
     Base, Building, Damping, FloorPairs, LEVEL_TOLERANCE, Level, Link, LinkLaw, LumpedFloor, Model,
     ModelFault, PlanPoint, Structure,
@@ -23,7 +23,7 @@ impl System {
     /// that do not exist, contacts at points without mass, periods and durations that are not finite.
     pub fn assemble(model: &Model) -> Result<Self, Vec<ModelFault>> {
         model.check()?;
-        let row = Row::new(model);
+        let row = JoinedPoints::new(model);
         let mut buildings = Vec::new();
         let mut foundations: Vec<(usize, FoundationPlace)> = Vec::new();
         let mut faults = Vec::new();
@@ -164,7 +164,7 @@ impl System {
             walls: self.walls.clone(),
             rigid_walls: Vec::new(),
         };
-        system.join(&Row::new(model), model)?;
+        system.join(&JoinedPoints::new(model), model)?;
         system.follow_members(&model.analysis.members);
         system.follow_links(model.analysis.link_motion);
         Ok(system)
@@ -174,7 +174,7 @@ impl System {
     ///
     /// # Errors
     /// Points that cannot be pushed.
-    fn join(&mut self, row: &Row, model: &Model) -> Result<(), Vec<ModelFault>> {
+    fn join(&mut self, row: &JoinedPoints, model: &Model) -> Result<(), Vec<ModelFault>> {
         let mut faults = Vec::new();
         for (index, (gap, joined)) in model.gaps.iter().zip(&row.gaps).enumerate() {
             let mut contacts = Vec::new();
@@ -222,13 +222,13 @@ impl System {
                     Ok(ports) => {
                         let element = LinkElement {
                             link: index,
-                            ports,
                             inside,
                             height: ports.height(),
                             stiffness: link.stiffness,
                             damping: link.damping,
                             law: link.law,
                             closing_at_rest: closing_at_rest(self, &ports),
+                            ports,
                         };
                         if let (true, Some(building)) = (inside, link.between[0]) {
                             let mut own = self.buildings[building].structure.inner_links.iter_mut();
@@ -481,7 +481,7 @@ fn ports(
     between: [Option<usize>; 2],
     pair: &PointPair,
 ) -> Result<PortPair, String> {
-    let mut ports: [Option<Port>; 2] = [None; 2];
+    let mut ports: [Option<Port>; 2] = [None, None];
     for side in 0..2 {
         let (Some(building), Some(height)) = (between[side], pair[side]) else {
             let structures = system.structures().len();
@@ -491,7 +491,7 @@ fn ports(
                 let own = &system.buildings[building];
                 Port {
                     building,
-                    row: DofRow::single(own.offset),
+                    row: Row::single(own.offset),
                     mass: own.equations.mass[0],
                     floor: None,
                     height: mean(pair),
@@ -590,10 +590,8 @@ fn inner_links(
                 shortening: ports
                     .sides()
                     .flat_map(|(port, sign)| {
-                        let entries = port.row.entries().to_vec();
-                        entries
-                            .into_iter()
-                            .map(move |(dof, share)| (dof, -sign * share))
+                        let entries = port.row.entries().iter();
+                        entries.map(move |(dof, share)| (*dof, -sign * share))
                     })
                     .collect(),
                 stiffness: link.initial_stiffness(),
@@ -619,20 +617,18 @@ fn stands_on(building: &BuildingSystem, port: &Port) -> bool {
 /// The same end of a link inside a building, with what its foundation turns taken out: u + yθ (theory, Eq. B22). A building that
 /// rocks as a rigid body does not deform what stands between its floors.
 fn relative_to_foundation(building: &BuildingSystem, port: Port) -> Port {
-    let turned = building.foundation.and_then(|foundation| {
-        let mut entries = port.row.entries().to_vec();
-        entries.push((foundation.dofs[1], port.height));
-        DofRow::new(&entries).filter(|_| port.height != 0.0)
-    });
-    Port {
-        row: turned.unwrap_or(port.row),
-        ..port
+    let mut port = port;
+    if let Some(foundation) = building.foundation
+        && port.height != 0.0
+    {
+        port.row.extend([(foundation.dofs[1], port.height)]);
     }
+    port
 }
 
 /// What gravity alone closes \[m\].
 fn closing_at_rest(system: &System, ports: &PortPair) -> f64 {
-    let displacement = |port: Port| {
+    let displacement = |port: &Port| {
         let building = &system.buildings[port.building];
         let rest = &building.rest.displacement;
         if rest.is_empty() {

@@ -11,7 +11,7 @@ use crate::eigen::{
     LATERAL_SHARE, Mode, lateral_modes_along, modes_dense, symmetric, vertical_modes_along,
 };
 use crate::hysteresis::HysteresisMemory;
-use crate::interface::DofRow;
+use crate::linear::Row;
 use crate::model::{
     Building, Damping, Gravity, LEVEL_TOLERANCE, PlanPoint, STANDARD_GRAVITY, usual_damping_modes,
 };
@@ -135,12 +135,12 @@ pub struct Track {
 }
 
 /// A corner of a floor in plan.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Corner {
     /// Index of the floor.
     pub floor: usize,
     /// Its displacements along x and across.
-    pub rows: [DofRow; 2],
+    pub rows: [Row; 2],
 }
 
 impl Deref for BuildingSystem {
@@ -451,7 +451,7 @@ impl BuildingSystem {
             dashpot * spring.deformation(shape).powi(2)
         });
         let links = self.inner_links.iter();
-        let links = links.map(|link| link.damping * link.shortened_by(shape).powi(2));
+        let links = links.map(|link| link.damping * link.shortening.value(shape).powi(2));
         let beside = equations.dashpots.quadratic_form(shape);
         let damped = by_members + beside + springs.sum::<f64>() + links.sum::<f64>();
         0.5 * (equations.alpha + damped / mass) / mode.circular_frequency
@@ -463,7 +463,7 @@ impl BuildingSystem {
             return f64::NAN;
         };
         let links = self.inner_links.iter();
-        let links = links.map(|link| link.stiffness * link.shortened_by(&mode.shape).powi(2));
+        let links = links.map(|link| link.stiffness * link.shortening.value(&mode.shape).powi(2));
         mode.circular_frequency.powi(2) - links.sum::<f64>()
     }
 
@@ -492,7 +492,7 @@ impl BuildingSystem {
             equations.undamped.multiply_add(&unit, &mut column);
             for spring in &equations.springs {
                 let force = spring.hysteresis.initial_tangent() * spring.deformation(&unit);
-                spring.push(force, &mut column);
+                spring.row.push(force, &mut column);
             }
             for (i, &row) in along.iter().enumerate().skip(j) {
                 lower[i][j] = column[row] / (equations.mass[row] * equations.mass[dof]).sqrt();
@@ -530,10 +530,7 @@ impl BuildingSystem {
                     let direction = [f64::from(1 - axis), f64::from(axis)];
                     self.point(floor, dofs, *corner, direction)
                 });
-                self.corners.push(Corner {
-                    floor,
-                    rows: [rows[0], rows[1]],
-                });
+                self.corners.push(Corner { floor, rows });
             }
         }
         self.place_storeys(plans);
@@ -563,15 +560,15 @@ impl BuildingSystem {
     }
 
     /// The displacement of a point of a floor in a direction, over the displacements of this building.
-    fn point(&self, floor: usize, dofs: [usize; 3], at: PlanPoint, direction: [f64; 2]) -> DofRow {
+    fn point(&self, floor: usize, dofs: [usize; 3], at: PlanPoint, direction: [f64; 2]) -> Row {
         let [x, y, _] = motion_at(at, self.discretization.centres[floor]);
         let shares = [0, 1, 2].map(|c| direction[0] * x[c] + direction[1] * y[c]);
-        DofRow::three(std::array::from_fn(|c| (dofs[c], shares[c])))
+        dofs.into_iter().zip(shares).collect()
     }
 
     /// The displacement of a point of a floor, counted from 0, in a direction, over the vectors of a [`crate::State`].
     #[must_use]
-    pub fn row_at(&self, floor: usize, at: PlanPoint, direction: [f64; 2]) -> DofRow {
+    pub fn row_at(&self, floor: usize, at: PlanPoint, direction: [f64; 2]) -> Row {
         let n = self.floors.len();
         let dofs = [0, 1, 2].map(|block| self.tracks[block * n + floor].dof);
         self.point(floor, dofs, at, direction)

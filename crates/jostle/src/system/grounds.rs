@@ -119,7 +119,7 @@ impl<'a> RunGrounds<'a> {
         let paths: Vec<GroundPath<'_>> = listed.iter().map(|own| motion.under(*own)).collect();
         let side = |ports: &PortPair, walls: [Option<usize>; 2], side: usize| {
             let wall = walls[side].map(|wall| system.buildings.len() + wall);
-            ports.0[side].map(|port| port.building).or(wall)
+            ports.buildings()[side].or(wall)
         };
         let joint = |ports: &PortPair, walls: [Option<usize>; 2]| {
             let grounds = [side(ports, walls, 0)?, side(ports, walls, 1)?];

@@ -1,7 +1,8 @@
 //! Which forces of columns and beams a run follows.
 
 use super::{MemberRating, System};
-use crate::interface::{DofRow, PortPair};
+use crate::interface::PortPair;
+use crate::linear::Row;
 use crate::model::MemberRequest;
 use crate::structure::MemberForces;
 
@@ -80,10 +81,12 @@ impl System {
             crate::statics::STANDARD_GRAVITY
         };
         let is_struck = |dof: usize| {
-            let contacts = self.contacts.iter().map(|contact| contact.ports);
-            let mut ports = contacts.flat_map(|ports| ports.0).flatten();
-            let struck = DofRow::single(building.offset + dof);
-            ports.any(|port| port.building == index && port.row == struck)
+            let mut ports = self
+                .contacts
+                .iter()
+                .flat_map(|contact| contact.ports.sides());
+            let struck = Row::single(building.offset + dof);
+            ports.any(|(port, _)| port.building == index && port.row == struck)
         };
         let mut forces = MemberForces::new(&building.structure, gravity, is_struck);
         for form in &mut forces.forms {
@@ -92,8 +95,10 @@ impl System {
             };
             // The building stands right of what pushes its left face.
             let pushes = |ports: &PortPair| {
-                let [_, right] = ports.0;
-                right.is_some_and(|port| port.building == index && port.floor == Some(floor + 1))
+                let [_, right] = &ports.0;
+                right
+                    .as_ref()
+                    .is_some_and(|port| port.building == index && port.floor == Some(floor + 1))
             };
             let contacts = self.contacts.iter().map(|contact| &contact.ports);
             form.contacts = positions(contacts, pushes);

@@ -14,7 +14,8 @@ mod weakening;
 
 use std::ops::Range;
 
-use crate::interface::{Contact, DofRow, EdgeEnd, Friction, LinkElement, Port, PortPair};
+use crate::interface::{Contact, EdgeEnd, Friction, LinkElement, Port, PortPair};
+use crate::linear::Row;
 use crate::model::{LEVEL_TOLERANCE, WALL};
 
 pub use building::{BuildingSystem, Corner, Direction, Floor, SpringSupport, Track};
@@ -147,8 +148,8 @@ impl System {
     /// Floors of a pair of points as results number them: 0 is a mat; `None` is between floors or a wall.
     #[must_use]
     pub fn floors_of(&self, ports: &PortPair) -> [Option<usize>; 2] {
-        ports.0.map(|port| {
-            let port = port?;
+        ports.0.each_ref().map(|port| {
+            let port = port.as_ref()?;
             let own = self.structures().get(port.building)?;
             let on_mat = own.discretization.mat.is_some() && port.height == 0.0;
             if on_mat { Some(0) } else { port.floor }
@@ -245,7 +246,7 @@ impl System {
             .position(|floor| (floor.height - height).abs() <= LEVEL_TOLERANCE);
         Ok(Port {
             building,
-            row: DofRow::single(own.offset + dof),
+            row: Row::single(own.offset + dof),
             mass,
             floor: floor.map(|index| index + 1),
             height,

@@ -1,7 +1,7 @@
 //! The mat of an isolated building in plan, as runs follow it.
 
 use super::building::{BuildingSystem, Direction};
-use crate::interface::DofRow;
+use crate::linear::Row;
 use crate::model::PlanPoint;
 use crate::structure::{AssembledBuilding, Mat, PlanMat, motion_at};
 
@@ -15,9 +15,9 @@ pub struct MatInPlan {
     /// Places of the bearings on the site \[m\].
     pub bearings: Vec<PlanPoint>,
     /// Their displacements along x and across, over the displacements of the building.
-    pub(crate) rows: Vec<[DofRow; 2]>,
+    pub(crate) rows: Vec<[Row; 2]>,
     /// Those of the corners of the mat.
-    pub(crate) corners: Vec<[DofRow; 2]>,
+    pub(crate) corners: Vec<[Row; 2]>,
     /// Elastic stiffness of one bearing beside what yields or slides \[N/m\].
     pub(crate) stiffness: f64,
     /// Dashpot of one bearing \[N·s/m\].
@@ -67,16 +67,16 @@ impl MatInPlan {
     }
 
     /// Displacements of a point of the mat along x and across, over the displacements at which its own stand.
-    fn point(&self, at: PlanPoint) -> [DofRow; 2] {
+    fn point(&self, at: PlanPoint) -> [Row; 2] {
         let [x, y, _] = motion_at(at, self.centre);
-        [x, y].map(|row| DofRow::three(std::array::from_fn(|c| (self.dofs[c], row[c]))))
+        [x, y].map(|shares| self.dofs.into_iter().zip(shares).collect())
     }
 
     /// The displacement of a point of the mat in a direction, over the vectors of a [`crate::State`].
-    pub(crate) fn row_at(&self, at: PlanPoint, direction: [f64; 2]) -> DofRow {
+    pub(crate) fn row_at(&self, at: PlanPoint, direction: [f64; 2]) -> Row {
         let [x, y, _] = motion_at(at, self.centre);
-        let share = |c: usize| direction[0] * x[c] + direction[1] * y[c];
-        DofRow::three(std::array::from_fn(|c| (self.dofs[c], share(c))))
+        let shares = [0, 1, 2].map(|c| direction[0] * x[c] + direction[1] * y[c]);
+        self.dofs.into_iter().zip(shares).collect()
     }
 
     /// Follows the corners of its plan; its displacements are still those of the building alone.

@@ -3,7 +3,8 @@
 use super::BuildingSystem;
 use super::half_space::{Rectangle, influence};
 use crate::eigen::Mode;
-use crate::interface::{DofRow, LinkElement, Port, PortPair};
+use crate::interface::{LinkElement, Port, PortPair};
+use crate::linear::Row;
 use crate::linear::full_matrix::{FullMatrix, PivotedLu};
 use crate::model::{
     Building, Damping, Foundation, FoundationSprings, Gravity, HalfSpace, LinkLaw, Model,
@@ -473,16 +474,10 @@ pub(super) fn links(
     let port = |foundation: usize, shares: [f64; 2]| {
         let (building, place) = &founded[foundation];
         let own = &buildings[*building];
-        let entries: Vec<(usize, f64)> = place
-            .dofs
-            .iter()
-            .zip(shares)
-            .filter(|(_, share)| *share != 0.0)
-            .map(|(dof, share)| (*dof, share))
-            .collect();
-        let row = DofRow::new(&entries)?;
+        let entries = place.dofs.into_iter().zip(shares);
+        let row: Row = entries.filter(|(_, share)| *share != 0.0).collect();
         let row_of_own = row.moved_down(own.offset);
-        Some(Port {
+        (!row.is_empty()).then(|| Port {
             building: *building,
             row,
             mass: row_of_own.moving_mass(&own.equations.mass),

@@ -2,7 +2,8 @@
 
 use super::layout::{BeamLine, Layout, Link};
 use crate::linear::StepMatrix;
-use crate::structure::element::{self, Part, X};
+use crate::structure::element::{Part, X};
+use crate::structure::stick_elements;
 
 /// Displacements of the two joints: x, y, θ on the left, then on the right.
 const ENDS: usize = 6;
@@ -88,10 +89,12 @@ impl CondensedBeam {
         for link in &beam.links {
             let element = match link {
                 Link::Member(index) => {
-                    element::of_member(&stick_model.members[*index], &stick_model.nodes)
+                    stick_elements::of_member(&stick_model.members[*index], &stick_model.nodes)
                 }
-                Link::Hinge(index) => element::of_hinge(&stick_model.hinges[*index]),
-                Link::Spring(index) => element::of_spring(&stick_model.springs[*index], None),
+                Link::Hinge(index) => stick_elements::of_hinge(&stick_model.hinges[*index]),
+                Link::Spring(index) => {
+                    stick_elements::of_spring(&stick_model.springs[*index], None)
+                }
             };
             for (part, a, b, value) in element.entries {
                 if let (Some(a), Some(b)) = (place(a.0, a.1), place(b.0, b.1)) {

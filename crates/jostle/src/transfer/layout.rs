@@ -5,7 +5,8 @@ use crate::linear::StepMatrix;
 use crate::linear::sort_by;
 use crate::structure::AssembledBuilding;
 use crate::structure::Equations;
-use crate::structure::element::{self, THETA, X, Y};
+use crate::structure::element::{THETA, X, Y};
+use crate::structure::stick_elements;
 use crate::structure::{StickModel, Support};
 
 /// Two heights or positions closer than this coincide \[m\].
@@ -163,7 +164,7 @@ impl Layout {
             }
             Link::Hinge(index) => {
                 let hinge = &self.stick_model.hinges[index];
-                let weight = element::part_of(hinge.proportional_damping).weight(matrix);
+                let weight = stick_elements::part_of(hinge.proportional_damping).weight(matrix);
                 let in_step = |stiffness: Option<f64>, component: usize| {
                     stiffness.map(|k| weight * k + matrix.dashpots * hinge.dashpots[component])
                 };
@@ -177,7 +178,7 @@ impl Layout {
             // Floors of a shear building move only horizontally: a hinge that is flexible in x only.
             Link::Spring(index) => {
                 let spring = &self.stick_model.springs[index];
-                let weight = element::part_of(spring.proportional_damping).weight(matrix);
+                let weight = stick_elements::part_of(spring.proportional_damping).weight(matrix);
                 PlanarHinge {
                     horizontal_stiffness: Some(
                         weight * spring.stiffness - spring.softening
@@ -206,7 +207,7 @@ impl Layout {
     }
 
     fn check_all_found(&self, elements: &[(Link, [usize; 2])]) -> Result<(), NotAFrame> {
-        if !self.stick_model.couplings.is_empty() {
+        if !self.stick_model.elements.is_empty() {
             return Err(NotAFrame::LooseElement {
                 element: "an entry of a given matrix".into(),
             });

@@ -17,7 +17,7 @@ pub use substitution::RiccatiScratch;
 
 use crate::linear::SparseSymmetric;
 use crate::linear::counting_sort::in_order;
-use crate::linear::{NotPositive, StepMatrix};
+use crate::linear::{NotPositive, Row, StepMatrix};
 use crate::structure::AssembledBuilding;
 use crate::structure::Equations;
 use crate::structure::StepEquations;
@@ -84,7 +84,11 @@ pub struct RiccatiSweep {
     before_starts: Vec<usize>,
     before: Vec<(u32, Parts)>,
     mass: Vec<f64>,
-    springs: Vec<SpringPlace>,
+    /// Deformations of springs that yield.
+    springs: Vec<Row>,
+    /// Their tangents on the diagonal, and before it.
+    on_diagonal: Vec<TangentPlace>,
+    between: Vec<TangentPlace>,
     initial_tangents: Vec<f64>,
     /// The first columns: batched chains.
     batched: BatchedChains,
@@ -93,35 +97,19 @@ pub struct RiccatiSweep {
     packed: PackedFactor,
 }
 
-/// Positions of the tangent of a yielding spring in the step matrix.
+/// Where the tangent of a yielding spring stands in the step matrix, times the product of two shares of its deformation.
 #[derive(Clone, Copy, Debug)]
-struct SpringPlace {
-    diagonal: [Option<usize>; 2],
-    /// Index among the entries before the diagonal.
-    between: Option<usize>,
-    /// Of rotations that add to its deformation.
-    levers: [Option<LeverPlace>; 2],
-    /// Between two such rotations.
-    between_levers: Option<usize>,
+struct TangentPlace {
+    spring: usize,
+    /// Degree of freedom on the diagonal, or index among the entries before it.
+    at: usize,
+    shares: [f64; 2],
 }
 
-/// Positions of the tangent of a yielding spring at a rotation that adds to its deformation: on the diagonal, and between it and
-/// the ends.
-#[derive(Clone, Copy, Debug)]
-struct LeverPlace {
-    arm: f64,
-    turning: usize,
-    between: [Option<usize>; 2],
-}
-
-/// Entries of the step matrix at a spring: on the diagonal, and between its ends.
-#[derive(Clone, Copy, Debug, Default)]
-struct SpringEntries {
-    diagonal: [f64; 2],
-    between: f64,
-    /// At its rotations: on the diagonal, and between it and the ends.
-    levers: [[f64; 3]; 2],
-    between_levers: f64,
+impl TangentPlace {
+    fn add(&self, tangents: &[f64], entries: &mut [f64]) {
+        entries[self.at] += tangents[self.spring] * self.shares[0] * self.shares[1];
+    }
 }
 
 /// Parts of an entry of the step matrix.
@@ -150,7 +138,7 @@ pub struct RiccatiFactor {
     diagonal: Vec<f64>,
     before: Vec<f64>,
     /// Its entries at yielding springs, without these springs.
-    bare: Vec<SpringEntries>,
+    bare: [Vec<f64>; 2],
     /// Rows to eliminate again.
     touched: Vec<bool>,
     work: Vec<f64>,
@@ -238,31 +226,32 @@ impl RiccatiSweep {
                 .position(|(column, _)| *column as usize == a.min(b));
             place.map(|place| entries.start + place)
         };
-        let springs = equations.springs.iter().map(|spring| SpringPlace {
-            diagonal: spring.dofs,
-            between: match spring.dofs {
-                [Some(a), Some(b)] => entry_between(a, b),
-                _ => None,
-            },
-            levers: spring.levers.map(|lever| {
-                lever.map(|(turning, arm)| LeverPlace {
-                    arm,
-                    turning,
-                    between: spring
-                        .dofs
-                        .map(|dof| dof.and_then(|dof| entry_between(dof, turning))),
-                })
-            }),
-            between_levers: match spring.levers {
-                [Some((a, _)), Some((b, _))] => entry_between(a, b),
-                _ => None,
-            },
-        });
+        let springs = equations.springs.iter().map(|spring| spring.row.clone());
+        let springs: Vec<Row> = springs.collect();
+        let (mut on_diagonal, mut between) = (Vec::new(), Vec::new());
+        for (spring, row) in springs.iter().enumerate() {
+            for (index, &(dof, share)) in row.entries().iter().enumerate() {
+                on_diagonal.push(TangentPlace {
+                    spring,
+                    at: dof,
+                    shares: [share; 2],
+                });
+                for &(other, before) in &row.entries()[..index] {
+                    between.extend(entry_between(other, dof).map(|at| TangentPlace {
+                        spring,
+                        at,
+                        shares: [before, share],
+                    }));
+                }
+            }
+        }
         Self {
             packed: PackedFactor::new(places, rows.len(), n),
             band,
             batched,
-            springs: springs.collect(),
+            springs,
+            on_diagonal,
+            between,
             initial_tangents: equations.initial_tangents(),
             positions,
             parent,
@@ -328,75 +317,37 @@ impl RiccatiSweep {
         factor
             .before
             .extend(before.map(|(_, parts)| parts.in_step(matrix)));
-        let entries = self.springs.iter().map(|spring| SpringEntries {
-            diagonal: spring
-                .diagonal
-                .map(|dof| dof.map_or(0.0, |dof| factor.diagonal[dof])),
-            between: spring.between.map_or(0.0, |entry| factor.before[entry]),
-            levers: spring.levers.map(|lever| {
-                lever.map_or([0.0; 3], |lever| {
-                    let [first, second] = lever
-                        .between
-                        .map(|entry| entry.map_or(0.0, |entry| factor.before[entry]));
-                    [factor.diagonal[lever.turning], first, second]
-                })
-            }),
-            between_levers: spring
-                .between_levers
-                .map_or(0.0, |entry| factor.before[entry]),
-        });
-        factor.bare.clear();
-        factor.bare.extend(entries);
+        let RiccatiFactor {
+            diagonal,
+            before,
+            bare: [on_diagonal, between],
+            ..
+        } = factor;
+        on_diagonal.clear();
+        on_diagonal.extend(self.on_diagonal.iter().map(|place| diagonal[place.at]));
+        between.clear();
+        between.extend(self.between.iter().map(|place| before[place.at]));
         self.add_springs(tangents, factor);
     }
 
     /// The same matrix with other springs.
     fn recompose(&self, tangents: &[f64], factor: &mut RiccatiFactor) {
-        for (spring, bare) in self.springs.iter().zip(&factor.bare) {
-            for (dof, value) in spring.diagonal.into_iter().zip(bare.diagonal) {
-                if let Some(dof) = dof {
-                    factor.diagonal[dof] = value;
-                }
-            }
-            if let Some(entry) = spring.between {
-                factor.before[entry] = bare.between;
-            }
-            for (lever, bare) in spring.levers.iter().zip(bare.levers) {
-                let Some(lever) = lever else { continue };
-                let [turning, first, second] = bare;
-                factor.diagonal[lever.turning] = turning;
-                for (entry, value) in lever.between.into_iter().zip([first, second]) {
-                    if let Some(entry) = entry {
-                        factor.before[entry] = value;
-                    }
-                }
-            }
-            if let Some(entry) = spring.between_levers {
-                factor.before[entry] = bare.between_levers;
-            }
+        let [on_diagonal, between] = &factor.bare;
+        for (place, bare) in self.on_diagonal.iter().zip(on_diagonal) {
+            factor.diagonal[place.at] = *bare;
+        }
+        for (place, bare) in self.between.iter().zip(between) {
+            factor.before[place.at] = *bare;
         }
         self.add_springs(tangents, factor);
     }
 
     fn add_springs(&self, tangents: &[f64], factor: &mut RiccatiFactor) {
-        for (spring, tangent) in self.springs.iter().zip(tangents) {
-            for dof in spring.diagonal.into_iter().flatten() {
-                factor.diagonal[dof] += tangent;
-            }
-            if let Some(entry) = spring.between {
-                factor.before[entry] -= tangent;
-            }
-            for lever in spring.levers.iter().flatten() {
-                factor.diagonal[lever.turning] += tangent * lever.arm * lever.arm;
-                for (entry, sign) in lever.between.into_iter().zip([1.0, -1.0]) {
-                    if let Some(entry) = entry {
-                        factor.before[entry] += sign * tangent * lever.arm;
-                    }
-                }
-            }
-            if let (Some(entry), [Some(a), Some(b)]) = (spring.between_levers, &spring.levers) {
-                factor.before[entry] += tangent * a.arm * b.arm;
-            }
+        for place in &self.on_diagonal {
+            place.add(tangents, &mut factor.diagonal);
+        }
+        for place in &self.between {
+            place.add(tangents, &mut factor.before);
         }
     }
 
@@ -492,9 +443,7 @@ impl StepEquations for RiccatiSweep {
         self.recompose(tangents, factor);
         factor.touched.fill(false);
         for &spring in changed {
-            let own = &self.springs[spring];
-            let turning = own.levers.map(|lever| lever.map(|lever| lever.turning));
-            for dof in own.diagonal.into_iter().chain(turning).flatten() {
+            for dof in self.springs[spring].dofs() {
                 let mut at = dof;
                 while !factor.touched[at] {
                     factor.touched[at] = true;
@@ -539,19 +488,9 @@ fn rows_before_diagonal(equations: &Equations) -> (Vec<usize>, Vec<(u32, Parts)>
         ..Parts::default()
     });
     for spring in &equations.springs {
-        if let [Some(a), Some(b)] = spring.dofs
-            && a != b
-        {
-            entries.push((a.max(b) as u32, a.min(b) as u32, Parts::default()));
-        }
-        let turning = spring.levers.map(|lever| lever.map(|(turning, _)| turning));
-        let [first, second] = turning;
-        let pairs = spring
-            .dofs
-            .into_iter()
-            .flat_map(|dof| [(first, dof), (second, dof)]);
-        for pair in pairs.chain([(first, second)]) {
-            if let (Some(a), Some(b)) = pair {
+        let dofs = || spring.row.dofs();
+        for (index, a) in dofs().enumerate() {
+            for b in dofs().take(index).filter(|b| *b != a) {
                 entries.push((a.max(b) as u32, a.min(b) as u32, Parts::default()));
             }
         }

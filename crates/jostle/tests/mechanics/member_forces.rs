@@ -105,11 +105,11 @@ fn link_forces(system: &System, state: &State) -> Vec<f64> {
 /// Horizontal force of contacts and links on a point of a building, positive to the right.
 fn pushed(system: &System, state: &State, links: &[f64], index: usize, at: [f64; 2]) -> f64 {
     let contacts = system.contacts.iter().zip(&state.contacts);
-    let contacts = contacts.map(|(contact, phase)| (contact.ports, phase.force()));
+    let contacts = contacts.map(|(contact, phase)| (contact.ports.clone(), phase.force()));
     let links = system
         .links
         .iter()
-        .map(|link| link.ports)
+        .map(|link| link.ports.clone())
         .zip(links.iter().copied());
     let width = width(system, index);
     let mut sum = 0.0;

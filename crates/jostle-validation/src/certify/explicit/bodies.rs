@@ -181,12 +181,7 @@ impl Bodies {
             bodies.damping.take(&own.stiffness, offset, own.beta);
             bodies.damping.take(&own.dashpots, offset, 1.0);
             for spring in &own.springs {
-                let ends = spring.dofs.into_iter().zip([1.0, -1.0]);
-                let ends = ends.filter_map(|(dof, sign)| Some((dof? + offset, sign)));
-                let levers = spring.levers.into_iter().flatten();
-                let row: Row = ends
-                    .chain(levers.map(|(dof, arm)| (dof + offset, arm)))
-                    .collect();
+                let row: Row = spring.row.moved_up(offset).entries().to_vec();
                 let law = match spring.hysteresis.rule() {
                     HysteresisRule::Sliding { slow, rate } => SpringLaw::Slider(Slider {
                         stiffness: spring.hysteresis.backbone().initial(),

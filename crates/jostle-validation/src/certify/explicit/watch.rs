@@ -386,7 +386,7 @@ fn place_in_plan(building: &BuildingSystem, add: &mut impl FnMut(Signal) -> usiz
     };
     let centres = &building.discretization.centres;
     let axis = centres[0];
-    let moved = |row: &jostle::interface::DofRow| -> Row {
+    let moved = |row: &jostle::linear::Row| -> Row {
         let entries = row.entries().iter();
         entries.map(|(dof, share)| (dof + offset, *share)).collect()
     };

@@ -152,13 +152,13 @@ impl StepFactors {
             if self.ready[point] {
                 continue;
             }
-            let Port { building, row, .. } = joints.points[point];
-            let own = &system.buildings[building];
+            let Port { building, row, .. } = &joints.points[point];
+            let own = &system.buildings[*building];
             let column = &mut self.columns[point];
             column.clear();
             column.resize(own.equations.len(), 0.0);
             row.moved_down(own.offset).push(1.0, column);
-            equations[building].solve(&self.factors[building], column, scratch);
+            equations[*building].solve(&self.factors[*building], column, scratch);
             work.solves += 1;
             self.ready[point] = true;
         }

@@ -67,7 +67,7 @@ impl Direct {
         let ContactPhase::Closed(episode) = &run.phases[contact] else {
             return None;
         };
-        let law = run.system.contacts[contact].friction?.law;
+        let law = run.system.contacts[contact].friction.as_ref()?.law;
         let trial = &run.trials[index];
         Some(Closed {
             contact: index,

@@ -29,8 +29,8 @@ impl Joints {
             ..Self::default()
         };
         for index in 0..joints.contacts + joints.links + joints.rubbing.len() {
-            let ports = *joints.ports(system, index);
-            let sides = ports.0.map(|port| Some(joints.point(port?)));
+            let ports = joints.ports(system, index).0.each_ref();
+            let sides = ports.map(|port| Some(joints.point(port.as_ref()?)));
             joints.sides.push(sides);
         }
         let contacts = system.contacts.iter().map(|contact| &contact.ports);
@@ -47,10 +47,10 @@ impl Joints {
     }
 
     /// Index of the point that moves as a port does.
-    fn point(&mut self, port: Port) -> usize {
+    fn point(&mut self, port: &Port) -> usize {
         let alike = |known: &Port| known.building == port.building && known.row == port.row;
         self.points.iter().position(alike).unwrap_or_else(|| {
-            self.points.push(port);
+            self.points.push(port.clone());
             self.points.len() - 1
         })
     }

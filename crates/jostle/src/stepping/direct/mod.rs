@@ -643,7 +643,7 @@ fn unbalanced_load(
         let springs = equations.springs.iter();
         for (spring, memory) in springs.zip(&state.springs[building.spring_range()]) {
             let damped = equations.tangent_damping(spring, memory, v);
-            spring.push(memory.force() + damped, &mut resisted);
+            spring.row.push(memory.force() + damped, &mut resisted);
         }
         for (k, dof) in range.enumerate() {
             let inertia = equations.mass[k] * (state.acceleration[dof] + equations.alpha * v[k]);

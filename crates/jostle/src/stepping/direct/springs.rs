@@ -286,7 +286,7 @@ impl Direct {
                 let force = balanced - trial.force
                     + trial.tangent * (trial.deformation - memory.deformation() + trial.rate_term)
                     + (damped - trial.damped_after(-trial.rate_term));
-                spring.push(force, load);
+                spring.row.push(force, load);
             }
         }
     }

@@ -67,7 +67,7 @@ impl Direct {
                 }
                 let change = change * spring.deformation(velocity);
                 *damped += change;
-                for (dof, share) in spring.shares() {
+                for &(dof, share) in spring.row.entries() {
                     self.state.acceleration[range.start + dof] -=
                         share * change / equations.mass[dof];
                 }
@@ -82,5 +82,5 @@ impl Direct {
 }
 
 fn is_held_by_masses(spring: &YieldingSpring, mass: &[f64]) -> bool {
-    spring.shares().all(|(dof, _)| mass[dof] > 0.0)
+    spring.row.dofs().all(|dof| mass[dof] > 0.0)
 }

@@ -152,7 +152,7 @@ impl Direct {
 
     /// Changes velocities by an impulse on a point, those of massless degrees of freedom that follow, and accelerations
     /// by what the dampers then say: M Δa = −(α M + β K + C′) Δv.
-    fn push_at_once(&mut self, run: &mut RunState<'_>, port: Port, impulse: f64) {
+    fn push_at_once(&mut self, run: &mut RunState<'_>, port: &Port, impulse: f64) {
         let building = port.building;
         let system = &run.system.buildings[building];
         let (range, own) = (system.range(), &system.equations);
@@ -193,7 +193,7 @@ impl Direct {
             for (spring, (damped, tangent)) in own.springs.iter().zip(damped.zip(tangents)) {
                 let rate = spring.deformation(velocity);
                 let change = own.tangent_dashpot(spring, *tangent) * rate;
-                spring.push(change, acceleration);
+                spring.row.push(change, acceleration);
                 *damped += change;
             }
         }

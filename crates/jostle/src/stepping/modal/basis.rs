@@ -2,8 +2,8 @@
 
 use super::defects;
 use super::span::{RitzModes, Span};
-use crate::interface::DofRow;
 use crate::linear::NotPositive;
+use crate::linear::Row;
 use crate::linear::cholesky::Cholesky;
 use crate::simd;
 use crate::structure::Equations;
@@ -24,9 +24,9 @@ pub(super) struct Basis {
 /// Points and tolerance of the comparison of basis and building.
 pub(super) struct Demand<'a> {
     /// Points of the building that contacts push.
-    pub(super) ports: &'a [DofRow],
+    pub(super) ports: &'a [Row],
     /// Displacements of its floors.
-    pub(super) floors: &'a [DofRow],
+    pub(super) floors: &'a [Row],
     /// Rates s ≥ 0 at which the flexibilities gᵀ(K + s²M)⁻¹g are exact; the last is that of further vectors
     /// \[1/s\].
     pub(super) met: &'a [f64],
@@ -202,7 +202,7 @@ impl<'a> Growing<'a> {
                 .zip(loaded(demand))
                 .map(|(answer, own)| {
                     let places = demand.floors.iter().chain(own);
-                    let shown = |place: &DofRow| {
+                    let shown = |place: &Row| {
                         let entries = place.entries().iter();
                         entries.map(|&(dof, c)| c * answer[dof][met + index]).sum()
                     };
@@ -253,7 +253,7 @@ impl<'a> Growing<'a> {
 
     /// Whether the responses in the basis agree with those of the building.
     fn is_close(&self) -> Result<bool, NotPositive> {
-        let shown = |place: &DofRow| -> Vec<f64> {
+        let shown = |place: &Row| -> Vec<f64> {
             self.span.vectors.iter().map(|v| place.value(v)).collect()
         };
         let ports = self.demand.ports.iter().map(shown);
@@ -333,12 +333,12 @@ pub(super) fn at_once(equations: &Equations) -> f64 {
 }
 
 /// The contact point of every load: none for the ground motion, then one after the other.
-fn loaded<'a>(demand: &Demand<'a>) -> impl Iterator<Item = Option<&'a DofRow>> + use<'a> {
+fn loaded<'a>(demand: &Demand<'a>) -> impl Iterator<Item = Option<&'a Row>> + use<'a> {
     std::iter::once(None).chain(demand.ports.iter().map(Some))
 }
 
 /// A unit force on a point.
-fn push_on(building: &BuildingSystem, port: &DofRow) -> Vec<f64> {
+fn push_on(building: &BuildingSystem, port: &Row) -> Vec<f64> {
     let mut load = vec![0.0; building.equations.len()];
     port.push(1.0, &mut load);
     load

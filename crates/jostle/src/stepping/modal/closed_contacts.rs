@@ -18,7 +18,7 @@ pub(super) const STRUCK_STEPS: u32 = 2;
 const STEPS_PER_RADIAN: f64 = 2.0;
 /// Friction of a closed contact, if it has any.
 fn friction_of(run: &RunState<'_>, contact: usize, episode: &Episode) -> Option<StepFriction> {
-    let law = run.system.contacts[contact].friction?.law;
+    let law = run.system.contacts[contact].friction.as_ref()?.law;
     let mut closed = run.coupling.closed.iter();
     Some(StepFriction {
         contact,

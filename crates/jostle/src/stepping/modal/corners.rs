@@ -6,7 +6,7 @@ use super::peaks::{BEYOND, Watched};
 use super::plan_rows::{PlanRow, RowTable, slot_of};
 use super::reduced::ReducedBuilding;
 use crate::history::Extreme;
-use crate::interface::DofRow;
+use crate::linear::Row;
 use crate::stepping::recorder::greatest_in_step;
 use crate::system::BuildingSystem;
 
@@ -30,7 +30,7 @@ pub(super) struct CornerPeaks {
 
 impl CornerPeaks {
     pub(super) fn new(building: &BuildingSystem, own: &ReducedBuilding) -> Self {
-        let row = |row: &DofRow| {
+        let row = |row: &Row| {
             let mut sum = PlanRow {
                 places: [own.watched.start; 6],
                 weights: [0.0; 6],

@@ -6,8 +6,8 @@
 
 use super::force_rows;
 use super::span::RitzModes;
-use crate::interface::DofRow;
 use crate::linear::NotPositive;
+use crate::linear::Row;
 use crate::system::BuildingSystem;
 use crate::transfer::riccati::rates::RATES;
 
@@ -29,7 +29,7 @@ impl Defects {
     pub(super) fn new(
         building: &BuildingSystem,
         modes: &RitzModes,
-        places: &[DofRow],
+        places: &[Row],
     ) -> Result<Self, NotPositive> {
         let count = modes.stiffness.len();
         let mut found = Self {

@@ -122,11 +122,11 @@ impl ModalStepper<'_> {
             let index = closed.contact;
             let [area, moment] = match &reduced.plan {
                 Some(_) => {
-                    let point = self.plan_equations.points[place];
+                    let point = &self.plan_equations.points[place];
                     self.plan_equations
                         .sums
                         .each_ref()
-                        .map(|list| point.of(list))
+                        .map(|list| point.value(list))
                 }
                 None => {
                     [&self.scratch, &self.moment].map(|list| reduced.closing_of_modes(index, list))

@@ -23,7 +23,7 @@ pub(super) fn of_vectors(building: &BuildingSystem, vectors: &[Vec<f64>]) -> Vec
     for (index, vector) in vectors.iter().enumerate() {
         let link = |own: usize| {
             let link = &building.inner_links[own];
-            link.stiffness * link.shortened_by(vector)
+            link.stiffness * link.shortening.value(vector)
         };
         building
             .storeys
@@ -45,7 +45,7 @@ pub(super) fn of_vectors(building: &BuildingSystem, vectors: &[Vec<f64>]) -> Vec
         }
         let first = chunk * LANES;
         for (row, form) in rows[2 * storeys..].iter_mut().zip(forms) {
-            let sums = form.of_displacements(&lanes);
+            let sums = form.displacement.values(&lanes);
             row[first..first + several.len()].copy_from_slice(&sums[..several.len()]);
         }
     }
@@ -64,7 +64,7 @@ pub(super) fn of_dashpots(building: &BuildingSystem, modes: &RitzModes) -> Vec<V
     for (index, vector) in modes.vectors.iter().enumerate() {
         let link = |own: usize| {
             let link = &building.inner_links[own];
-            link.damping * link.shortened_by(vector)
+            link.damping * link.shortening.value(vector)
         };
         building.storeys.for_each(
             &resting,

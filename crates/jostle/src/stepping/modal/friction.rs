@@ -22,7 +22,7 @@ impl ModalStepper<'_> {
         [start, step]: [f64; 2],
     ) -> Option<FrictionPath> {
         let place = self.reduced.friction[contact]?;
-        let law = run.system.contacts[contact].friction?.law;
+        let law = run.system.contacts[contact].friction.as_ref()?.law;
         let trial = &run.trials[place];
         let own = &mut episode.friction;
         let bend = self.predicted[place].bend(own.force, trial.force);

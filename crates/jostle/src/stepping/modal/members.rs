@@ -12,7 +12,7 @@ use super::passed_kernels::{Drive, FollowPassed};
 use super::reduced::{Reduced, in_blocks};
 use super::unit_force::UnitForce;
 use crate::history::MemberHistory;
-use crate::linear::sort_by_key;
+use crate::linear::{Row, sort_by_key};
 use crate::simd;
 use crate::state::ContactPhase;
 use crate::stepping::member_ratios::MemberRatios;
@@ -141,9 +141,7 @@ impl MemberRows {
         }
         // Blocks of one kind, storey by storey: their rows come near their peaks together.
         sort_by_key(&mut own, |form| kind_of[*form]);
-        let dense = |list: &[(usize, f64)]| {
-            basis.of_shapes(|vector| list.iter().map(|(dof, share)| share * vector[*dof]).sum())
-        };
+        let dense = |row: &Row| basis.of_shapes(|shape| row.value(shape));
         let mut shares: Vec<Vec<f64>> = Vec::new();
         let mut ground = Vec::new();
         for form in &passed {

@@ -8,6 +8,7 @@ use super::reduced::Reduced;
 use super::step_table::StepTable;
 use crate::contact::ContactResponse;
 use crate::interface::Contact;
+use crate::linear::Row;
 use crate::linear::envelope::{Envelope, PivotedEnvelope};
 use crate::simd;
 use crate::stepping::coupling::Closed;
@@ -17,29 +18,6 @@ use crate::stepping::force_equations::{QUICK_ROUNDS, ROUNDING, SETTLED};
 const PARTNERS: usize = 4;
 /// No row.
 const NONE: usize = usize::MAX;
-
-/// A closed point, or friction at it, among the unknowns.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct PointShare {
-    /// Rows of the ends of its face, the same twice if one is enough.
-    rows: [usize; 2],
-    shares: [f64; 2],
-}
-
-impl PointShare {
-    /// Sum of values at the ends.
-    #[inline]
-    pub(super) fn of(&self, values: &[f64]) -> f64 {
-        self.shares[0] * values[self.rows[0]] + self.shares[1] * values[self.rows[1]]
-    }
-
-    /// Adds a value to those at the ends.
-    #[inline]
-    fn add(&self, value: f64, to: &mut [f64]) {
-        to[self.rows[0]] += self.shares[0] * value;
-        to[self.rows[1]] += self.shares[1] * value;
-    }
-}
 
 /// Influence of unknowns of one face on each other: slopes of sums of forces by closings and by their rates.
 #[derive(Clone, Copy, Debug)]
@@ -58,8 +36,8 @@ pub(super) struct PlanEquations {
     /// Places of all ports in the order of the graph, and of the ends.
     place_of: Vec<usize>,
     places: Vec<usize>,
-    /// Of every closed contact, then friction, in the order in which they are listed.
-    pub(super) points: Vec<PointShare>,
+    /// Of every closed contact, then friction, in the order in which they are listed: its closing over those of the ends of its face.
+    pub(super) points: Vec<Row>,
     /// Closings and their rates at the ends without forces, and with them \[m, m/s\].
     free: [Vec<f64>; 2],
     pressed: [Vec<f64>; 2],
@@ -113,7 +91,7 @@ impl PlanEquations {
             self.row_of[end] = NONE;
         }
         for own in closed {
-            for end in plan.shares[own.contact].ends {
+            for end in plan.shares[own.contact].dofs() {
                 if self.row_of[end] == NONE {
                     self.row_of[end] = 0;
                     self.ends.push(end);
@@ -127,11 +105,9 @@ impl PlanEquations {
         }
         self.points.clear();
         self.points.extend(closed.iter().map(|own| {
-            let share = plan.shares[own.contact];
-            PointShare {
-                rows: share.ends.map(|end| self.row_of[end]),
-                shares: share.shares,
-            }
+            let ends = plan.shares[own.contact].entries().iter();
+            ends.map(|(end, share)| (self.row_of[*end], *share))
+                .collect()
         }));
         for list in &mut self.sums {
             list.clear();
@@ -141,7 +117,7 @@ impl PlanEquations {
 
     /// Adds a bend of the force of a closed contact to those of the ends.
     pub(super) fn add_bend(&mut self, point: usize, bend: f64) {
-        self.points[point].add(bend, &mut self.sums[0]);
+        self.points[point].push(bend, &mut self.sums[0]);
     }
 
     /// Adds the bends to modal loads.
@@ -193,7 +169,9 @@ impl PlanEquations {
 
     /// Closing of a closed point without forces, and its rate.
     pub(super) fn free_of(&self, point: usize) -> [f64; 2] {
-        self.free.each_ref().map(|list| self.points[point].of(list))
+        self.free
+            .each_ref()
+            .map(|list| self.points[point].value(list))
     }
 
     /// Finds how far and how fast forces at the ends open them at the end of a step of a table.
@@ -242,7 +220,7 @@ impl PlanEquations {
         self.forces.clear();
         self.forces.resize(n, 0.0);
         for (point, own) in self.points.iter().zip(&*closed) {
-            point.add(predicted(own.contact), &mut self.forces);
+            point.push(predicted(own.contact), &mut self.forces);
         }
         self.list_partners(closed);
         let mut last = f64::INFINITY;
@@ -293,14 +271,13 @@ impl PlanEquations {
                 slopes: [[0.0; 2]; PARTNERS],
             }));
         for (point, own) in self.points.iter().zip(closed) {
-            let [first, last] = point.rows;
-            if first != last {
+            if let [(first, _), (last, _)] = *point.entries() {
                 self.slopes[first].rows[1] = last;
                 self.slopes[last].rows[1] = first;
             }
             if let Some(friction) = own.friction {
-                for end in self.points[friction.normal].rows {
-                    for row in point.rows {
+                for end in self.points[friction.normal].dofs() {
+                    for row in point.dofs() {
                         let pressing = &mut self.slopes[row].rows[2..];
                         if !pressing.contains(&end)
                             && let Some(free) = pressing.iter_mut().find(|own| **own == NONE)
@@ -323,7 +300,7 @@ impl PlanEquations {
         self.responses.clear();
         let [closings, rates] = &self.pressed;
         for (point, own) in self.points.iter().zip(closed) {
-            let (closing, rate) = (point.of(closings), point.of(rates));
+            let (closing, rate) = (point.value(closings), point.value(rates));
             let response = match &own.friction {
                 Some(friction) => friction.respond(closing, self.responses[friction.normal].force),
                 None => {
@@ -332,7 +309,7 @@ impl PlanEquations {
                 }
             };
             self.responses.push(response);
-            point.add(response.force, &mut self.change);
+            point.push(response.force, &mut self.change);
             let slopes = [response.by_indentation, response.by_rate];
             add_own_slopes(&mut self.slopes, point, slopes);
             if let Some(friction) = &own.friction
@@ -343,11 +320,11 @@ impl PlanEquations {
                 let share = friction.law.coefficient.copysign(response.force);
                 let pressing = &self.responses[friction.normal];
                 let slopes = [pressing.by_indentation, pressing.by_rate];
-                let normal = self.points[friction.normal];
+                let normal = &self.points[friction.normal];
                 add_slopes_by_pressing(
                     &mut self.slopes,
                     point,
-                    &normal,
+                    normal,
                     slopes.map(|slope| share * slope),
                 );
             }
@@ -383,12 +360,13 @@ impl PlanEquations {
         std::mem::swap(&mut self.pressed, &mut self.before);
         self.press_ends();
         for (place, own) in closed.iter_mut().enumerate() {
-            let point = self.points[place];
-            let [moved, rate] = [0, 1]
-                .map(|list: usize| point.of(&self.pressed[list]) - point.of(&self.before[list]));
+            let point = &self.points[place];
+            let [moved, rate] = [0, 1].map(|list: usize| {
+                point.value(&self.pressed[list]) - point.value(&self.before[list])
+            });
             let response = &self.responses[place];
             own.force = response.force + response.by_indentation * moved + response.by_rate * rate;
-            own.indentation = point.of(&self.pressed[0]);
+            own.indentation = point.value(&self.pressed[0]);
         }
         for place in 0..closed.len() {
             let Some(friction) = closed[place].friction else {
@@ -411,10 +389,10 @@ impl PlanEquations {
         for (own, list) in self.openings.iter().zip([first, second]) {
             for row in 0..self.points.len() {
                 for column in list.columns(row) {
-                    let (to, from) = (self.points[row], self.points[column]);
+                    let (to, from) = (&self.points[row], &self.points[column]);
                     let mut sum = 0.0;
-                    for (end, share) in to.rows.into_iter().zip(to.shares) {
-                        for (start, part) in from.rows.into_iter().zip(from.shares) {
+                    for &(end, share) in to.entries() {
+                        for &(start, part) in from.entries() {
                             if own.columns(end).contains(&start) {
                                 sum += share * part * own.get(end, start);
                             }
@@ -439,7 +417,7 @@ impl PlanEquations {
         self.forces.fill(0.0);
         self.forces.resize(self.ends.len(), 0.0);
         for (point, own) in self.points.iter().zip(closed) {
-            point.add(own.force, &mut self.forces);
+            point.push(own.force, &mut self.forces);
         }
         self.loads.clear();
         self.loads.resize(reduced.modes(), 0.0);
@@ -466,14 +444,14 @@ impl PlanEquations {
         contacts: impl Iterator<Item = usize>,
         modal: &[f64],
     ) {
-        let mut done = [NONE; 2];
+        let mut done = None;
         for contact in contacts {
-            let ends = plan.shares[contact].ends;
-            if ends == done {
+            let ends = || plan.shares[contact].dofs();
+            if done.is_some_and(|done: usize| plan.shares[done].dofs().eq(ends())) {
                 continue;
             }
-            done = ends;
-            for end in ends {
+            done = Some(contact);
+            for end in ends() {
                 let sides = plan.sides[end].iter();
                 let sum: f64 = sides
                     .map(|side| {
@@ -488,16 +466,12 @@ impl PlanEquations {
 
     /// Relative acceleration at a contact, once found at the ends of its face.
     pub(super) fn acceleration(&self, plan: &PlanRows, contact: usize) -> f64 {
-        let share = plan.shares[contact];
-        let ends = share.ends.into_iter().zip(share.shares);
-        ends.map(|(end, share)| share * self.accelerations[end])
-            .sum()
+        plan.shares[contact].value(&self.accelerations)
     }
 
     /// Adds the rate of a force at a port to those that are to be applied.
     pub(super) fn add_rate(&mut self, plan: &PlanRows, port: usize, rate: f64) {
-        let share = plan.shares[port];
-        for (end, share) in share.ends.into_iter().zip(share.shares) {
+        for &(end, share) in plan.shares[port].entries() {
             if self.rates[end] == 0.0 {
                 self.pushed.push(end);
             }
@@ -518,30 +492,23 @@ impl PlanEquations {
 
 /// What motion at the ends of a point adds to sums of forces there.
 #[inline]
-fn add_own_slopes(all: &mut [FaceSlopes], point: &PointShare, slopes: [f64; 2]) {
-    let ([first, last], [near, far]) = (point.rows, point.shares);
+fn add_own_slopes(all: &mut [FaceSlopes], point: &Row, slopes: [f64; 2]) {
     let mut add = |row: usize, place: usize, share: f64| {
         let sums = &mut all[row].slopes[place];
         sums[0] += share * slopes[0];
         sums[1] += share * slopes[1];
     };
-    add(first, 0, near * near);
-    if first != last {
-        add(first, 1, near * far);
-        add(last, 1, near * far);
-        add(last, 0, far * far);
+    for (index, &(row, share)) in point.entries().iter().enumerate() {
+        for (other, (_, part)) in point.entries().iter().enumerate() {
+            add(row, usize::from(index != other), share * part);
+        }
     }
 }
 
 /// What motion at the ends of a contact adds to sums of friction at those of the same point.
-fn add_slopes_by_pressing(
-    all: &mut [FaceSlopes],
-    point: &PointShare,
-    by: &PointShare,
-    slopes: [f64; 2],
-) {
-    for (row, share) in point.rows.into_iter().zip(point.shares) {
-        for (other, part) in by.rows.into_iter().zip(by.shares) {
+fn add_slopes_by_pressing(all: &mut [FaceSlopes], point: &Row, by: &Row, slopes: [f64; 2]) {
+    for &(row, share) in point.entries() {
+        for &(other, part) in by.entries() {
             let place = if all[row].rows[2] == other { 2 } else { 3 };
             let sums = &mut all[row].slopes[place];
             sums[0] += share * part * slopes[0];

@@ -10,7 +10,7 @@ use super::links::own_dashpots;
 use super::mode_kernels::LANES;
 use super::reduced::Reduced;
 use crate::interface::PortPair;
-use crate::linear::sort_by_key;
+use crate::linear::{Row, sort_by_key};
 use crate::system::{Direction, System};
 
 /// Displacements of a floor that move a point of it, on either side of a contact.
@@ -57,14 +57,6 @@ pub(super) struct SideLoads {
     pub(super) loads: Vec<f64>,
 }
 
-/// On which closings of ends of its face that of a point depends, and its shares in both \[–\].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct FaceShare {
-    /// Indices of ports; both are the same if one is enough.
-    pub(super) ends: [usize; 2],
-    pub(super) shares: [f64; 2],
-}
-
 /// Closings of all contacts, and slips along them, of buildings in space.
 #[derive(Clone, Debug)]
 pub(super) struct PlanRows {
@@ -74,8 +66,8 @@ pub(super) struct PlanRows {
     /// Place of every port among the closings, then of every end of an edge.
     places: Vec<usize>,
     rows: RowTable,
-    /// Of every port.
-    pub(super) shares: Vec<FaceShare>,
+    /// The closing of every port over those of the ends of its face, by their ports.
+    pub(super) shares: Vec<Row>,
     /// Of ports at ends of faces; empty for others.
     pub(super) sides: Vec<Vec<SideLoads>>,
     /// The loads of both sides one after the other.
@@ -214,7 +206,7 @@ impl PlanRows {
         let shares = face_shares(system, reduced, &rows[..ports]);
         let mut sides = vec![Vec::new(); ports];
         for share in &shares {
-            for end in share.ends {
+            for end in share.dofs() {
                 if sides[end].is_empty() {
                     sides[end] = rows[end].sides(reduced);
                 }
@@ -244,10 +236,8 @@ impl PlanRows {
 
     /// The buildings on both sides of a port, with shares of the loads of ends of its face.
     pub(super) fn sides_of(&self, port: usize) -> impl Iterator<Item = (f64, &SideLoads)> {
-        let FaceShare { ends, shares } = self.shares[port];
-        let used = if ends[0] == ends[1] { 1 } else { 2 };
-        let ends = ends.into_iter().zip(shares).take(used);
-        ends.flat_map(|(end, share)| self.sides[end].iter().map(move |side| (share, side)))
+        let ends = self.shares[port].entries().iter();
+        ends.flat_map(|(end, share)| self.sides[*end].iter().map(move |side| (*share, side)))
     }
 
     /// Place of the closing of a port among all.
@@ -366,16 +356,12 @@ fn floor_groups(rows: &[PlanRow]) -> Vec<FloorGroup> {
 }
 
 /// Of every port, its shares in the ends of its face.
-fn face_shares(system: &System, reduced: &Reduced, rows: &[PlanRow]) -> Vec<FaceShare> {
+fn face_shares(system: &System, reduced: &Reduced, rows: &[PlanRow]) -> Vec<Row> {
     let contacts = system.contacts.len();
     let face_of = |port: usize| {
         let contact = reduced.contact_of[port];
         let face = system.contacts[contact].plan.map(|place| place.face);
         face.map(|face| (port < contacts, face))
-    };
-    let alone = |port: usize| FaceShare {
-        ends: [port; 2],
-        shares: [1.0, 0.0],
     };
     let mut shares = Vec::with_capacity(rows.len());
     while shares.len() < rows.len() {
@@ -390,17 +376,14 @@ fn face_shares(system: &System, reduced: &Reduced, rows: &[PlanRow]) -> Vec<Face
             // One end is enough where both move alike, and at the ends themselves.
             let alike = rows[first].between(&rows[last], &rows[last]).is_some();
             Some(match [near, far] {
-                [1.0, 0.0] => alone(first),
-                [0.0, 1.0] => alone(last),
-                _ if alike => alone(first),
-                shares => FaceShare {
-                    ends: [first, last],
-                    shares,
-                },
+                [1.0, 0.0] => Row::single(first),
+                [0.0, 1.0] => Row::single(last),
+                _ if alike => Row::single(first),
+                [near, far] => Row::new(&[(first, near), (last, far)]),
             })
         };
         for port in first..=last {
-            shares.push(of_point(port).unwrap_or_else(|| alone(port)));
+            shares.push(of_point(port).unwrap_or_else(|| Row::single(port)));
         }
     }
     shares

@@ -16,8 +16,9 @@ use super::plan_rows::PlanRows;
 use super::unit_force::UnitForce;
 use crate::contact::ForceLaw;
 use crate::history::Work;
-use crate::interface::{DofRow, InterfaceGraph};
+use crate::interface::InterfaceGraph;
 use crate::linear::NotPositive;
+use crate::linear::Row;
 use crate::motion::Ground;
 use crate::simd;
 use crate::system::{BuildingSystem, Direction, GroundsAt, System};
@@ -275,7 +276,7 @@ impl Reduced {
     }
 
     fn add_links(&mut self, system: &System) {
-        let shown = |building: usize, row: DofRow| {
+        let shown = |building: usize, row: Row| {
             let MonitoredPoints { places, .. } =
                 MonitoredPoints::new(system, building, self.vertical);
             let place = places.iter().position(|own| *own == row)?;
@@ -286,8 +287,8 @@ impl Reduced {
         };
         let mut links = Vec::new();
         for (index, link) in system.links.iter().enumerate() {
-            let ports = link.ports.0.map(|port| {
-                let port = port?;
+            let ports = link.ports.0.each_ref().map(|port| {
+                let port = port.as_ref()?;
                 let offset = system.buildings[port.building].offset;
                 shown(port.building, port.row.moved_down(offset))
             });
@@ -296,7 +297,7 @@ impl Reduced {
         }
         for (index, building) in system.buildings.iter().enumerate() {
             for (dofs, damping) in own_dashpots(building) {
-                let ports = dofs.map(|dof| shown(index, DofRow::single(dof?)));
+                let ports = dofs.map(|dof| shown(index, Row::single(dof?)));
                 links.push(ModalLink::new(self, None, ports, [0.0, damping]));
             }
         }
@@ -340,7 +341,7 @@ impl Reduced {
         let all = self.ports.iter_mut().zip(system.contact_ports());
         for (ports, pair) in all.chain(self.edge_ends.iter_mut().zip(ends)) {
             for (shown, port) in ports.iter_mut().zip(&pair.0) {
-                let Some(port) = port.filter(|port| port.building == index) else {
+                let Some(port) = port.as_ref().filter(|port| port.building == index) else {
                     continue;
                 };
                 let row = port.row.moved_down(building.offset);

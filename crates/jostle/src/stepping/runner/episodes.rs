@@ -53,7 +53,7 @@ impl<S: Stepper> Runner<'_, S> {
                 self.stepper
                     .follow_friction(&self.run, index, &mut episode, &force, [start, step]);
             if let (Some(place), Some(friction), Some(path)) =
-                (contact.plan, contact.friction, path)
+                (contact.plan, &contact.friction, path)
             {
                 let faces = &mut self.run.face_forces;
                 faces.add_friction(place.face, friction.law.coefficient, path);

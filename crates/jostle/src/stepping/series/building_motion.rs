@@ -377,23 +377,16 @@ impl BuildingMotion {
         let mut first: Option<(f64, usize, Leaving)> = None;
         self.records.clear();
         let [tail, quick_tail] = &series.tail;
-        for (index, dofs) in self.operators.springs.iter().enumerate() {
-            let differ = |list: &[f64]| {
-                let at = |dof: Option<usize>| dof.map_or(0.0, |dof| list[dof]);
-                at(dofs[0]) - at(dofs[1])
-            };
-            let reach = |list: &[f64]| {
-                let at = |dof: Option<usize>| dof.map_or(0.0, |dof| list[dof]);
-                at(dofs[0]) + at(dofs[1])
-            };
-            let [start, rate, second, third] = [0, 1, 2, 3].map(|power| differ(series.row(power)));
-            let swing = rate.abs() + second.abs() + third.abs() + reach(tail);
-            let turning = 2.0 * second.abs() + 3.0 * third.abs() + reach(quick_tail);
+        for (index, deformation) in self.operators.springs.iter().enumerate() {
+            let [start, rate, second, third] =
+                [0, 1, 2, 3].map(|power| deformation.value(series.row(power)));
+            let swing = rate.abs() + second.abs() + third.abs() + deformation.bound(tail);
+            let turning = 2.0 * second.abs() + 3.0 * third.abs() + deformation.bound(quick_tail);
             let line = &self.springs[TRIED].lines[index];
             if line.certainly_stays(start, swing, rate.abs() > turning) {
                 continue;
             }
-            let motion = series.difference(*dofs);
+            let motion = series.of(deformation);
             let records = &mut self.records;
             let left = line.leaves(&motion, |share, deformation| {
                 records.push((index, share, deformation));

@@ -2,7 +2,7 @@
 
 use super::power_series::padded;
 use super::push::Push;
-use crate::linear::SparseSymmetric;
+use crate::linear::{Row, SparseSymmetric};
 use crate::structure::Equations;
 
 /// Stiffness, damping and loads of a building per unit mass.
@@ -34,8 +34,8 @@ pub(super) struct Operators {
     steady_damping: Vec<f64>,
     /// Dashpot of every spring over its present stiffness \[s\].
     delays: Vec<f64>,
-    /// Degrees of freedom of the springs.
-    pub(super) springs: Vec<[Option<usize>; 2]>,
+    /// Deformations of the springs.
+    pub(super) springs: Vec<Row>,
     /// Bound on the rate of the motion while no spring is stiffer than at first \[1/s\].
     pub(super) rate: f64,
 }
@@ -45,7 +45,8 @@ impl Operators {
     pub(super) fn new(equations: &Equations) -> Self {
         let size = equations.len();
         let length = padded(size);
-        let springs: Vec<_> = equations.springs.iter().map(|spring| spring.dofs).collect();
+        let springs = equations.springs.iter().map(|spring| spring.row.clone());
+        let springs: Vec<Row> = springs.collect();
         let matrices = [
             &equations.stiffness,
             &equations.undamped,
@@ -53,9 +54,9 @@ impl Operators {
         ];
         let all = matrices.into_iter().flat_map(entries);
         let across = all.map(|(row, column, _)| row.abs_diff(column));
-        let across_springs = springs.iter().filter_map(|dofs| match dofs {
-            [Some(a), Some(b)] => Some(a.abs_diff(*b)),
-            _ => None,
+        let across_springs = springs.iter().flat_map(|row| {
+            let others = row.dofs();
+            others.flat_map(|a| row.dofs().map(move |b| a.abs_diff(b)))
         });
         let reach = across.chain(across_springs).max().unwrap_or(0);
         let filled = |values: &mut dyn Iterator<Item = f64>| {
@@ -138,15 +139,13 @@ impl Operators {
         self.stiffness.copy_from_slice(&self.elastic);
         self.damping[..self.steady_damping.len()].copy_from_slice(&self.steady_damping);
         for (spring, tangent) in tangents.enumerate() {
-            let dofs = self.springs[spring];
             let delay = self.delays.get(spring).copied().unwrap_or(0.0);
             let dashpot = delay * tangent.max(0.0);
-            for (own, sign) in dofs.into_iter().zip([1.0, -1.0]) {
-                let Some(row) = own else { continue };
-                for (other, other_sign) in dofs.into_iter().zip([1.0, -1.0]) {
-                    let Some(column) = other else { continue };
+            let entries = self.springs[spring].entries();
+            for &(row, share) in entries {
+                for &(column, other) in entries {
                     let place = self.place(row, column);
-                    let by = sign * other_sign * self.inverse_mass[row];
+                    let by = share * other * self.inverse_mass[row];
                     self.stiffness[place] += by * tangent;
                     self.damping[place] += by * dashpot;
                 }
@@ -157,12 +156,8 @@ impl Operators {
     /// M⁻¹ times the force of a spring on the building, added to accelerations.
     #[inline]
     pub(super) fn pull(&self, spring: usize, force: f64, acceleration: &mut [f64]) {
-        let [first, second] = self.springs[spring];
-        if let Some(dof) = first {
-            acceleration[dof] -= force * self.inverse_mass[dof];
-        }
-        if let Some(dof) = second {
-            acceleration[dof] += force * self.inverse_mass[dof];
+        for &(dof, share) in self.springs[spring].entries() {
+            acceleration[dof] -= share * force * self.inverse_mass[dof];
         }
     }
 

@@ -3,6 +3,7 @@
 use super::building_motion::Segment;
 use super::power_series::Powers;
 use crate::history::{Extreme, FloorPeaks, SpringTotals, SupportPeaks};
+use crate::linear::Row;
 use crate::stepping::acceleration_parts::AccelerationParts;
 use crate::stepping::events::Cubic;
 use crate::structure::StoreyForce;
@@ -151,7 +152,7 @@ impl SeriesPeaks {
         let accelerates = |dof: usize| -> Ends {
             [0, 1].map(|side| (a[side][dof] + shaken[side], jerk[side][dof] + ground[1]))
         };
-        let motion = |dof: usize| series.difference([Some(dof), None]);
+        let motion = |dof: usize| series.of(&Row::single(dof));
         let acceleration = |dof: usize| motion(dof).second_derivative(step, ground);
         let mut below = building.foot.map(|dof| dof - offset);
         let first_floor = self.first_floor[index];
@@ -176,7 +177,8 @@ impl SeriesPeaks {
             });
             let mut greatest = peaks.storey_drift * floor.storey_height;
             follow(&mut greatest, drift, step, || {
-                series.difference([Some(dof), below])
+                let below = below.map(|below| (below, -1.0));
+                series.of(&[(dof, 1.0)].into_iter().chain(below).collect())
             });
             peaks.storey_drift = peaks.storey_drift.max(greatest / floor.storey_height);
             below = Some(dof);
@@ -191,7 +193,7 @@ impl SeriesPeaks {
                 (segment.forces[side][number], rate)
             });
             follow(&mut totals.peak_force, force, step, || {
-                let deformation = series.difference(spring.dofs);
+                let deformation = series.of(&spring.row);
                 deformation.scaled(tangent).starting_at(force[0].0)
             });
             let moved = spring.deformation(u[1]) - spring.deformation(u[0]);

@@ -2,6 +2,8 @@
 
 use pulp::NullaryFnOnce;
 
+use crate::linear::Row;
+
 /// Highest power of time.
 const HIGHEST: usize = 30;
 /// Share of the acceleration that may be left out with the powers beyond the last.
@@ -85,12 +87,9 @@ impl PowerSeries {
         self.step *= s;
     }
 
-    /// Powers of the difference of two displacements; `None` moves with the ground.
-    pub(super) fn difference(&self, dofs: [Option<usize>; 2]) -> Powers {
-        self.form(|row| {
-            let at = |dof: Option<usize>| dof.map_or(0.0, |dof| row[dof]);
-            at(dofs[0]) - at(dofs[1])
-        })
+    /// Powers of a displacement or a deformation.
+    pub(super) fn of(&self, moved: &Row) -> Powers {
+        self.form(|displacement| moved.value(displacement))
     }
 
     /// Powers of a linear form of the displacements.

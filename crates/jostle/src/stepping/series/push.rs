@@ -1,12 +1,12 @@
 //! The force of a contact over a step.
 
-use crate::interface::DofRow;
+use crate::linear::Row;
 
 /// The force of a contact on a building over a step, positive to the right: a parabola of time.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Push {
     /// Over the degrees of freedom of the building.
-    pub(super) row: DofRow,
+    pub(super) row: Row,
     /// Coefficients of the powers of the time since the start of the step \[N, N/s, N/s²\].
     pub(super) force: [f64; 3],
 }

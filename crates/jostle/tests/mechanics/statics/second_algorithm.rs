@@ -48,11 +48,7 @@ impl<'a> Newton<'a> {
             let answer = spring
                 .hysteresis
                 .respond(memory, spring.deformation(displacement));
-            for (dof, sign) in spring.dofs.into_iter().zip([1.0, -1.0]) {
-                if let Some(dof) = dof {
-                    carried[dof] += sign * answer.force;
-                }
-            }
+            spring.row.push(answer.force, &mut carried);
             tangents.push(answer.tangent);
             memories.push(answer.memory);
         }

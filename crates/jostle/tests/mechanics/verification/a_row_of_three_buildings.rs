@@ -60,7 +60,7 @@ fn monolith(model: &Model) -> Monolith {
     }
     for contact in &system.contacts {
         let dof = |side: usize| {
-            let face = contact.ports.0[side].expect("no wall");
+            let face = contact.ports.0[side].as_ref().expect("no wall");
             starts[face.building] + face.floor.expect("floors meet") - 1
         };
         monolith

@@ -55,7 +55,7 @@ fn columns_keep_a_rocking_foundation_in_equilibrium() {
             } else if let Some(dof) = own.equations.horizontal(index) {
                 let rate = v[dof] - v[sway] + node.y * v[turning];
                 dashpots += alpha * node.mass * node.y * rate;
-                if foundation.levers.get(index).copied().flatten().is_none()
+                if sticks.lever(index).is_none()
                     && let Some(dof) = own.equations.vertical(index)
                 {
                     dashpots -= alpha * node.mass * x * (v[dof] - x * v[turning]);

@@ -323,8 +323,12 @@ fn static_coupling_is_that_of_the_half_space() {
     let coupled = |dofs: [usize; 2]| -> f64 {
         let links = system.links.iter();
         let entry = links.map(|link| {
-            let [left, right] = link.ports.0.map(|port| port.expect("a foundation"));
-            let share = |row: &jostle::interface::DofRow, dof: usize| {
+            let [left, right] = link
+                .ports
+                .0
+                .each_ref()
+                .map(|port| port.as_ref().expect("a foundation"));
+            let share = |row: &jostle::linear::Row, dof: usize| {
                 let entries = row.entries().iter();
                 entries
                     .filter(|(own, _)| *own == dof)

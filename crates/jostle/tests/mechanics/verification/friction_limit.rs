@@ -51,7 +51,10 @@ fn beside_a_wall(polar_share: f64, friction: f64) -> Model {
 }
 
 fn least(system: &System) -> f64 {
-    let limits = system.contacts.iter().filter_map(|own| own.friction);
+    let limits = system
+        .contacts
+        .iter()
+        .filter_map(|own| own.friction.as_ref());
     limits
         .map(|own| own.unique_below)
         .fold(f64::INFINITY, f64::min)

@@ -32,8 +32,8 @@ fn linked(mut system: System, between: [Option<usize>; 2], stiffness: f64, dampi
     system.links.push(LinkElement {
         link: 0,
         inside: false,
-        ports,
         height: ports.height(),
+        ports,
         stiffness,
         damping,
         closing_at_rest: 0.0,

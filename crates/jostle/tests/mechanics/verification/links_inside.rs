@@ -401,7 +401,7 @@ fn modes_of_braced_frames_have_the_energy_of_braces() {
         let mut energy: f64 = force.iter().zip(&mode.shape).map(|(f, u)| f * u).sum();
         energy += links
             .iter()
-            .map(|link| link.stiffness * link.shortened_by(&mode.shape).powi(2))
+            .map(|link| link.stiffness * link.shortening.value(&mode.shape).powi(2))
             .sum::<f64>();
         assert!(
             (energy / mode.circular_frequency.powi(2) - 1.0).abs() < 1e-8,
@@ -520,7 +520,7 @@ fn a_pushover_with_links_is_in_equilibrium() {
                 let [from, to] = link.floors;
                 // The first end moves to the right against the second: the link is shorter.
                 let shorter = at(from) - at(to);
-                assert!((link.shortened_by(&point.displacement) - shorter).abs() < 1e-15);
+                assert!((link.shortening.value(&point.displacement) - shorter).abs() < 1e-15);
                 let value = match (from, to) {
                     (0, 1) => clamped(7e7, 3e5, 0.0, shorter),
                     (1, _) => clamped(5e7, 2e5, 0.05, shorter),

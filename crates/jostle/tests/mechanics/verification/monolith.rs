@@ -79,12 +79,8 @@ pub(crate) fn monolith(
             }
         }
         springs.extend(equations.springs.iter().map(|spring| {
-            let ends = spring.dofs.into_iter().zip([1.0, -1.0]);
-            let ends = ends.filter_map(|(dof, sign)| Some((dof?, sign)));
-            let shares = ends.chain(spring.levers.into_iter().flatten());
-            let shares: Vec<(usize, f64)> =
-                shares.map(|(dof, share)| (dof + offset, share)).collect();
-            (shares, spring.hysteresis)
+            let row = spring.row.moved_up(offset);
+            (row.entries().to_vec(), spring.hysteresis)
         }));
     }
     let state = jostle::State::at_rest(system, motion.acceleration(0.0));

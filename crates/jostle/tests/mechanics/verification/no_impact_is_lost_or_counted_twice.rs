@@ -95,7 +95,7 @@ fn a_step_ends_on_every_touch() {
             .expect("an instant of the touch");
         let contact = &system.contacts[impact.contact];
         let [left, right] = [0, 1].map(|side| {
-            let face = contact.ports.0[side].expect("no wall");
+            let face = contact.ports.0[side].as_ref().expect("no wall");
             let (floor, building) = (face.floor.expect("floors meet"), face.building);
             column(&outcome, Column::Displacement { building, floor })[row]
         });

@@ -267,6 +267,7 @@ fn a_point_put_into_a_column_changes_neither_statics_nor_mass() {
     };
     let [point, floor] = [0, 1].map(|c| {
         system.contacts[c].ports.0[0]
+            .as_ref()
             .expect("a building")
             .row
             .only()
@@ -285,6 +286,7 @@ fn a_point_put_into_a_column_changes_neither_statics_nor_mass() {
     // Between rigid floors: a beam with fixed ends, and the storey that sways under what arrives at its top.
     let system = struck(rigid);
     let point = system.contacts[0].ports.0[0]
+        .as_ref()
         .expect("a building")
         .row
         .only()

@@ -5,7 +5,7 @@ use crate::model::{FloorPairs, Model};
 
 /// Points of all gaps and links of a checked model.
 #[derive(Clone, Debug)]
-pub(crate) struct Row {
+pub(crate) struct JoinedPoints {
     pub(crate) gaps: Vec<Joined>,
     pub(crate) links: Vec<Joined>,
 }
@@ -22,11 +22,11 @@ impl Model {
     /// it or links end \[m\].
     #[must_use]
     pub fn points_between_floors(&self, building: usize) -> [Vec<f64>; 2] {
-        Row::new(self).points_between_floors(building)
+        JoinedPoints::new(self).points_between_floors(building)
     }
 }
 
-impl Row {
+impl JoinedPoints {
     pub(crate) fn new(model: &Model) -> Self {
         let joined = |between: [Option<usize>; 2], floors: &FloorPairs, tolerance: f64| Joined {
             between,
