@@ -293,9 +293,19 @@ impl Extend<(usize, f64)> for Row {
 
 impl FromIterator<(usize, f64)> for Row {
     fn from_iter<I: IntoIterator<Item = (usize, f64)>>(entries: I) -> Self {
-        let mut row = Self::default();
-        row.extend(entries);
-        row
+        let mut entries = entries.into_iter();
+        let (mut few, mut count) = ([(0, 0.0); FEW], 0);
+        for (place, entry) in few.iter_mut().zip(entries.by_ref()) {
+            *place = entry;
+            count += 1;
+        }
+        match entries.next() {
+            None => Self::new(&few[..count]),
+            Some(next) => {
+                let others = few.into_iter().chain([next]);
+                Self(Terms::Many(others.chain(entries).collect()))
+            }
+        }
     }
 }
 
