@@ -66,7 +66,7 @@ pub(super) struct Rank {
 
 /// Nodes in the order of the transfer path: all beams at once, step by step from their left ends; all columns
 /// between floors at once, step by step upwards; then the floors. The beams do not meet, and taking them
-/// side by side keep a processor busy that would otherwise wait for every link of a single chain.
+/// side by side keeps a processor busy that would otherwise wait for every link of a single chain.
 ///
 /// Every node comes with its rank: nodes side by side share one, every joint has its own.
 pub(super) fn node_order(stick_model: &StickModel) -> Vec<(Rank, usize)> {

@@ -59,8 +59,8 @@ impl StickModel {
         tied.entries().first().map(|(_, lever)| *lever)
     }
 
-    /// What a force at a displacement adds to the horizontal forces along x and across, and to the torque about the centre of the
-    /// floor at its height, or of the next one above; none for what is vertical or in one plane.
+    /// What a unit force at a displacement adds to the forces along x and across \[–\], and to the torque about the centre of a floor
+    /// \[m\]. The floor is the one at its height, or else the next above. Vertical forces of frames in a plan add nothing.
     pub(crate) fn horizontal_shares(&self, (node, component): Place) -> [f64; 3] {
         match self.frame_nodes.get(node) {
             Some(Some(own)) if component == X => own.shares,

@@ -20,7 +20,7 @@ pub struct StickModel {
     pub hinges: Vec<Hinge>,
     /// Horizontal springs.
     pub springs: Vec<Spring>,
-    /// Springs and dashpots between any displacements, such as those that stand for entries of given matrices.
+    /// Springs and dashpots between any displacements, such as those into which given matrices are taken apart.
     pub elements: Vec<Element>,
     /// Members of a space frame whose joints have displacements of their own.
     pub space_elements: Vec<Element>,
