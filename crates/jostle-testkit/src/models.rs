@@ -66,8 +66,7 @@ pub fn frame(storeys: usize, spans: &[f64], column: Section, beam: Section) -> F
         floor_mass: vec![0.0; storeys],
         column_segments: 2,
         beam_segments: vec![3; spans.len()],
-        axial: Axial::default(),
-        joint: Joint::default(),
+        ..Frame::default()
     }
 }
 

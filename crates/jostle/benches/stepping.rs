@@ -51,8 +51,7 @@ fn row(buildings: usize, storeys: usize) -> Model {
             floor_mass: vec![0.0; storeys],
             column_segments: 4,
             beam_segments: vec![8, 4, 8],
-            axial: Axial::default(),
-            joint: Joint::default(),
+            ..Frame::default()
         }),
         damping: Damping::Rayleigh {
             alpha: 0.3,

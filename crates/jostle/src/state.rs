@@ -224,8 +224,8 @@ impl BuildingSystem {
         let springs = self.equations.springs.iter();
         let yielding = springs
             .zip(&state.springs[self.spring_range()])
-            .filter(|(spring, _)| spring.carries_base_shear)
-            .map(|(_, memory)| memory.force());
+            .filter(|(spring, _)| spring.in_base_shear != 0.0)
+            .map(|(spring, memory)| spring.in_base_shear * memory.force());
         // What a link between two floors presses on one it presses on the other.
         let inner = self.inner_links.iter();
         let inner = inner.map(|own| own.of_base() * links[own.link]);

@@ -122,8 +122,8 @@ fn read_members(
         beam_mass,
         floor_mass,
         column_segments,
-        axial: Axial::default(),
         joint: joint(reader, view),
+        ..Frame::default()
     };
     // Foundations on soil need columns that keep their length, and columns that shorten need their EA.
     let shortens = frame.tallness() > 1.0

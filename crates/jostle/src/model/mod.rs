@@ -320,12 +320,11 @@ pub enum Structure {
 ///     floor_mass: vec![0.0; 2],
 ///     column_segments: 4,
 ///     beam_segments: vec![4, 4],
-///     axial: Axial::default(), // members keep their length
-///     joint: Joint::default(), // rigid
+///     ..Frame::default()
 /// };
 /// assert_eq!(frame.spans.len() + 1, 3); // column lines
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Frame {
     /// Storey heights from the ground up, > 0 \[m\].
     pub storey_heights: Vec<f64>,

@@ -39,8 +39,7 @@ const PARALLEL: f64 = 1e-9;
 ///         floor_mass: vec![0.0; 2],
 ///         column_segments: 1,
 ///         beam_segments: vec![1, 1],
-///         axial: Axial::default(),
-///         joint: Joint::default(),
+///         ..Frame::default()
 ///     },
 /// };
 /// assert_eq!(frame.line_at(2), [11.0, 6.0]);

@@ -409,7 +409,7 @@ fn holding_spring(dof: usize, stiffness: f64) -> Option<YieldingSpring> {
         row: Row::single(dof),
         hysteresis: Hysteresis::elastic(stiffness).ok()?,
         damped_by_tangent: false,
-        carries_base_shear: false,
+        in_base_shear: 0.0,
     })
 }
 

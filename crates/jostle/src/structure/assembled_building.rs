@@ -33,11 +33,7 @@ impl AssembledBuilding {
             })
             .unzip();
         let (sticks, centres) = (&discretization.stick_model, &discretization.centres);
-        let storeys = if sticks.in_plan {
-            StoreyForces::in_plan(sticks, &equations, &heights, centres)
-        } else {
-            StoreyForces::new(sticks, &equations, &heights)
-        };
+        let storeys = StoreyForces::new(sticks, &equations, &heights, centres);
         Self {
             name: name.to_owned(),
             discretization,

@@ -111,7 +111,7 @@ impl Discretization {
         let StickModel {
             hinges,
             springs,
-            plan_springs,
+            yielding,
             ..
         } = &mut self.stick_model;
         // In the order of their places.
@@ -119,10 +119,8 @@ impl Discretization {
         let hinges = hinges.map(|own| &mut own.proportional_damping);
         let springs = springs.iter_mut().filter(|own| own.hysteresis.is_some());
         let springs = springs.map(|own| &mut own.proportional_damping);
-        let in_plan = plan_springs
-            .iter_mut()
-            .map(|own| &mut own.proportional_damping);
-        let all = hinges.chain(springs).chain(in_plan);
+        let others = yielding.iter_mut().map(|own| &mut own.proportional_damping);
+        let all = hinges.chain(springs).chain(others);
         for (own, place) in all.zip(&self.spring_places) {
             if place.is_damped_with_structure() {
                 *own = asked;

@@ -34,7 +34,7 @@ pub struct Equations {
     pub undamped: SparseSymmetric,
     /// C′: base dashpots.
     pub dashpots: SparseSymmetric,
-    /// Springs that yield: hinges first, then storey springs, then those in plan, each in the order of the stick model, then three rows
+    /// Springs that yield: hinges first, then storey springs, then those between any points, each in the order of the stick model, then three rows
     /// of every force in plan that is the same in every direction. They are not part of K + K′. Where stiffness-proportional damping
     /// acts on them with their initial stiffness, that stands in K, and its negative in K′.
     pub springs: Vec<YieldingSpring>,
@@ -61,8 +61,8 @@ pub struct YieldingSpring {
     pub hysteresis: Hysteresis,
     /// Whether stiffness-proportional damping acts on it with its present stiffness.
     pub damped_by_tangent: bool,
-    /// Whether its force is part of the base shear.
-    pub(crate) carries_base_shear: bool,
+    /// Share of its force in the base shear \[–\].
+    pub(crate) in_base_shear: f64,
 }
 
 impl YieldingSpring {
@@ -333,31 +333,24 @@ impl Equations {
     }
 }
 
-/// Springs that yield: hinges, storeys, those in plan, then bearings.
+/// Springs that yield: those by themselves, then bearings in plan.
 fn yielding_springs(stick_model: &StickModel, path: &Path) -> Vec<YieldingSpring> {
     let foundation = stick_model.foundation.as_ref();
     let sway = foundation.and_then(|own| path.dof(own.node, X));
-    let spring = |row: &Row, hysteresis: Hysteresis, damping: ProportionalDamping| {
-        let stands = |((node, component), _): (Place, f64)| {
-            component == X && path.dof(node, component) == sway
-        };
+    let single = stick_model.single_springs().map(|own| {
+        // What it pushes along x against the ground, or the foundation.
+        let pushed = element::places(&own.row).map(|(place, share)| {
+            let [along, ..] = stick_model.horizontal_shares(place);
+            let stands = place.1 == X && path.dof(place.0, place.1) == sway;
+            if stands { -share * along } else { 0.0 }
+        });
         YieldingSpring {
-            row: path.row(row),
-            hysteresis,
-            damped_by_tangent: damping == ProportionalDamping::Tangent,
-            carries_base_shear: element::places(row).any(stands),
+            in_base_shear: pushed.sum(),
+            row: path.row(&own.row),
+            hysteresis: own.hysteresis,
+            damped_by_tangent: own.proportional_damping == ProportionalDamping::Tangent,
         }
-    };
-    let hinges = stick_model.hinges.iter().filter_map(|own| {
-        let row = own.rotation();
-        Some(spring(&row, own.hysteresis?, own.proportional_damping))
     });
-    let storeys = stick_model.springs.iter().filter_map(|own| {
-        let row = own.deformation(foundation);
-        Some(spring(&row, own.hysteresis?, own.proportional_damping))
-    });
-    let in_plan = stick_model.plan_springs.iter();
-    let in_plan = in_plan.map(|own| spring(&own.row, own.hysteresis, own.proportional_damping));
     let bearings = stick_model.plan_mat.iter().flat_map(|mat| {
         let [x, y, turning] = [X, Y, element::THETA].map(|component| (mat.node, component));
         mat.forces().flat_map(move |(laws, [along, across])| {
@@ -371,10 +364,9 @@ fn yielding_springs(stick_model: &StickModel, path: &Path) -> Vec<YieldingSpring
                 row: path.row(&moved),
                 hysteresis,
                 damped_by_tangent: false,
-                carries_base_shear: row == 0,
+                in_base_shear: f64::from(u8::from(row == 0)),
             })
         })
     });
-    let single = hinges.chain(storeys).chain(in_plan);
     single.chain(bearings).collect()
 }

@@ -77,9 +77,7 @@ pub(crate) fn ductility(
 mod tests {
     use super::*;
     use crate::hysteresis::{Backbone, Corners, HysteresisRule};
-    use crate::model::{
-        Axial, Building, Damping, Frame, FrameHinges, Hinges, Joint, Section, Structure,
-    };
+    use crate::model::{Building, Damping, Frame, FrameHinges, Hinges, Joint, Section, Structure};
     use crate::structure::Discretization;
 
     fn spring(initial: f64) -> Hysteresis {
@@ -105,11 +103,11 @@ mod tests {
             floor_mass: vec![0.0; 2],
             column_segments: 4,
             beam_segments: vec![3, 5],
-            axial: Axial::default(),
             joint: Joint {
                 rotational_stiffness: Some(1e8),
                 ..Joint::default()
             },
+            ..Frame::default()
         };
         let hinge = spring(1e9);
         let mut expected = Vec::new();

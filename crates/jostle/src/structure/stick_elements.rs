@@ -1,8 +1,10 @@
 //! The massless elements of a stick model: members, hinges, springs and the soil.
 
-use super::element::{Element, ElementStiffness, Part, Place, THETA, X, Y, index_of, over_nodes};
+use super::element::{
+    Element, ElementStiffness, Part, Place, THETA, X, Y, index_of, over_nodes, places,
+};
 use super::stick_model::{
-    Hinge, Member, Node, RigidFoundation, Spring, StickModel, StickPlanSpring,
+    Hinge, Member, Node, RigidFoundation, Spring, StickModel, YieldingElement,
 };
 use crate::linear::Row;
 use crate::model::ProportionalDamping;
@@ -39,7 +41,7 @@ pub(crate) fn untied(stick_model: &StickModel) -> impl Iterator<Item = ElementSt
                 .iter()
                 .map(ElementStiffness::from),
         )
-        .chain(stick_model.plan_springs.iter().map(of_plan_spring))
+        .chain(stick_model.yielding.iter().map(of_yielding))
         .chain(foundation.map(of_soil))
 }
 
@@ -49,6 +51,43 @@ impl StickModel {
         let index = index_of(place);
         let tied = self.ties.get(&index).cloned();
         tied.unwrap_or_else(|| Row::single(index))
+    }
+
+    /// A row over displacements of nodes with those that are tied replaced by those that carry them.
+    fn untied(&self, row: &Row) -> Row {
+        if self.ties.is_empty() {
+            return row.clone();
+        }
+        let terms = places(row).flat_map(|(place, share)| {
+            let carried = self.carried(place).times(share);
+            carried.entries().to_vec()
+        });
+        terms.collect()
+    }
+
+    /// Springs that yield by themselves, in the order of [`Equations::springs`](super::Equations::springs): hinges, storeys, then
+    /// those between any points; deformations are over displacements of nodes that are not tied.
+    pub(crate) fn single_springs(&self) -> impl Iterator<Item = YieldingElement> + '_ {
+        let foundation = self.foundation.as_ref();
+        let hinges = self.hinges.iter().filter_map(|own| {
+            Some(YieldingElement {
+                row: own.rotation(),
+                hysteresis: own.hysteresis?,
+                proportional_damping: own.proportional_damping,
+            })
+        });
+        let storeys = self.springs.iter().filter_map(move |own| {
+            Some(YieldingElement {
+                row: own.deformation(foundation),
+                hysteresis: own.hysteresis?,
+                proportional_damping: own.proportional_damping,
+            })
+        });
+        let any = self.yielding.iter().map(|own| YieldingElement {
+            row: self.untied(&own.row),
+            ..own.clone()
+        });
+        hinges.chain(storeys).chain(any)
     }
 
     /// How far to the right of the node of its foundation a node stands that rises and sinks with its rotation: a foot, or what
@@ -208,8 +247,8 @@ fn of_soil(foundation: &RigidFoundation) -> ElementStiffness {
     }
 }
 
-/// What yields between two floors in plan, as far as it is linear.
-fn of_plan_spring(spring: &StickPlanSpring) -> ElementStiffness {
+/// What yields between any points, as far as it is linear.
+fn of_yielding(spring: &YieldingElement) -> ElementStiffness {
     let initial = spring.hysteresis.backbone().initial();
     let parts = parts_of(initial, true, spring.proportional_damping);
     let elements = parts.map(|(part, stiffness)| Element::Spring {

@@ -26,8 +26,8 @@ pub struct StickModel {
     pub space_elements: Vec<Element>,
     /// Nodes that are rotations of member ends beyond hinges.
     pub space_ends: Range<usize>,
-    /// Springs between floors in plan that yield.
-    pub plan_springs: Vec<StickPlanSpring>,
+    /// Springs over any displacements that yield, such as columns and walls at points of a plan.
+    pub yielding: Vec<YieldingElement>,
     /// The mat of an isolated building in plan.
     pub plan_mat: Option<PlanMat>,
     /// Whether nodes are floors in plan: their vertical displacement is then the one across the row, and their rotation is
@@ -211,18 +211,12 @@ impl Spring {
     }
 }
 
-/// A spring at a point of a plan that yields.
+/// A spring between any points that yields.
 #[derive(Clone, Debug, PartialEq)]
-pub struct StickPlanSpring {
-    /// The floor below, or the ground, and the floor above.
-    pub ends: [usize; 2],
-    /// Displacement there: 0 along x, 1 across.
-    pub component: usize,
-    /// Its deformation over displacements of nodes, 3 × node + (0 along x, 1 across, 2 rotation).
+pub struct YieldingElement {
+    /// Its deformation over displacements of nodes, 3 × node + (0 horizontal, 1 vertical or across, 2 rotation).
     pub row: Row,
-    /// Place on the site \[m\].
-    pub at: [f64; 2],
-    /// What it remembers; positive is the displacement of the upper end against the lower one.
+    /// Its force, and what it remembers.
     pub hysteresis: Hysteresis,
     /// How stiffness-proportional damping of the building acts here.
     pub proportional_damping: ProportionalDamping,

@@ -4,7 +4,7 @@ use crate::linear::Row;
 use crate::model::LEVEL_TOLERANCE;
 use crate::structure::Equations;
 use crate::structure::StickModel;
-use crate::structure::element::{Part, THETA, X, Y};
+use crate::structure::element::{self, Part, Place, THETA, X, Y};
 use crate::structure::stick_elements;
 
 /// Storey forces as linear forms of displacements.
@@ -52,6 +52,35 @@ impl Storey {
         let kept = both.filter(|((_, force), (_, moment))| force.abs().max(moment.abs()) > least);
         let (shear, moment): (Vec<_>, Vec<_>) = kept.unzip();
         self.of_displacements = [shear, moment].map(Row::from_iter);
+        // Both ends of a spring within one storey.
+        self.of_springs.dedup_by(|(spring, own), (kept, sum)| {
+            let same = spring == kept;
+            if same {
+                (0..2).for_each(|term| sum[term] += own[term]);
+            }
+            same
+        });
+        self.of_springs.retain(|(_, own)| *own != [0.0; 2]);
+    }
+}
+
+/// What a unit force at a displacement of a node adds to the force in a direction \[–\], or to the torque about a vertical axis through the
+/// centre of mass of the lowest floor \[m\]; `floor`: that at its height, or else the next above.
+fn force_about(
+    stick_model: &StickModel,
+    place: Place,
+    direction: usize,
+    floor: usize,
+    centres: &[[f64; 2]],
+) -> f64 {
+    let acts = stick_model.horizontal_shares(place);
+    let [Some([x, y]), Some(axis)] = [centres.get(floor).or(centres.last()), centres.first()]
+    else {
+        return acts[direction];
+    };
+    match direction {
+        THETA => acts[2] + acts[0] * (axis[1] - y) + acts[1] * (x - axis[0]),
+        own => acts[own],
     }
 }
 
@@ -65,114 +94,61 @@ pub struct StoreyForce {
 }
 
 impl StoreyForces {
-    /// `tops`: heights of the floors above the base, rising \[m\].
-    pub(crate) fn new(stick_model: &StickModel, equations: &Equations, tops: &[f64]) -> Self {
-        let mut storeys = Vec::with_capacity(tops.len());
-        let mut base = 0.0;
-        for top in tops {
-            storeys.push(Storey {
-                height: top - base,
-                ..Storey::default()
-            });
-            base = *top;
-        }
-        let mut found = Self {
-            per_direction: storeys.len(),
-            storeys,
-        };
-        for (part, a, b, value) in
-            stick_elements::stiffnesses(stick_model).flat_map(|element| element.entries)
-        {
-            let (true, Some(dof)) = (a.1 == X && part != Part::Dashpot, equations.dof(b)) else {
-                continue;
-            };
-            if let Some((storey, arm)) = found.arm(tops, stick_model.nodes[a.0].y) {
-                storey.displace(dof, [value, arm * value]);
-            }
-        }
-        let frame_hinges = stick_model.hinges.iter().filter(|h| h.hysteresis.is_some());
-        let first = frame_hinges.count();
-        let yielding = stick_model
-            .springs
-            .iter()
-            .filter(|s| s.hysteresis.is_some());
-        for (index, spring) in yielding.enumerate() {
-            for (node, sign) in spring.ends.into_iter().zip([-1.0, 1.0]) {
-                if let Some((storey, arm)) = found.arm(tops, stick_model.nodes[node].y) {
-                    storey.of_springs.push((first + index, [sign, sign * arm]));
-                }
-            }
-        }
-        found.storeys.iter_mut().for_each(Storey::merge);
-        found
-    }
-
-    /// Of a building in plan: shears along x of all storeys, then shears across, then torques about the vertical axis
-    /// through the centre of mass of the lowest floor, each from the ground up. What acts on a floor acts at its centre of
-    /// mass.
-    pub(crate) fn in_plan(
+    /// `tops`: heights of the floors above the base, rising \[m\]. `centres`: centres of mass of the floors on the site, for a
+    /// building in plan \[m\]; empty in one plane.
+    ///
+    /// Of a building in plan: shears along x of all storeys, then shears across, then torques about the vertical axis through the
+    /// centre of mass of the lowest floor, each from the ground up. What acts on a floor acts at its centre of mass.
+    pub(crate) fn new(
         stick_model: &StickModel,
         equations: &Equations,
         tops: &[f64],
         centres: &[[f64; 2]],
     ) -> Self {
-        let axis = centres.first().copied().unwrap_or_default();
+        let directions = match centres.is_empty() {
+            true => &[X][..],
+            false => &[X, Y, THETA],
+        };
         let mut all = Self {
-            storeys: Vec::with_capacity(3 * tops.len()),
+            storeys: Vec::with_capacity(directions.len() * tops.len()),
             per_direction: tops.len(),
         };
-        for direction in [X, Y, THETA] {
+        for direction in directions {
             let mut below = 0.0;
+            let storeys = tops.iter().map(|top| Storey {
+                height: top - std::mem::replace(&mut below, *top),
+                ..Storey::default()
+            });
             let mut own = Self {
-                storeys: Vec::with_capacity(tops.len()),
+                storeys: storeys.collect(),
                 per_direction: tops.len(),
             };
-            for top in tops {
-                own.storeys.push(Storey {
-                    height: top - std::mem::replace(&mut below, *top),
-                    ..Storey::default()
-                });
-            }
-            let entries =
-                stick_elements::stiffnesses(stick_model).flat_map(|element| element.entries);
-            for (part, a, b, value) in entries {
-                let height = stick_model.nodes[a.0].y;
+            // What a unit force at a displacement adds to the forces of its storey; nothing at the ground.
+            let acts = |place: Place| {
+                let height = stick_model.nodes[place.0].y;
+                let floor = tops.partition_point(|top| *top + LEVEL_TOLERANCE < height);
+                force_about(stick_model, place, *direction, floor, centres)
+            };
+            let elements = stick_elements::stiffnesses(stick_model);
+            for (part, a, b, value) in elements.flat_map(|element| element.entries) {
                 let Some(dof) = equations.dof(b).filter(|_| part != Part::Dashpot) else {
                     continue;
                 };
-                let Some((storey, arm)) = own.arm(tops, height) else {
-                    continue;
-                };
-                let floor = tops.partition_point(|top| *top + LEVEL_TOLERANCE < height);
-                let [x, y] = centres[floor.min(centres.len() - 1)];
-                // Along x, across, and the torque about the centre of that floor.
-                let acts = stick_model.horizontal_shares(a);
-                let share = match direction {
-                    THETA => acts[2] + acts[0] * (axis[1] - y) + acts[1] * (x - axis[0]),
-                    own => acts[own],
-                };
-                if share == 0.0 && direction != THETA {
+                let share = acts(a);
+                if share == 0.0 && *direction != THETA {
                     continue;
                 }
-                let force = share * value;
-                storey.displace(dof, [force, arm * force]);
+                if let Some((storey, arm)) = own.arm(tops, stick_model.nodes[a.0].y) {
+                    let force = share * value;
+                    storey.displace(dof, [force, arm * force]);
+                }
             }
-            let others = equations.single_springs - stick_model.plan_springs.len();
-            for (index, spring) in stick_model.plan_springs.iter().enumerate() {
-                let [x, y] = spring.at;
-                // A force at a point has a torque about the axis of its own.
-                let share = match (direction, spring.component) {
-                    (THETA, X) => axis[1] - y,
-                    (THETA, _) => x - axis[0],
-                    (own, component) if own == component => 1.0,
-                    _ => continue,
-                };
-                for (node, sign) in spring.ends.into_iter().zip([-1.0, 1.0]) {
-                    let force = sign * share;
-                    if let Some((storey, arm)) = own.arm(tops, stick_model.nodes[node].y) {
-                        storey
-                            .of_springs
-                            .push((others + index, [force, arm * force]));
+            for (index, spring) in stick_model.single_springs().enumerate() {
+                for (place, share) in element::places(&spring.row) {
+                    let force = share * acts(place);
+                    let at = own.arm(tops, stick_model.nodes[place.0].y);
+                    if let (true, Some((storey, arm))) = (force != 0.0, at) {
+                        storey.of_springs.push((index, [force, arm * force]));
                     }
                 }
             }

@@ -10,7 +10,7 @@ use super::plan_matrix::PlanMatrix;
 use super::space_frame::{Assembly, condense};
 use super::space_joints::add_space_joints;
 use super::spring_place::SpringPlace;
-use super::stick_model::{Node, StickModel, StickPlanSpring, Support};
+use super::stick_model::{Node, StickModel, Support, YieldingElement};
 use crate::model::{Gravity, Isolation, PlanPoint, ProportionalDamping, Tiers};
 
 /// Motion of a plan point per displacement of a floor with its centre of mass at `centre`: rows x, across and rotation.
@@ -96,19 +96,15 @@ pub(super) fn discretize_tiers(
             motion_at(own.at, mat.tier.centre)[axis.index()][2]
         });
         let below = storey.checked_sub(1);
-        let ends = [below.map_or(foot, |below| floors[below]), floors[storey]];
         let component = [X, Y][axis.index()];
-        let [lower, upper] = ends;
-        stick_model.plan_springs.push(StickPlanSpring {
-            ends,
-            component,
+        let (lower, upper) = (below.map_or(foot, |below| floors[below]), floors[storey]);
+        stick_model.yielding.push(YieldingElement {
             row: over_nodes([
                 ((upper, component), 1.0),
                 ((lower, component), -1.0),
                 ((upper, THETA), arm(storey)),
                 ((lower, THETA), -below.map_or(arm_of_mat, arm)),
             ]),
-            at: own.at,
             hysteresis: own.hysteresis,
             proportional_damping: ProportionalDamping::Initial,
         });

@@ -6,8 +6,8 @@ use super::member_steps::{MEMORY, MEMORY_IN_TESTS};
 use super::members::LOOK_ALWAYS;
 use crate::contact::{ContactLaw, LawKind, RestitutionIs};
 use crate::model::{
-    Analysis, Axial, Base, Building, Damping, FloorPairs, Frame, Gap, Gravity, Joint, Level, Link,
-    LinkLaw, MemberRequest, Model, PlanFrame, PlanPoint, Section, Solver, SpaceFrame, SpaceMember,
+    Analysis, Base, Building, Damping, FloorPairs, Frame, Gap, Gravity, Level, Link, LinkLaw,
+    MemberRequest, Model, PlanFrame, PlanPoint, Section, Solver, SpaceFrame, SpaceMember,
     SpacePlace, SpaceSection, Structure, Tier, TierStorey, Tiers,
 };
 use crate::motion::GroundMotion;
@@ -32,8 +32,7 @@ fn building(name: &str, storeys: usize, axial: Option<f64>, damping: &Damping) -
             floor_mass: vec![0.0; storeys],
             column_segments: 2,
             beam_segments: vec![2, 3],
-            axial: Axial::default(),
-            joint: Joint::default(),
+            ..Frame::default()
         }),
         damping: damping.clone(),
         ..Building::default()

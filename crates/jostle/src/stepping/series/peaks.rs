@@ -235,8 +235,9 @@ impl SeriesPeaks {
         let (ends, storeys) = ([&segment.start, &segment.end], &building.storeys);
         let springs = &building.equations.springs;
         let carried = |form: &dyn Fn(usize) -> f64| -> f64 {
-            let own = (0..springs.len()).filter(|spring| springs[*spring].carries_base_shear);
-            own.map(form).sum()
+            let own = (0..springs.len()).filter(|spring| springs[*spring].in_base_shear != 0.0);
+            own.map(|spring| springs[spring].in_base_shear * form(spring))
+                .sum()
         };
         let base = |values: &[f64], form: &dyn Fn(usize) -> f64| {
             building.equations.base_shear(values) + carried(form)

@@ -6,9 +6,9 @@ use jostle::linear::StepMatrix;
 use jostle::structure::{MemberPlace, solve_once};
 use jostle::system::BuildingSystem;
 use jostle::{
-    Analysis, Axial, Base, Building, Damping, Frame, FrameHinges, Gap, GroundMotion, Joint,
-    MemberRequest, Model, Outcome, PlanFrame, PlanPoint, RiccatiSweep, Section, Solver, SpaceFrame,
-    SpaceMember, SpacePlace, SpaceSection, State, Structure, System, Tier, TierStorey, Tiers,
+    Analysis, Axial, Base, Building, Damping, Frame, FrameHinges, Gap, GroundMotion, MemberRequest,
+    Model, Outcome, PlanFrame, PlanPoint, RiccatiSweep, Section, Solver, SpaceFrame, SpaceMember,
+    SpacePlace, SpaceSection, State, Structure, System, Tier, TierStorey, Tiers,
 };
 use jostle_testkit::compare::close;
 use jostle_testkit::models::{CONCRETE, FIVE_PERCENT};
@@ -301,7 +301,7 @@ fn a_pair_of_frames_is_its_plane_limit() {
                 columns_flexible: flexible.axial,
                 beams_flexible: false,
             },
-            joint: Joint::default(),
+            ..Frame::default()
         };
         let standing = |name: &str, y: f64| PlanFrame {
             name: name.to_owned(),

@@ -5,9 +5,9 @@ use std::f64::consts::PI;
 
 use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
 use jostle::{
-    Analysis, Axial, Base, Bearing, Building, Damping, Frame, FrameHinges, Gap, Gravity,
-    GroundMotion, Hinges, Joint, MemberRequest, Model, Outcome, PlanArea, PlanAxis, PlanFrame,
-    PlanPoint, PlanSpring, Section, Solver, Structure, System, Tier, TierStorey, Tiers,
+    Analysis, Base, Bearing, Building, Damping, Frame, FrameHinges, Gap, Gravity, GroundMotion,
+    Hinges, MemberRequest, Model, Outcome, PlanArea, PlanAxis, PlanFrame, PlanPoint, PlanSpring,
+    Section, Solver, Structure, System, Tier, TierStorey, Tiers,
 };
 use jostle_testkit::models::{CONCRETE, equal_storeys, rectangle};
 use jostle_testkit::motions::fading;
@@ -503,8 +503,7 @@ fn frame(floor_mass: f64) -> (Frame, FrameHinges) {
         floor_mass: vec![floor_mass; 3],
         column_segments: 1,
         beam_segments: vec![1, 1],
-        axial: Axial::default(),
-        joint: Joint::default(),
+        ..Frame::default()
     };
     let hinges = FrameHinges {
         columns: vec![vec![hinge(columns, 3.2, 500e3); 3]; 3],

@@ -8,7 +8,7 @@ use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
 use jostle::structure::MemberPlace;
 use jostle::{
     Analysis, Axial, Base, Bearing, Building, ContactLaw, Damping, Frame, FrameHinges, Gap,
-    GroundMotion, Hinges, Joint, LawKind, MemberRequest, Model, Outcome, Plan, PlanAxis, PlanFrame,
+    GroundMotion, Hinges, LawKind, MemberRequest, Model, Outcome, Plan, PlanAxis, PlanFrame,
     PlanPoint, PlanSpring, RestitutionIs, Section, Shear, Solver, SpaceFrame, SpaceMember,
     SpacePlace, SpaceSection, Structure, System, Tier, TierStorey, Tiers,
 };
@@ -269,7 +269,7 @@ fn a_pair_of_frames_yields_as_its_plane_limit() {
                 columns_flexible: axial,
                 beams_flexible: false,
             },
-            joint: Joint::default(),
+            ..Frame::default()
         };
         let hinges = FrameHinges {
             columns: vec![vec![column(0, 0).1; 3], vec![column(0, 1).1; 3]],
