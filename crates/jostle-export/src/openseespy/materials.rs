@@ -101,9 +101,8 @@ impl Materials {
                 ];
                 Ok(self.hysteretic(backbone, parameters))
             }
-            HysteresisRule::Stop { side } => {
-                let at = backbone.side(side).yielding.deformation;
-                Ok(self.gap(backbone.initial(), at, side.sign()))
+            HysteresisRule::Stop { side, clearance } => {
+                Ok(self.gap(backbone.initial(), clearance, side.sign()))
             }
             HysteresisRule::Failing(falling) => Ok(self.failing(backbone, falling)),
             rule @ (HysteresisRule::Takeda { .. }

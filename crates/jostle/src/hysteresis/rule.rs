@@ -40,11 +40,13 @@ pub enum HysteresisRule {
         /// Rate of the rise \[s/m\].
         rate: f64,
     },
-    /// An elastic stop: without force up to its yield deformation, which is the clearance, and on the other side;
-    /// [`Hysteresis::stop`] makes it.
+    /// An elastic stop: without force up to its clearance, and on the other side; [`Hysteresis::stop`] makes it. Without
+    /// clearance it is a strut that bears compression alone.
     Stop {
         /// Where it stands.
         side: Side,
+        /// Clearance, ≥ 0 \[m\].
+        clearance: f64,
     },
     /// Loads towards the peaks in two lines, the first one softer: timber, masonry, concrete that slips (OpenSees'
     /// `Hysteretic`, Scott and Filippou).
@@ -256,7 +258,22 @@ impl Hysteresis {
     pub fn stop(stiffness: f64, clearance: f64, side: Side) -> Result<Self, Vec<SpringFault>> {
         let corners = Corners::bilinear(clearance, 1.0);
         let backbone = Backbone::from_deformations(stiffness, corners, corners)?;
-        let rule = HysteresisRule::Stop { side };
+        let rule = HysteresisRule::Stop { side, clearance };
+        Ok(Self { rule, backbone })
+    }
+
+    /// An elastic strut of this stiffness \[N/m\] that bears compression alone: F = k min(d, 0).
+    ///
+    /// Such struts come in pairs, one of which acts whichever way a bay sways: at rest each counts with half its stiffness.
+    ///
+    /// # Errors
+    /// A stiffness that is not positive.
+    pub fn without_tension(stiffness: f64) -> Result<Self, Vec<SpringFault>> {
+        // It has no yield deformation; its curve of first loading says so by one metre.
+        let corners = Corners::bilinear(1.0, 1.0);
+        let backbone = Backbone::from_deformations(stiffness, corners, corners)?;
+        let (side, clearance) = (Side::Negative, 0.0);
+        let rule = HysteresisRule::Stop { side, clearance };
         Ok(Self { rule, backbone })
     }
 
@@ -324,6 +341,9 @@ impl Hysteresis {
     #[must_use]
     pub fn initial_tangent(&self) -> f64 {
         match self.rule {
+            HysteresisRule::Stop { clearance, .. } if clearance == 0.0 => {
+                0.5 * self.backbone.initial()
+            }
             HysteresisRule::Stop { .. }
             | HysteresisRule::InPlan {
                 law: CircularLaw::Ring,
@@ -374,8 +394,9 @@ impl Hysteresis {
     #[must_use]
     pub fn mirrored(&self) -> Self {
         let rule = match self.rule {
-            HysteresisRule::Stop { side } => HysteresisRule::Stop {
+            HysteresisRule::Stop { side, clearance } => HysteresisRule::Stop {
                 side: side.opposite(),
+                clearance,
             },
             rule => rule,
         };
@@ -421,7 +442,10 @@ impl Hysteresis {
             HysteresisRule::Sliding { slow, rate } => {
                 self.slide_slowly(self.strength(slow, rate), memory, deformation)
             }
-            HysteresisRule::Stop { side } => stop(&self.backbone, side, memory, deformation),
+            HysteresisRule::Stop { side, clearance } => {
+                let stiffness = self.backbone.initial();
+                stop(stiffness, [side.sign(), clearance], memory, deformation)
+            }
             HysteresisRule::Pinched(pinching) => {
                 pinched::respond(&self.backbone, &pinching, memory, deformation)
             }
@@ -602,8 +626,8 @@ impl Hysteresis {
                     towards.sign() * f64::INFINITY
                 }
             }
-            HysteresisRule::Stop { side } => {
-                let clearance = side.sign() * self.backbone.side(side).yielding.deformation;
+            HysteresisRule::Stop { side, clearance } => {
+                let clearance = side.sign() * clearance;
                 let ahead = towards.sign() * (clearance - memory.deformation) > 0.0;
                 if ahead {
                     clearance
@@ -669,11 +693,14 @@ fn elastic(backbone: &Backbone, memory: &HysteresisMemory, deformation: f64) -> 
 }
 
 /// Only the part of the path beyond the clearance does work.
-fn stop(backbone: &Backbone, side: Side, memory: &HysteresisMemory, deformation: f64) -> Response {
-    let clearance = backbone.side(side).yielding.deformation;
-    let into = (side.sign() * deformation - clearance).max(0.0);
-    let stiffness = backbone.initial();
-    let force = side.sign() * stiffness * into;
+fn stop(
+    stiffness: f64,
+    [sign, clearance]: [f64; 2],
+    memory: &HysteresisMemory,
+    deformation: f64,
+) -> Response {
+    let into = (sign * deformation - clearance).max(0.0);
+    let force = sign * stiffness * into;
     Response {
         force,
         tangent: if into > 0.0 { stiffness } else { 0.0 },

@@ -520,9 +520,9 @@ impl<'a, E: StepEquations> Push<'a, E> {
         if self.falls(spring) {
             return hysteresis.stage(memory);
         }
-        if let HysteresisRule::Stop { side } = hysteresis.rule() {
-            let clearance = hysteresis.backbone().side(side).yielding.deformation;
-            let is_closed = side.sign() * memory.deformation() >= clearance;
+        if let HysteresisRule::Stop { side, clearance } = hysteresis.rule() {
+            // A strut without tension stands at its stop from the start.
+            let is_closed = clearance > 0.0 && side.sign() * memory.deformation() >= clearance;
             return if is_closed {
                 Stage::Yielded
             } else {
