@@ -72,9 +72,19 @@ impl Path {
     /// A row over displacements of nodes as one over degrees of freedom; the ground does not move.
     pub(crate) fn row(&self, over_nodes: &Row) -> Row {
         let moved = places(over_nodes).filter(|(_, share)| *share != 0.0);
-        moved
+        let row: Row = moved
             .filter_map(|((node, component), share)| Some((self.dof(node, component)?, share)))
-            .collect()
+            .collect();
+        // Nodes that move together have one term: tangents of springs are products of every two.
+        let dofs = row.entries();
+        let repeats = |(index, (dof, _)): (usize, &(usize, f64))| {
+            dofs[..index].iter().any(|(known, _)| known == dof)
+        };
+        if dofs.iter().enumerate().any(repeats) {
+            row.merged()
+        } else {
+            row
+        }
     }
 
     /// Number of degrees of freedom.
