@@ -571,6 +571,12 @@ fn parts(place: Option<SpringPlace>) -> (&'static str, Option<usize>, Option<usi
             };
             ("column shear", Some(storey), Some(line), end)
         }
+        Some(SpringPlace::Diagonal { place, .. }) => (
+            place.kind.name(),
+            Some(place.storey),
+            Some(place.bay),
+            place.rise.name(),
+        ),
         Some(SpringPlace::Storey { storey }) => ("storey", Some(storey), None, ""),
         Some(SpringPlace::Base { line, motion }) => {
             let motion = match motion {

@@ -121,6 +121,7 @@ pub(crate) fn slides(at: SpringPlace) -> bool {
             | SpringPlace::Shear { .. }
             | SpringPlace::PlanStorey { .. }
             | SpringPlace::Element { .. }
+            | SpringPlace::Diagonal { .. }
             | SpringPlace::Base {
                 motion: BaseMotion::Sliding,
                 ..
@@ -140,6 +141,7 @@ pub(crate) fn coordinates(at: SpringPlace) -> (char, usize, usize, usize) {
         | SpringPlace::Element { storey, .. }
         | SpringPlace::ColumnInPlan { storey, .. }
         | SpringPlace::BeamInPlan { floor: storey, .. } => ('s', storey, 0, 0),
+        SpringPlace::Diagonal { place, .. } => ('s', place.storey, 0, 0),
         SpringPlace::InSpace { place, end, .. } => ('s', place.storey() + 1, 0, last(end)),
         SpringPlace::Base { line, motion } => {
             ('f', 0, line, usize::from(motion == BaseMotion::Sliding))

@@ -1,8 +1,8 @@
 //! Buildings, parts of buildings and contact laws.
 
 use jostle::{
-    Axial, Building, ContactLaw, Damping, Frame, Joint, LawKind, PlanPoint, RestitutionIs, Section,
-    Shear, Structure,
+    Building, ContactLaw, Damping, Frame, LawKind, PlanPoint, RestitutionIs, Section, Shear,
+    Structure,
 };
 
 /// Damping of 5 % in the usual modes.

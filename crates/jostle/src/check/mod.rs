@@ -377,6 +377,23 @@ fn check_members_of(faults: &mut Faults, path: &str, frame: &Frame) {
             format!("must lie between 1 and 64, found {segments}")
         });
     }
+    for (index, own) in frame.diagonals.iter().enumerate() {
+        let (place, field) = (own.place, format!("{path}.{}", own.place.kind.name()));
+        let exists =
+            (1..=storeys).contains(&place.storey) && (1..=frame.spans.len()).contains(&place.bay);
+        faults.require(exists, field.as_str(), || {
+            format!(
+                "{place} is not in a frame of {storeys} storeys and {} bays, counted from 1",
+                frame.spans.len()
+            )
+        });
+        let before = &frame.diagonals[..index];
+        let is_first = before.iter().all(|other| other.place != place);
+        faults.require(is_first, field.as_str(), || {
+            format!("there are two of {place}; give one with the stiffness of both")
+        });
+        faults.positive(own.stiffness, field, "N/m");
+    }
     for (name, stiffness, unit) in [
         ("rotational", frame.joint.rotational_stiffness, "N.m/rad"),
         ("horizontal", frame.joint.horizontal_stiffness, "N/m"),

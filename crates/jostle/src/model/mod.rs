@@ -4,6 +4,7 @@
 //! path of the field it concerns, so that a reader can point at the line of the file.
 
 mod capacity;
+mod diagonal;
 mod gap;
 mod given;
 mod integrator;
@@ -24,6 +25,7 @@ use crate::hysteresis::Hysteresis;
 pub use capacity::{
     CapacityLine, MemberCapacity, RotationLimits, RotationMeasure, RuleCapacity, ShearCapacity,
 };
+pub use diagonal::{Diagonal, DiagonalKind, DiagonalPlace, Rise};
 pub use gap::{FloorPairs, Gap, LEVEL_TOLERANCE, Level, PlanContact};
 pub use given::{Given, MatrixEntry};
 pub use integrator::Integrator;
@@ -346,6 +348,8 @@ pub struct Frame {
     pub axial: Axial,
     /// Elastic hinge between beam ends and columns.
     pub joint: Joint,
+    /// Braces, and struts of infill panels.
+    pub diagonals: Vec<Diagonal>,
 }
 
 /// Cross-section of a member.

@@ -49,7 +49,8 @@ pub(super) fn isolation_summary(
             | SpringPlace::BeamInPlan { .. }
             | SpringPlace::InSpace { .. }
             | SpringPlace::PlanStorey { .. }
-            | SpringPlace::Element { .. } => {}
+            | SpringPlace::Element { .. }
+            | SpringPlace::Diagonal { .. } => {}
         }
     }
     let (max, min) = (peaks.displacement_max.value, peaks.displacement_min.value);

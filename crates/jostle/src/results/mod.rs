@@ -12,6 +12,7 @@ pub mod in_plan;
 mod isolation;
 pub mod isolation_bounds;
 mod members;
+mod parts;
 pub mod registry;
 mod required;
 pub mod response;

@@ -17,6 +17,7 @@ use crate::results::friction::friction_warnings;
 use crate::results::ground::{closing_of_grounds, ground_summary};
 use crate::results::isolation::{isolation_summary, mat_summary, wall_summaries};
 use crate::results::members::members_of;
+use crate::results::parts::parts_of;
 use crate::results::response::{
     Amplification, BuildingResponse, FloorResponse, building_response, floor_responses,
 };
@@ -177,6 +178,7 @@ fn building_summary(index: usize, run: &Run) -> BuildingSummary {
         capacity: capacity::of_building(index, &members, &joints, run),
         joints,
         members,
+        parts: parts_of(index, building, run.outcome),
         shear_failures: shear_failures(index, run),
         name: building.name.clone(),
         mass_kg: building.equations.total_mass(),
@@ -212,7 +214,7 @@ fn hinge_summary(building: &BuildingSystem, outcome: &Outcome) -> HingeSummary {
         .filter(|spring| {
             !places
                 .get(spring.index)
-                .is_some_and(|place| place.is_isolation() || place.is_shear())
+                .is_some_and(|place| !place.is_hinge())
         })
         .collect();
     let mut summary = HingeSummary {

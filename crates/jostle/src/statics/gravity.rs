@@ -4,7 +4,7 @@ use super::{PathError, Settled, settle};
 use crate::hysteresis::Hysteresis;
 use crate::linear::{NotPositive, StepMatrix};
 use crate::model::{Gravity, STANDARD_GRAVITY};
-use crate::structure::element::{self, Y};
+use crate::structure::element::{self, ElementStiffness, Part, Y};
 use crate::structure::stick_elements;
 use crate::structure::{
     AssembledBuilding, Discretization, MemberEnd, SpringPlace, StepEquations, StickModel,
@@ -48,9 +48,9 @@ pub fn static_displacement(
 /// # Errors
 /// [`PathError`] when the building cannot carry its weight.
 pub fn compressions(building: &AssembledBuilding, gravity: f64) -> Result<Vec<f64>, PathError> {
-    let displacement = settle(building, gravity)?.displacement;
+    let settled = settle(building, gravity)?;
     let stick_model = &building.discretization.stick_model;
-    let hung = hung_on_nodes(stick_model, building, &displacement, gravity);
+    let hung = hung_on_nodes(stick_model, building, &settled, gravity);
     Ok(stick_model
         .members
         .iter()
@@ -197,11 +197,11 @@ fn lean_on_shear_springs(discretization: &mut Discretization) {
 /// Nodes closer than this lie on one column line \[m\].
 const SAME_LINE: f64 = 1e-6;
 
-/// Downward force on every node from its own mass and from the beams that end there, columns excluded \[N\].
+/// Downward force on every node from its own mass and from the beams, braces and struts that end there, columns excluded \[N\].
 fn hung_on_nodes(
     stick_model: &StickModel,
     building: &AssembledBuilding,
-    displacement: &[f64],
+    settled: &Settled,
     gravity: f64,
 ) -> Vec<f64> {
     let mut hung: Vec<f64> = stick_model
@@ -209,20 +209,26 @@ fn hung_on_nodes(
         .iter()
         .map(|node| node.mass * gravity)
         .collect();
-    for member in stick_model
-        .members
-        .iter()
-        .filter(|member| !member.is_vertical(&stick_model.nodes))
-    {
-        for (_, a, b, value) in stick_elements::of_member(member, &stick_model.nodes).entries {
-            if a.1 == Y {
-                // The member holds the node up with −K u.
-                for (b, share) in element::places(&stick_model.carried(b)) {
-                    hung[a.0] += building
-                        .equations
-                        .dof(b)
-                        .map_or(0.0, |dof| value * share * displacement[dof]);
-                }
+    let nodes = &stick_model.nodes;
+    let beams = stick_model.members.iter();
+    let beams = beams.filter(|member| !member.is_vertical(nodes));
+    let beams = beams.map(|member| stick_elements::of_member(member, nodes));
+    let others = stick_model.elements.iter().map(ElementStiffness::from);
+    for (part, a, b, value) in beams.chain(others).flat_map(|own| own.entries) {
+        if a.1 == Y && part != Part::Dashpot {
+            // The member holds the node up with −K u.
+            for (b, share) in element::places(&stick_model.carried(b)) {
+                hung[a.0] += building
+                    .equations
+                    .dof(b)
+                    .map_or(0.0, |dof| value * share * settled.displacement[dof]);
+            }
+        }
+    }
+    for (spring, memory) in stick_model.single_springs().zip(&settled.springs) {
+        for ((node, component), share) in element::places(&spring.row) {
+            if component == Y {
+                hung[node] += share * memory.force();
             }
         }
     }

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::diagonals::FrameDiagonal;
 use super::element::{Element, Part, Place, THETA, X};
 use super::member_forces::{FrameMember, MemberPlace};
 use super::space_frame::CondensedFrame;
@@ -34,6 +35,8 @@ pub struct Discretization {
     pub spring_places: Vec<SpringPlace>,
     /// Columns and beams, storey by storey from the ground up, columns first; none in a shear building.
     pub members: Vec<FrameMember>,
+    /// Braces and struts of frames.
+    pub diagonals: Vec<FrameDiagonal>,
     /// Centre of mass of every floor on the site, from the ground up; empty for a building in one plane \[m\].
     pub centres: Vec<[f64; 2]>,
     /// Names of the frames that stand in a plan.
@@ -146,18 +149,10 @@ impl Discretization {
         Self {
             stick_model,
             foot: Some(ground),
-            mat: None,
             floors: vec![wall],
             left_face: vec![wall],
             right_face: vec![wall],
-            spring_places: Vec::new(),
-            members: Vec::new(),
-            centres: Vec::new(),
-            frames: Vec::new(),
-            shared_columns: Vec::new(),
-            space_frame: None,
-            jointed_frame: None,
-            element_names: Vec::new(),
+            ..Self::default()
         }
     }
 
@@ -448,6 +443,7 @@ pub(super) fn discretize_frame(
         foot: Some(below[0]),
         ..Discretization::default()
     };
+    let mut all_joints = vec![below.clone()];
     // Hinges come before springs, in the order of the stick model.
     let at_the_base =
         |motion| (1..=lines.len()).map(move |line| SpringPlace::Base { line, motion });
@@ -562,6 +558,7 @@ pub(super) fn discretize_frame(
             stick_model.nodes[joint].mass += frame.floor_mass[storey] / joints.len() as f64;
         }
         discretization.floors.push(joints[0]);
+        all_joints.push(joints.clone());
         below = joints;
     }
     if base.horizontal_hinge.is_some() {
@@ -571,6 +568,7 @@ pub(super) fn discretize_frame(
     }
     discretization.spring_places.append(&mut shear_places);
     discretization.stick_model = stick_model;
+    discretization.add_diagonals(&frame.diagonals, &all_joints);
     discretization
 }
 

@@ -92,6 +92,26 @@ impl Element {
         }
     }
 
+    /// The same element in a list of nodes with as many displacements before.
+    pub(crate) fn moved_up(self, before: usize) -> Self {
+        match self {
+            Self::Spring {
+                part,
+                stiffness,
+                row,
+            } => Self::Spring {
+                part,
+                stiffness,
+                row: row.moved_up(before),
+            },
+            Self::Matrix { part, rows, lower } => Self::Matrix {
+                part,
+                rows: rows.iter().map(|row| row.moved_up(before)).collect(),
+                lower,
+            },
+        }
+    }
+
     /// Its deformations.
     pub(crate) fn deformations(&self) -> &[Row] {
         match self {

@@ -301,6 +301,11 @@ impl Equations {
         self.path.dof(place.0, place.1)
     }
 
+    /// A row over displacements of nodes, as one over degrees of freedom.
+    pub(crate) fn row(&self, over_nodes: &Row) -> Row {
+        self.path.row(over_nodes)
+    }
+
     /// Degree of freedom of the horizontal displacement of a node; `None` at supports.
     #[must_use]
     pub fn horizontal(&self, node: usize) -> Option<usize> {
@@ -338,15 +343,16 @@ fn yielding_springs(stick_model: &StickModel, path: &Path) -> Vec<YieldingSpring
     let foundation = stick_model.foundation.as_ref();
     let sway = foundation.and_then(|own| path.dof(own.node, X));
     let single = stick_model.single_springs().map(|own| {
+        let row = stick_model.carried_row(&own.row);
         // What it pushes along x against the ground, or the foundation.
-        let pushed = element::places(&own.row).map(|(place, share)| {
+        let pushed = element::places(&row).map(|(place, share)| {
             let [along, ..] = stick_model.horizontal_shares(place);
             let stands = place.1 == X && path.dof(place.0, place.1) == sway;
             if stands { -share * along } else { 0.0 }
         });
         YieldingSpring {
             in_base_shear: pushed.sum(),
-            row: path.row(&own.row),
+            row: path.row(&row),
             hysteresis: own.hysteresis,
             damped_by_tangent: own.proportional_damping == ProportionalDamping::Tangent,
         }

@@ -6,7 +6,7 @@ use crate::linear::Row;
 use crate::model::{SharedColumn, SpacePlace};
 use crate::structure::element::{self, ElementStiffness, Part, THETA, X, Y};
 use crate::structure::stick_elements;
-use crate::structure::{AssembledBuilding, Member, MemberEnd, SpringPlace};
+use crate::structure::{AssembledBuilding, Discretization, Member, MemberEnd, SpringPlace};
 
 /// Where a column or a beam of a frame is; all count from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -160,8 +160,19 @@ pub struct MemberForces {
     pub members: Vec<MemberSections>,
     /// Joints, in the order in which they were asked for.
     pub joints: Vec<JointCore>,
+    /// Braces and struts of frames, which are always followed.
+    pub diagonals: Vec<DiagonalForce>,
     /// Every force once; members of one element have one shear.
     pub forms: Vec<LinearForm>,
+}
+
+/// The axial force of a brace or a strut, positive in tension.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DiagonalForce {
+    /// Index among [`crate::structure::Discretization::diagonals`].
+    pub diagonal: usize,
+    /// Index into [`MemberForces::forms`].
+    pub form: usize,
 }
 
 /// A force as a sum over the motion of a building.
@@ -234,6 +245,35 @@ impl LinearForm {
 }
 
 impl MemberForces {
+    /// Forces of braces and struts alone.
+    pub(crate) fn of_diagonals(building: &AssembledBuilding) -> Self {
+        let mut forces = Self::default();
+        forces.add_diagonals(building);
+        forces
+    }
+
+    fn add_diagonals(&mut self, building: &AssembledBuilding) {
+        let Discretization {
+            stick_model,
+            diagonals,
+            spring_places,
+            ..
+        } = &building.discretization;
+        for (diagonal, own) in diagonals.iter().enumerate() {
+            let place = SpringPlace::of_diagonal(own);
+            let mut form = LinearForm::default();
+            match spring_places.iter().position(|known| *known == place) {
+                Some(spring) if own.yields => form.springs = Row::single(spring),
+                _ => {
+                    let elongation = stick_model.carried_row(&own.elongation);
+                    form.displacement = building.equations.row(&elongation).times(own.stiffness);
+                }
+            }
+            let form = self.index_of(form);
+            self.diagonals.push(DiagonalForce { diagonal, form });
+        }
+    }
+
     /// Forces of all members of a frame; none for a building without members. `struck` tells whether a neighbour can
     /// strike the node with this horizontal displacement of the building. `gravity`: that of the weight in the
     /// displacements at rest; 0 without it \[m/s²\].
@@ -242,7 +282,7 @@ impl MemberForces {
         gravity: f64,
         struck: impl Fn(usize) -> bool,
     ) -> Self {
-        let mut forces = Self::default();
+        let mut forces = Self::of_diagonals(building);
         if let Some(frame) = &building.discretization.space_frame {
             forces.add_space_frame(building, frame);
         }
@@ -406,6 +446,8 @@ struct Cuts<'a> {
     /// Of every node and component: part of the stiffness, degree of freedom and force per displacement of all elements
     /// together.
     rows: Vec<[Vec<(Part, usize, f64)>; 3]>,
+    /// Of every node and component: its force as a row over those of springs that yield.
+    springs: Vec<[Row; 3]>,
 }
 
 /// A member of the stick model from its lower or left end on.
@@ -451,9 +493,16 @@ impl<'a> Cuts<'a> {
                 }
             }
         }
+        let mut springs: Vec<[Row; 3]> = vec![Default::default(); nodes.len()];
+        for (index, spring) in stick_model.single_springs().enumerate() {
+            for ((node, component), share) in element::places(&spring.row) {
+                springs[node][component].add(index, share);
+            }
+        }
         Self {
             building,
             gravity,
+            springs,
             elements: stick_model.members.iter().map(of_member).collect(),
             rows,
         }
@@ -564,6 +613,7 @@ impl<'a> Cuts<'a> {
                     Part::Elastic | Part::Undamped => form.displacement.add(*dof, -value),
                 }
             }
+            form.springs.add_times(-1.0, &self.springs[index][Y]);
             let carried = stick_model.carried((index, Y));
             let [(place, share)] = *carried.entries() else {
                 continue;
@@ -608,6 +658,7 @@ impl<'a> Cuts<'a> {
                     }
                 }
             }
+            form.springs.add_times(1.0, &self.springs[index][X]);
             if let Some(dof) = equations.dof((index, X)) {
                 form.acceleration.add(dof, node.mass);
                 form.velocity.add(dof, equations.alpha * node.mass);
@@ -648,6 +699,7 @@ impl LinearForm {
         self.displacement = self.displacement.merged();
         self.velocity = self.velocity.merged();
         self.acceleration = self.acceleration.merged();
+        self.springs = self.springs.merged();
         self
     }
 }

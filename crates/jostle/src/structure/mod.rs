@@ -1,6 +1,7 @@
 //! One building as equations: lumped masses, massless elements, and their matrices.
 
 mod assembled_building;
+mod diagonals;
 mod discretization;
 pub(crate) mod element;
 mod equations;
@@ -26,6 +27,7 @@ pub(crate) mod testkit;
 mod tiers;
 
 pub use assembled_building::AssembledBuilding;
+pub use diagonals::FrameDiagonal;
 pub use discretization::{Discretization, Mat};
 pub use element::{Element, Part};
 pub use equations::{Equations, YieldingSpring};
@@ -33,8 +35,8 @@ pub use inner_link::InnerLink;
 pub(crate) use member_end::{ductility, end_stiffnesses};
 pub(crate) use member_forces::Motion;
 pub use member_forces::{
-    FrameMember, JointCore, LinearForm, MemberForces, MemberPlace, MemberSection, MemberSections,
-    SectionAt,
+    DiagonalForce, FrameMember, JointCore, LinearForm, MemberForces, MemberPlace, MemberSection,
+    MemberSections, SectionAt,
 };
 pub use order::{Stage, Turn};
 pub use space_frame::{Bending, CondensedFrame, CondensedJoint, CondensedMember};

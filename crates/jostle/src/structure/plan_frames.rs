@@ -2,10 +2,12 @@
 
 use std::ops::Range;
 
+use super::diagonals::FrameDiagonal;
 use super::discretization::{Discretization, discretize_frame};
 use super::element::{THETA, X, Y, index_of, over_nodes};
 use super::member_forces::FrameMember;
 use super::order::Turn;
+use super::spring_place::SpringPlace;
 use super::stick_model::{FrameNode, Node, StickModel, Support};
 use crate::model::{Frame, LEVEL_TOLERANCE, LumpedFloor, PlanFrame, PlanPoint, Tiers};
 
@@ -28,7 +30,7 @@ pub(super) fn add_frames(
     let first_place = sticks.hinges.len();
     sticks.frame_nodes.resize(sticks.nodes.len(), None);
     let shared = tiers.shared_columns();
-    let mut hinge_places = Vec::new();
+    let (mut hinge_places, mut diagonal_places) = (Vec::new(), Vec::new());
     for (index, plan_frame) in tiers.frames.iter().enumerate() {
         let own = discretize(plan_frame, &plan_frame.frame);
         let mut without_columns = plan_frame.frame.clone();
@@ -49,9 +51,18 @@ pub(super) fn add_frames(
             doubled: &doubled,
             light: &light,
         };
-        let hinges = own.spring_places.iter();
-        hinge_places.extend(hinges.filter_map(|hinge| hinge.in_frame(index + 1)));
+        let (hinges, diagonals) = own.stick_model.split_places(own.spring_places);
+        let in_frame = |place: SpringPlace| place.in_frame(index + 1);
+        hinge_places.extend(hinges.into_iter().filter_map(in_frame));
+        diagonal_places.extend(diagonals.into_iter().filter_map(in_frame));
+        let first_node = sticks.nodes.len();
         let elements = sticks.append(own.stick_model, &place);
+        let diagonals = own.diagonals.into_iter().map(|own| FrameDiagonal {
+            frame: Some(index),
+            elongation: own.elongation.moved_up(index_of((first_node, X))),
+            ..own
+        });
+        discretization.diagonals.extend(diagonals);
         let members = own.members.into_iter().map(|member| FrameMember {
             frame: Some(index),
             elements: elements.start + member.elements.start..elements.start + member.elements.end,
@@ -72,6 +83,7 @@ pub(super) fn add_frames(
     // Hinges come before springs.
     let before = first_place..first_place;
     discretization.spring_places.splice(before, hinge_places);
+    discretization.spring_places.extend(diagonal_places);
     discretization.frames = tiers.frames.iter().map(|own| own.name.clone()).collect();
     discretization.shared_columns = shared;
 }
@@ -144,7 +156,22 @@ impl StickModel {
                 own.ends = moved(own.ends);
                 own
             }));
+        // Rows count displacements of nodes.
+        let before = index_of((nodes, X));
+        self.elements
+            .extend(frame.elements.into_iter().map(|own| own.moved_up(before)));
+        self.yielding
+            .extend(frame.yielding.into_iter().map(|mut own| {
+                own.row = own.row.moved_up(before);
+                own
+            }));
         members..self.members.len()
+    }
+
+    /// Places of springs that yield, in their order: those of hinges and storeys, and those between any points.
+    fn split_places(&self, mut places: Vec<SpringPlace>) -> (Vec<SpringPlace>, Vec<SpringPlace>) {
+        let others = places.split_off(places.len() - self.yielding.len());
+        (places, others)
     }
 
     /// A node of a frame, and the floor or the mat to which it belongs: its displacement along its line is that of the floor.

@@ -1,7 +1,8 @@
 //! Places of the springs of a building that yield.
 
+use super::diagonals::FrameDiagonal;
 use crate::hysteresis::{ForceRow, Side};
-use crate::model::{PlanAxis, SpacePlace};
+use crate::model::{DiagonalKind, DiagonalPlace, PlanAxis, Rise, SpacePlace};
 
 /// Which end of a member a hinge is at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -90,6 +91,13 @@ pub enum SpringPlace {
         /// Along which lines it bends.
         axis: PlanAxis,
     },
+    /// A brace or a strut of a frame.
+    Diagonal {
+        /// Its frame, where several stand in a plan.
+        frame: Option<usize>,
+        /// Its place there.
+        place: DiagonalPlace,
+    },
     /// A whole storey of a shear building.
     Storey {
         /// Storey.
@@ -172,6 +180,10 @@ impl SpringPlace {
                 Some(name) => format!("frame {name}, {}", Self::Beam { floor, bay, end }),
                 None => self.to_string(),
             },
+            Self::Diagonal { frame, place } => match frame.and_then(of_frame) {
+                Some(name) => format!("frame {name}, {}", in_words(place)),
+                None => self.to_string(),
+            },
             _ => self.to_string(),
         }
     }
@@ -191,15 +203,24 @@ impl SpringPlace {
                 bay,
                 end,
             }),
+            Self::Diagonal { place, .. } => Some(Self::Diagonal {
+                frame: Some(frame),
+                place,
+            }),
             _ => None,
         }
     }
 
     /// Whether it is part of the structure above the base that stiffness-proportional damping may act on: a storey, a column or
-    /// wall at a point of a plan, or a hinge of a member, but not the shear of a column, which is rigid until it fails.
+    /// wall at a point of a plan, or a hinge of a member, but not the shear of a column, which is rigid until it fails, nor a
+    /// strut of an infill panel.
     #[must_use]
     pub fn is_damped_with_structure(&self) -> bool {
-        !(self.is_isolation() || matches!(self, Self::Base { .. } | Self::Shear { .. }))
+        match self {
+            Self::Base { .. } | Self::Shear { .. } => false,
+            Self::Diagonal { place, .. } => place.kind == DiagonalKind::Brace,
+            own => !own.is_isolation(),
+        }
     }
 
     /// Whether it belongs to the isolation of a building rather than to its structure.
@@ -225,11 +246,45 @@ impl SpringPlace {
         )
     }
 
+    /// That of a brace or a strut, if it yields.
+    #[must_use]
+    pub fn of_diagonal(own: &FrameDiagonal) -> Self {
+        Self::Diagonal {
+            frame: own.frame.map(|frame| frame + 1),
+            place: own.place,
+        }
+    }
+
+    /// Whether it counts among the hinges of a building: what cracks and yields, without isolation, columns that fail in shear, and
+    /// struts that lift off.
+    #[must_use]
+    pub fn is_hinge(&self) -> bool {
+        let strut =
+            matches!(self, Self::Diagonal { place, .. } if place.kind == DiagonalKind::Infill);
+        !(self.is_isolation() || self.is_shear() || strut)
+    }
+
     /// Whether it is the shear of a column, which fails rather than yields.
     #[must_use]
     pub fn is_shear(&self) -> bool {
         matches!(self, Self::Shear { .. })
     }
+}
+
+/// A brace or a strut in words.
+fn in_words(place: DiagonalPlace) -> String {
+    let DiagonalPlace {
+        kind, storey, bay, ..
+    } = place;
+    let towards = match place.rise {
+        Rise::Right => "right",
+        Rise::Left => "left",
+    };
+    let kind = match kind {
+        DiagonalKind::Brace => "brace",
+        DiagonalKind::Infill => "infill strut",
+    };
+    format!("{kind}, storey {storey}, bay {bay}, rising to the {towards}")
 }
 
 /// Which way a base gives.
@@ -294,6 +349,7 @@ impl std::fmt::Display for SpringPlace {
                     SpacePlace::BeamX { .. } | SpacePlace::BeamY { .. } => Ok(()),
                 }
             }
+            Self::Diagonal { place, .. } => formatter.write_str(&in_words(place)),
             Self::Storey { storey } => write!(formatter, "storey {storey}"),
             Self::Base { line, motion } => {
                 let motion = match motion {

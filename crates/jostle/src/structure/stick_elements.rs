@@ -54,7 +54,7 @@ impl StickModel {
     }
 
     /// A row over displacements of nodes with those that are tied replaced by those that carry them.
-    fn untied(&self, row: &Row) -> Row {
+    pub(crate) fn carried_row(&self, row: &Row) -> Row {
         if self.ties.is_empty() {
             return row.clone();
         }
@@ -66,7 +66,7 @@ impl StickModel {
     }
 
     /// Springs that yield by themselves, in the order of [`Equations::springs`](super::Equations::springs): hinges, storeys, then
-    /// those between any points; deformations are over displacements of nodes that are not tied.
+    /// those between any points.
     pub(crate) fn single_springs(&self) -> impl Iterator<Item = YieldingElement> + '_ {
         let foundation = self.foundation.as_ref();
         let hinges = self.hinges.iter().filter_map(|own| {
@@ -83,11 +83,7 @@ impl StickModel {
                 proportional_damping: own.proportional_damping,
             })
         });
-        let any = self.yielding.iter().map(|own| YieldingElement {
-            row: self.untied(&own.row),
-            ..own.clone()
-        });
-        hinges.chain(storeys).chain(any)
+        hinges.chain(storeys).chain(self.yielding.iter().cloned())
     }
 
     /// How far to the right of the node of its foundation a node stands that rises and sinks with its rotation: a foot, or what

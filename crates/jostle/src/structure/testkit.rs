@@ -36,6 +36,7 @@ pub(crate) fn frame_with(change: impl FnOnce(&mut Frame) -> Option<Hinges>) -> A
             rotational_stiffness: Some(5e8),
             ..Joint::default()
         },
+        ..Frame::default()
     };
     let hinges = change(&mut frame);
     let building = Building {

@@ -8,6 +8,7 @@ use super::hinges::HingeSummary;
 use super::isolation::{Floors, IsolationSummary};
 use super::joints::JointSummary;
 use super::members::MemberSummary;
+use super::parts::PartSummary;
 use super::shear_failure::ShearFailureSummary;
 use crate::quantity::{Quantity, Unit};
 use crate::results::ground::GroundSummary;
@@ -56,6 +57,9 @@ pub struct BuildingSummary {
     /// Columns that failed in shear; absent if none can.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shear_failures: Option<ShearFailureSummary>,
+    /// Braces and struts; absent if it has none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub parts: Vec<PartSummary>,
     /// Columns and beams, storey by storey from the ground up, columns first; absent unless asked for.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub members: Vec<MemberSummary>,

@@ -13,6 +13,7 @@ mod isolation;
 mod joints;
 mod links;
 mod members;
+mod parts;
 mod shear_failure;
 
 pub use super::ground::{GroundInPlan, GroundSummary};
@@ -33,6 +34,7 @@ pub use links::{LinkFloorSummary, LinkSummary};
 pub use members::{
     AcrossSummary, ForcesSummary, MemberComparison, MemberSummary, SectionSummary, StruckSummary,
 };
+pub use parts::PartSummary;
 pub use shear_failure::{ShearFailure, ShearFailureSummary};
 
 use serde::Serialize;

@@ -40,6 +40,7 @@ fn frames() -> impl Strategy<Value = Frame> {
                         rotational_stiffness: kind.2.map(|exponent| 10_f64.powf(exponent)),
                         ..Joint::default()
                     },
+                    ..Frame::default()
                 },
             )
     })

@@ -81,6 +81,7 @@ pub(crate) fn random_frame(random: &mut Random) -> Frame {
                 .then(|| 10_f64.powf(random.between(6.0, 11.0))),
             ..Joint::default()
         },
+        ..Frame::default()
     }
 }
 

@@ -1,0 +1,101 @@
+//! Straight parts between joints of a frame that bear axial force alone: braces, and struts of infill panels.
+
+use crate::hysteresis::Hysteresis;
+
+/// A brace, or a strut of an infill panel, between two joints of a frame at opposite corners of a bay of a storey.
+///
+/// ```
+/// use jostle::{Diagonal, DiagonalKind, DiagonalPlace, Rise};
+///
+/// // A steel rod of 2000 mm² across a bay of 6 m and a storey of 3.5 m.
+/// let length = 6.0_f64.hypot(3.5);
+/// let rod = Diagonal {
+///     place: DiagonalPlace { kind: DiagonalKind::Brace, storey: 1, bay: 1, rise: Rise::Right },
+///     stiffness: 210e9 * 2000e-6 / length,
+///     hysteresis: None, // it stays elastic
+/// };
+/// assert_eq!(rod.place.to_string(), "brace.1.1.up");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Diagonal {
+    /// What it is, and where.
+    pub place: DiagonalPlace,
+    /// Axial force per elongation, > 0 \[N/m\].
+    pub stiffness: f64,
+    /// Its force if it yields, positive in tension; its initial stiffness then takes the place of `stiffness`.
+    pub hysteresis: Option<Hysteresis>,
+}
+
+/// What a diagonal is, and where; storeys and bays count from 1, from the ground up and from the left.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DiagonalPlace {
+    /// What it is.
+    pub kind: DiagonalKind,
+    /// Storey.
+    pub storey: usize,
+    /// Bay.
+    pub bay: usize,
+    /// Which way it rises.
+    pub rise: Rise,
+}
+
+/// What a diagonal is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DiagonalKind {
+    /// A brace.
+    Brace,
+    /// A strut of an infill panel.
+    Infill,
+}
+
+/// Which way a diagonal rises.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rise {
+    /// From the lower left to the upper right corner of its bay.
+    Right,
+    /// From the lower right to the upper left corner.
+    Left,
+}
+
+impl DiagonalKind {
+    /// Name in results.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Brace => "brace",
+            Self::Infill => "infill",
+        }
+    }
+}
+
+impl Rise {
+    /// Both.
+    pub const BOTH: [Self; 2] = [Self::Right, Self::Left];
+
+    /// Name in model files and results: seen from left to right.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Right => "up",
+            Self::Left => "down",
+        }
+    }
+}
+
+impl DiagonalPlace {
+    /// Column lines of its lower and of its upper end, from 0.
+    #[must_use]
+    pub fn lines(self) -> [usize; 2] {
+        match self.rise {
+            Rise::Right => [self.bay - 1, self.bay],
+            Rise::Left => [self.bay, self.bay - 1],
+        }
+    }
+}
+
+impl std::fmt::Display for DiagonalPlace {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let (kind, rise) = (self.kind.name(), self.rise.name());
+        write!(formatter, "{kind}.{}.{}.{rise}", self.storey, self.bay)
+    }
+}

@@ -1,0 +1,72 @@
+//! Braces and struts between joints of a frame: axial force alone, at any angle.
+
+use super::discretization::Discretization;
+use super::element::{Element, Part, X, Y, over_nodes};
+use super::spring_place::SpringPlace;
+use super::stick_model::{StickModel, YieldingElement};
+use crate::linear::Row;
+use crate::model::{Diagonal, DiagonalPlace, ProportionalDamping};
+
+/// A brace or a strut of a frame, as it stands in the stick model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FrameDiagonal {
+    /// Index of its frame in [`Discretization::frames`]; `None` where the building is one frame.
+    pub frame: Option<usize>,
+    /// What it is, and where in its frame.
+    pub place: DiagonalPlace,
+    /// Elongation over displacements of nodes, 3 × node + (0 horizontal, 1 vertical).
+    pub elongation: Row,
+    /// Axial force per elongation \[N/m\].
+    pub stiffness: f64,
+    /// Whether its force is that of a spring that remembers.
+    pub yields: bool,
+}
+
+impl Discretization {
+    /// Adds the diagonals of a frame whose `joints` are nodes already: feet first, then floor by floor, each from the left.
+    pub(super) fn add_diagonals(&mut self, diagonals: &[Diagonal], joints: &[Vec<usize>]) {
+        for own in diagonals {
+            let [lower, upper] = own.place.lines();
+            let storey = own.place.storey;
+            let ends = [joints[storey - 1][lower], joints[storey][upper]];
+            let elongation = elongation(&self.stick_model, ends);
+            match own.hysteresis {
+                None => self.stick_model.elements.push(Element::Spring {
+                    part: Part::Elastic,
+                    stiffness: own.stiffness,
+                    row: elongation.clone(),
+                }),
+                Some(hysteresis) => {
+                    self.stick_model.yielding.push(YieldingElement {
+                        row: elongation.clone(),
+                        hysteresis,
+                        proportional_damping: ProportionalDamping::None,
+                    });
+                    let (frame, place) = (None, own.place);
+                    self.spring_places
+                        .push(SpringPlace::Diagonal { frame, place });
+                }
+            }
+            self.diagonals.push(FrameDiagonal {
+                frame: None,
+                place: own.place,
+                elongation,
+                stiffness: own.stiffness,
+                yields: own.hysteresis.is_some(),
+            });
+        }
+    }
+}
+
+/// How much longer displacements of two nodes make the straight line between them.
+fn elongation(sticks: &StickModel, [first, last]: [usize; 2]) -> Row {
+    let [a, b] = [first, last].map(|node| sticks.nodes[node]);
+    let length = libm::hypot(b.x - a.x, b.y - a.y);
+    let [c, s] = [(b.x - a.x) / length, (b.y - a.y) / length];
+    over_nodes([
+        ((last, X), c),
+        ((last, Y), s),
+        ((first, X), -c),
+        ((first, Y), -s),
+    ])
+}
