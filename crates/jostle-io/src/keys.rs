@@ -38,6 +38,8 @@ pub(crate) enum Section {
     Element,
     /// Plane frame at a line of a plan.
     PlanFrame,
+    /// Diagonals of the bays of a frame.
+    Brace,
     /// Further keys of `kind = "space-frame"`.
     SpaceFrame,
     /// Columns of it at some places.
@@ -453,6 +455,8 @@ const fn default(
 
 /// How foundations act on each other.
 pub(crate) const SOIL_COUPLINGS: &[&str] = &["none", "static"];
+/// Ways in which a brace rises, from left to right.
+pub(crate) const DIRECTIONS: &[&str] = &["up", "down", "both"];
 /// Kinds of bearings.
 pub(crate) const ISOLATORS: &[&str] = &["linear", "lead-rubber", "friction-pendulum"];
 
@@ -568,6 +572,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Frame, "poisson_ratio", Quantity(D::Dimensionless), "0.2", "Poisson's ratio, for the shear modulus.").usual("a Poisson's ratio", 0.01, 0.5),
     optional(S::Frame, "joint", Kind::Table(S::Joint), "Elastic hinge at the beam ends."),
     optional(S::Frame, "hinges", Kind::Table(S::Hinges), "Plastic hinges at the member ends; without them the frame is elastic."),
+    optional(S::Frame, "brace", Tables(&[S::Brace]), "Braces between joints."),
     optional(S::Frame, "shear_failure", Kind::Table(S::ShearFailure), "Lets columns fail in shear; without it their shear strength has no limit."),
 
     default(S::Shear, "base", WordOrTable("fixed", &[S::ShearBase]), "\"fixed\"", "Horizontal spring and dashpot under the building."),
@@ -612,7 +617,14 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::PlanFrame, "poisson_ratio", Quantity(D::Dimensionless), "0.2", "Poisson's ratio, for the shear modulus.").usual("a Poisson's ratio", 0.01, 0.5),
     optional(S::PlanFrame, "joint", Kind::Table(S::Joint), "Elastic hinge at the beam ends."),
     optional(S::PlanFrame, "hinges", Kind::Table(S::Hinges), "Plastic hinges at the ends of its members, given by moments; without them it is elastic."),
+    optional(S::PlanFrame, "brace", Tables(&[S::Brace]), "Braces between joints."),
     default(S::PlanFrame, "base", WordOrTable("fixed", &[S::ShearBase, S::FrameBase]), "\"fixed\"", "Springs and dashpots under every column."),
+    default(S::Brace, "storeys", Kind::FromTo, "all", "Its storey, counted from 1; or the first and the last."),
+    default(S::Brace, "bay", Kind::FromTo, "all", "Its bay, likewise, from the left."),
+    default(S::Brace, "direction", Choice(DIRECTIONS), "\"up\"", "From the lower left to the upper right corner of the bay, from the upper left to the lower right, or both."),
+    optional(S::Brace, "EA", Quantity(D::Force), "Axial rigidity.").usual("an axial rigidity", 1e6, 1e12),
+    optional(S::Brace, "stiffness", Quantity(D::Stiffness), "Axial force per elongation, instead of EA.").usual("an axial stiffness", 1e5, 1e11),
+    optional(S::Brace, "hinge", Kind::Table(S::LinkHinge), "Axial force at which it yields, alike in tension and compression; without it the brace is elastic."),
     required(S::SpaceFrame, "lines_x", Quantities(D::Length), "Where the grid lines across stand along x, from the origin of the plan, rising.").usual("a length in plan", 1e-3, 5e3).possible(0.0, 1e5).signed(),
     required(S::SpaceFrame, "lines_y", Quantities(D::Length), "Where the grid lines along x stand, from the origin of the plan across, rising.").usual("a length in plan", 1e-3, 5e3).possible(0.0, 1e5).signed(),
     required(S::SpaceFrame, "column", Kind::TablePerPlace(S::SpaceColumn), "Columns at the crossings: one table for all, or [[building.column]] for some; later ones replace earlier ones. Without plan, the plan is the rectangle of the outer lines; columns and beams outside of the plan of their floor do not exist."),

@@ -6,6 +6,7 @@
 mod analysis;
 mod assumptions;
 mod between;
+mod brace;
 mod building;
 mod capacity;
 mod codes;

@@ -59,6 +59,11 @@ const TABLES: &[(Section, &str, &str)] = &[
         "With `kind = \"frame\"` and a `plan`; the building then has the keys of `kind = \"shear\"`. See [Frames at lines of a plan](how-to/frames-in-plan.md).",
     ),
     (
+        Section::Brace,
+        "`[[building.brace]]`",
+        "Between the joints of a frame, also of a frame at a line of a plan. A brace bears axial force alone and pushes and pulls at its joints; with `axial = \"flexible\"` it stretches and shortens columns.",
+    ),
+    (
         Section::SpaceFrame,
         "`[[building]]` with `kind = \"space-frame\"`",
         "And the keys of `kind = \"shear\"`, `frame` excepted. See [Space frames](how-to/space-frames.md).",

@@ -2,6 +2,7 @@
 
 use jostle::{Axial, Frame, Joint};
 
+use super::brace::{self, Bays};
 use super::building::{or_rigid, per_storey, storeys};
 use super::section::{Material, read_modulus, read_sections};
 use crate::keys::{AXIAL, Section};
@@ -125,6 +126,11 @@ fn read_members(
         joint: joint(reader, view),
         ..Frame::default()
     };
+    let bays = Bays {
+        heights: &frame.storey_heights,
+        widths: &frame.spans,
+    };
+    frame.diagonals = brace::read_all(reader, view, bays);
     // Foundations on soil need columns that keep their length, and columns that shorten need their EA.
     let shortens = frame.tallness() > 1.0
         && !view.has("foundation")

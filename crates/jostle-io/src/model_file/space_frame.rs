@@ -387,7 +387,12 @@ fn contains(plan: &[PlanPoint], [x, y]: PlanPoint) -> bool {
 }
 
 /// A number, or the first and the last, counted from 1.
-fn read_range(reader: &mut Reader<'_>, field: &Field<'_>, most: usize) -> Option<[usize; 2]> {
+/// A number, or the first and the last of a range.
+pub(super) fn read_range(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    most: usize,
+) -> Option<[usize; 2]> {
     let range = match field.entries() {
         None => {
             let single = reader.count(field)?;
@@ -411,7 +416,7 @@ fn read_range(reader: &mut Reader<'_>, field: &Field<'_>, most: usize) -> Option
                 "must rise and lie between 1 and {most}, found {} to {}",
                 range[0], range[1]
             ),
-        ) = Some("count lines, spans and storeys from 1; a beam has the number of the line at which it begins".into());
+        ) = Some("count lines, bays and storeys from 1; a beam has the number of the line at which it begins".into());
         return None;
     }
     Some(range)

@@ -6,6 +6,7 @@ mod base_gravity_and_shifted_equilibrium;
 mod contact_laws;
 mod corners;
 mod damping_of_yielding;
+mod diagonals;
 mod direct_in_space;
 mod direct_runs_refine_their_steps;
 mod drift_in_plan;

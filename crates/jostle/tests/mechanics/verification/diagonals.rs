@@ -1,0 +1,330 @@
+//! Braces and struts of frames: closed forms, equilibrium, and the same frame by another way.
+
+use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
+use jostle::linear::StepMatrix;
+use jostle::statics::{STANDARD_GRAVITY, compressions, settle};
+use jostle::structure::solve_once;
+use jostle::{
+    Base, Building, Damping, Diagonal, DiagonalKind, DiagonalPlace, Foundation, Frame, FrameHinges,
+    HalfSpace, Isolation, Isolator, MemberRequest, Model, Outcome, PlanFrame, RiccatiSweep, Rise,
+    Section, Soil, SoilCoupling, Solver, Structure, System, Tier, Tiers,
+};
+use jostle_testkit::compare::close;
+use jostle_testkit::models::{concrete, rectangle};
+use jostle_testkit::motions::fading;
+
+use crate::verification::support::{assembled, frame, framed, run, steps};
+
+fn diagonal(kind: DiagonalKind, storey: usize, bay: usize, rise: Rise) -> Diagonal {
+    let place = DiagonalPlace {
+        kind,
+        storey,
+        bay,
+        rise,
+    };
+    let stiffness = 4e7;
+    let hysteresis = match kind {
+        DiagonalKind::Brace => {
+            let corners = Corners::bilinear(60e3, 0.03);
+            let backbone = Backbone::from_forces(stiffness, corners, corners).expect("sound");
+            Hysteresis::new(HysteresisRule::Bilinear, backbone).expect("sound")
+        }
+        DiagonalKind::Infill => Hysteresis::without_tension(stiffness).expect("sound"),
+    };
+    Diagonal {
+        place,
+        stiffness,
+        hysteresis: Some(hysteresis),
+    }
+}
+
+/// Three storeys and two bays: braces in one, a panel in the other of the upper storeys.
+fn braced(elastic: bool) -> Frame {
+    let mut own = frame(3, &[6.0, 4.5]);
+    for storey in 1..=3 {
+        let rise = [Rise::Right, Rise::Left][storey % 2];
+        own.diagonals
+            .push(diagonal(DiagonalKind::Brace, storey, 1, rise));
+        if storey > 1 && !elastic {
+            let panel = Rise::BOTH.map(|rise| diagonal(DiagonalKind::Infill, storey, 2, rise));
+            own.diagonals.extend(panel);
+        }
+    }
+    if elastic {
+        for own in &mut own.diagonals {
+            own.hysteresis = None;
+        }
+    }
+    own
+}
+
+fn alone(building: Building) -> Model {
+    let mut model = Model {
+        title: "diagonals".to_owned(),
+        buildings: vec![building],
+        ..Model::default()
+    };
+    model.analysis.members = MemberRequest::all();
+    model
+}
+
+fn shaken(model: &Model) -> (System, Outcome) {
+    let system = assembled(model);
+    let outcome = run(
+        &system,
+        &fading("along", 9.0, [2.5, 3.0], 500),
+        &steps(1e-3, 1),
+    );
+    let imbalance = outcome.energy.worst_imbalance;
+    assert!(
+        imbalance < 1e-6,
+        "{imbalance:e} {:?}",
+        model.buildings[0].base
+    );
+    (system, outcome)
+}
+
+/// Where floors and columns keep their length, a brace adds k cos²α to its storey.
+#[test]
+fn a_brace_adds_k_cos_squared_to_a_storey() {
+    let stiffness = |own: Frame| {
+        let system = assembled(&alone(framed("A", own)));
+        let own = &system.buildings[0];
+        let mut load = vec![0.0; own.equations.len()];
+        load[own.floors[0].dof] = 1.0;
+        let moved = solve_once::<RiccatiSweep>(&own.structure, &StepMatrix::STATIC, &load)
+            .expect("it stands");
+        1.0 / moved[own.floors[0].dof]
+    };
+    let bare = frame(1, &[6.0]);
+    let (height, span) = (bare.storey_heights[0], 6.0);
+    for rise in Rise::BOTH {
+        let mut own = bare.clone();
+        own.diagonals = vec![Diagonal {
+            hysteresis: None,
+            ..diagonal(DiagonalKind::Brace, 1, 1, rise)
+        }];
+        let added = stiffness(own) - stiffness(bare.clone());
+        let cosine = span / f64::hypot(span, height);
+        close(added, 4e7 * cosine * cosine, added, 1e-10, "k cos²α");
+    }
+}
+
+/// Columns that keep their length have axial forces by equilibrium, braces and struts included; those of very stiff columns follow
+/// from their shortening.
+#[test]
+fn columns_bear_what_braces_pull_and_push() {
+    for elastic in [true, false] {
+        let rigid = braced(elastic);
+        let mut stiff = rigid.clone();
+        stiff.axial.columns_flexible = true;
+        for column in &mut stiff.columns {
+            column.axial_rigidity = Some(1e14);
+        }
+        let [a, b] = [rigid, stiff].map(|own| {
+            let mut building = framed("A", own);
+            building.damping = Damping::Rayleigh {
+                alpha: 0.4,
+                beta: 0.0,
+            };
+            shaken(&alone(building))
+        });
+        let members = |(system, outcome): &(System, Outcome)| -> Vec<[f64; 2]> {
+            let own = &system.buildings[0].members;
+            let columns = own.members.iter().filter(|own| own.place.is_column());
+            let axial = columns.map(|own| outcome.members[0][own.sections[0].forms[0]]);
+            let diagonals = own.diagonals.iter();
+            axial
+                .chain(diagonals.map(|own| outcome.members[0][own.form]))
+                .collect()
+        };
+        let (a, b) = (members(&a), members(&b));
+        let most = a
+            .iter()
+            .flatten()
+            .fold(0.0_f64, |most, own| most.max(own.abs()));
+        assert!(a.len() >= 12 && most > 1e5, "{most}");
+        for (a, b) in a.iter().flatten().zip(b.iter().flatten()) {
+            close(*a, *b, most, 2e-3, "axial force");
+        }
+    }
+}
+
+/// The base shear, from what reaches the ground, a mat or a foundation, is the shear of the lowest storey, from the forces on the nodes
+/// above.
+#[test]
+fn base_shear_is_that_of_the_lowest_storey() {
+    let isolation = Isolation::new(Isolator::Linear { stiffness: 2e7 }, 3e4);
+    let foundation = Foundation {
+        embedment: 1.5,
+        ..Foundation::rectangle(14.0, 9.0, 90e3)
+    };
+    let bases = [
+        Base::default(),
+        Base {
+            isolation: Some(isolation),
+            ..Base::default()
+        },
+        Base {
+            foundation: Some(foundation),
+            ..Base::default()
+        },
+    ];
+    for elastic in [true, false] {
+        for base in bases {
+            let mut building = framed("A", braced(elastic));
+            building.base = base;
+            let mut model = alone(building);
+            model.soil = base.foundation.map(|_| Soil {
+                half_space: Some(HalfSpace {
+                    shear_wave_velocity: 180.0,
+                    density: 1900.0,
+                    poisson_ratio: 0.35,
+                    damping: 0.03,
+                }),
+                coupling: SoilCoupling::None,
+            });
+            let (_, outcome) = shaken(&model);
+            let (base, storey) = (outcome.base_shear[0], outcome.floors[0][0].storey_shear);
+            // Below a mat there is its inertia as well.
+            if model.buildings[0].base.isolation.is_none() {
+                close(base, storey, storey, 1e-9, "base shear");
+            }
+            assert!(storey > 1e4);
+        }
+    }
+}
+
+/// Two frames side by side in a plan, shaken along their lines, move as one of them with half the mass of the floors.
+#[test]
+fn frames_in_a_plan_have_the_same_diagonals() {
+    for elastic in [true, false] {
+        let mut own = braced(elastic);
+        own.columns.iter_mut().for_each(|own| own.line_mass = 0.0);
+        own.beam_mass.iter_mut().for_each(|own| *own = 0.0);
+        own.column_segments = 1;
+        own.beam_segments.iter_mut().for_each(|own| *own = 1);
+        let standing = |name: &str, y: f64| PlanFrame {
+            name: name.to_owned(),
+            at: [0.0, y],
+            direction: [1.0, 0.0],
+            lines: Vec::new(),
+            base: Base::default(),
+            hinges: FrameHinges::default(),
+            frame: own.clone(),
+        };
+        let tier = Tier::uniform(60e3, rectangle(0.0, 0.0, 10.5, 8.0)).expect("an area");
+        let across = PlanFrame {
+            at: [5.25, 0.0],
+            direction: [0.0, 1.0],
+            ..standing("across", 0.0)
+        };
+        let across = PlanFrame {
+            frame: Frame {
+                diagonals: Vec::new(),
+                spans: vec![8.0],
+                beam_segments: vec![1],
+                ..own.clone()
+            },
+            ..across
+        };
+        let tiers = Tiers {
+            floors: vec![tier; 3],
+            storey_heights: own.storey_heights.clone(),
+            frames: vec![standing("front", 0.0), standing("back", 8.0), across],
+            ..Tiers::default()
+        };
+        let mut plane = own.clone();
+        plane.floor_mass = vec![30e3; 3];
+        let [space, plane] = [Structure::Tiers(tiers), Structure::Frame(plane)].map(|structure| {
+            let mut model = alone(Building {
+                name: "A".to_owned(),
+                structure,
+                damping: Damping::Rayleigh {
+                    alpha: 0.4,
+                    beta: 1e-4,
+                },
+                ..Building::default()
+            });
+            model.analysis.solver = Some(Solver::Riccati);
+            shaken(&model).1
+        });
+        for (a, b) in space.floors[0].iter().zip(&plane.floors[0]) {
+            let most = b.displacement_max.value;
+            close(a.displacement_max.value, most, most, 1e-6, "displacement");
+            close(
+                a.storey_shear,
+                2.0 * b.storey_shear,
+                a.storey_shear,
+                1e-6,
+                "shear",
+            );
+        }
+        close(
+            space.base_shear[0],
+            2.0 * plane.base_shear[0],
+            space.base_shear[0],
+            1e-6,
+            "base",
+        );
+    }
+}
+
+/// Cut through any storey, columns, braces and struts carry the weight above.
+#[test]
+fn columns_and_diagonals_carry_all_that_lies_above_them() {
+    for elastic in [true, false] {
+        let mut own = braced(elastic);
+        own.axial.columns_flexible = true;
+        own.columns = vec![
+            Section {
+                axial_rigidity: Some(8e9),
+                ..concrete(0.5, 0.5)
+            };
+            3
+        ];
+        let system = assembled(&alone(framed("A", own.clone())));
+        let building = &system.buildings[0].structure;
+        let carried = compressions(building, STANDARD_GRAVITY).expect("it stands");
+        let rest = settle(building, STANDARD_GRAVITY).expect("it stands");
+        let sticks = &building.discretization.stick_model;
+        let mut in_braces = 0.0_f64;
+        for (storey, cut) in [1.0, 4.2, 7.4].into_iter().enumerate() {
+            let columns = sticks.members.iter().zip(&carried);
+            let columns = columns.filter(|(member, _)| {
+                let [a, b] = member.ends.map(|end| sticks.nodes[end].y);
+                a.min(b) < cut && a.max(b) > cut
+            });
+            let mut sum: f64 = columns.map(|(_, force)| force).sum();
+            for own in &system.buildings[0].members.diagonals {
+                let part = &building.discretization.diagonals[own.diagonal];
+                if part.place.storey != storey + 1 {
+                    continue;
+                }
+                let mut force = 0.0;
+                system.buildings[0].member_forces(
+                    &jostle::State {
+                        displacement: rest.displacement.clone(),
+                        springs: rest.springs.clone(),
+                        ..jostle::State::at_rest(&system, 0.0)
+                    },
+                    &[],
+                    0.0,
+                    |form, value| {
+                        if form == own.form {
+                            force = value;
+                        }
+                    },
+                );
+                let width = if part.place.bay == 1 { 6.0 } else { 4.5 };
+                let height = 3.2;
+                sum -= force * height / f64::hypot(width, height);
+                in_braces = in_braces.max(force.abs());
+            }
+            let above = sticks.nodes.iter().filter(|node| node.y > cut);
+            let above: f64 = above.map(|node| STANDARD_GRAVITY * node.mass).sum();
+            close(sum, above, above, 1e-9, "weight above");
+        }
+        assert!(in_braces > 1e3, "braces carry something: {in_braces}");
+    }
+}
