@@ -40,6 +40,8 @@ pub(crate) enum Section {
     PlanFrame,
     /// Diagonals of the bays of a frame.
     Brace,
+    /// Panels of masonry in them.
+    Infill,
     /// Further keys of `kind = "space-frame"`.
     SpaceFrame,
     /// Columns of it at some places.
@@ -573,6 +575,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Frame, "joint", Kind::Table(S::Joint), "Elastic hinge at the beam ends."),
     optional(S::Frame, "hinges", Kind::Table(S::Hinges), "Plastic hinges at the member ends; without them the frame is elastic."),
     optional(S::Frame, "brace", Tables(&[S::Brace]), "Braces between joints."),
+    optional(S::Frame, "infill", Tables(&[S::Infill]), "Masonry panels in the bays."),
     optional(S::Frame, "shear_failure", Kind::Table(S::ShearFailure), "Lets columns fail in shear; without it their shear strength has no limit."),
 
     default(S::Shear, "base", WordOrTable("fixed", &[S::ShearBase]), "\"fixed\"", "Horizontal spring and dashpot under the building."),
@@ -618,6 +621,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::PlanFrame, "joint", Kind::Table(S::Joint), "Elastic hinge at the beam ends."),
     optional(S::PlanFrame, "hinges", Kind::Table(S::Hinges), "Plastic hinges at the ends of its members, given by moments; without them it is elastic."),
     optional(S::PlanFrame, "brace", Tables(&[S::Brace]), "Braces between joints."),
+    optional(S::PlanFrame, "infill", Tables(&[S::Infill]), "Masonry panels in the bays."),
     default(S::PlanFrame, "base", WordOrTable("fixed", &[S::ShearBase, S::FrameBase]), "\"fixed\"", "Springs and dashpots under every column."),
     default(S::Brace, "storeys", Kind::FromTo, "all", "Its storey, counted from 1; or the first and the last."),
     default(S::Brace, "bay", Kind::FromTo, "all", "Its bay, likewise, from the left."),
@@ -625,6 +629,12 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Brace, "EA", Quantity(D::Force), "Axial rigidity.").usual("an axial rigidity", 1e6, 1e12),
     optional(S::Brace, "stiffness", Quantity(D::Stiffness), "Axial force per elongation, instead of EA.").usual("an axial stiffness", 1e5, 1e11),
     optional(S::Brace, "hinge", Kind::Table(S::LinkHinge), "Axial force at which it yields, alike in tension and compression; without it the brace is elastic."),
+    default(S::Infill, "storeys", Kind::FromTo, "all", "Its storey, counted from 1; or the first and the last."),
+    default(S::Infill, "bay", Kind::FromTo, "all", "Its bay, likewise, from the left."),
+    optional(S::Infill, "modulus", Quantity(D::Modulus), "Modulus of elasticity of the masonry; with thickness and width.").usual("a modulus of masonry", 1e8, 5e10),
+    optional(S::Infill, "thickness", Quantity(D::Length), "Thickness of the panel.").usual("a thickness of a panel", 0.03, 1.5),
+    optional(S::Infill, "width", Quantity(D::Length), "Width of the strut across its axis.").usual("a width of a strut", 0.1, 6.0),
+    optional(S::Infill, "stiffness", Quantity(D::Stiffness), "Axial force per shortening of one strut, instead of modulus, thickness and width.").usual("an axial stiffness", 1e5, 1e11),
     required(S::SpaceFrame, "lines_x", Quantities(D::Length), "Where the grid lines across stand along x, from the origin of the plan, rising.").usual("a length in plan", 1e-3, 5e3).possible(0.0, 1e5).signed(),
     required(S::SpaceFrame, "lines_y", Quantities(D::Length), "Where the grid lines along x stand, from the origin of the plan across, rising.").usual("a length in plan", 1e-3, 5e3).possible(0.0, 1e5).signed(),
     required(S::SpaceFrame, "column", Kind::TablePerPlace(S::SpaceColumn), "Columns at the crossings: one table for all, or [[building.column]] for some; later ones replace earlier ones. Without plan, the plan is the rectangle of the outer lines; columns and beams outside of the plan of their floor do not exist."),

@@ -17,6 +17,7 @@ mod gap;
 mod given;
 mod grounds;
 mod hinges;
+mod infill;
 mod isolation;
 mod joint_capacity;
 mod link;

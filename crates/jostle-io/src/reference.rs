@@ -64,6 +64,11 @@ const TABLES: &[(Section, &str, &str)] = &[
         "Between the joints of a frame, also of a frame at a line of a plan. A brace bears axial force alone and pushes and pulls at its joints; with `axial = \"flexible\"` it stretches and shortens columns.",
     ),
     (
+        Section::Infill,
+        "`[[building.infill]]`",
+        "A panel is two struts between opposite joints that bear compression alone and stay elastic: compare their greatest force with what the panel bears. Modes and damping ratios count both with half their stiffness, since one of two acts.",
+    ),
+    (
         Section::SpaceFrame,
         "`[[building]]` with `kind = \"space-frame\"`",
         "And the keys of `kind = \"shear\"`, `frame` excepted. See [Space frames](how-to/space-frames.md).",

@@ -16,7 +16,7 @@ const RUNS: [(f64, f64); 2] = [(1e-3, 1e-3), (1e-5, 1e-5)];
 /// The references take g as 9.80665 m/s², the built-in record 9.81 m/s².
 const GRAVITY: f64 = 9.80665 / 9.81;
 
-const CASES: [(&str, &str); 2] = [
+const CASES: [(&str, &str); 3] = [
     (
         "members/b1_brace_elastic",
         include_str!("../data/members/b1_brace_elastic.json"),
@@ -24,6 +24,10 @@ const CASES: [(&str, &str); 2] = [
     (
         "members/b2_brace_bilinear",
         include_str!("../data/members/b2_brace_bilinear.json"),
+    ),
+    (
+        "members/c1_infill_compression_struts",
+        include_str!("../data/members/c1_infill_compression_struts.json"),
     ),
 ];
 
@@ -108,6 +112,14 @@ damping = {{ alpha = {alpha:?}, beta = 0 }}
                 brace["Fy"], brace["hardening"]
             );
         }
+    }
+    let struts = input["strut_k"].as_array().into_iter().flatten();
+    for (storey, stiffness) in struts.enumerate().filter(|(_, own)| own.is_number()) {
+        let _ = writeln!(
+            text,
+            "[[building.infill]]\nstoreys = {}\nstiffness = {stiffness}",
+            storey + 1
+        );
     }
     let _ = writeln!(
         text,

@@ -4,6 +4,7 @@ use jostle::{Axial, Frame, Joint};
 
 use super::brace::{self, Bays};
 use super::building::{or_rigid, per_storey, storeys};
+use super::infill;
 use super::section::{Material, read_modulus, read_sections};
 use crate::keys::{AXIAL, Section};
 use crate::quantity::Dimension;
@@ -130,7 +131,9 @@ fn read_members(
         heights: &frame.storey_heights,
         widths: &frame.spans,
     };
-    frame.diagonals = brace::read_all(reader, view, bays);
+    let mut diagonals = brace::read_all(reader, view, bays);
+    diagonals.extend(infill::read_all(reader, view, bays));
+    frame.diagonals = diagonals;
     // Foundations on soil need columns that keep their length, and columns that shorten need their EA.
     let shortens = frame.tallness() > 1.0
         && !view.has("foundation")
