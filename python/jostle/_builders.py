@@ -111,6 +111,10 @@ class Frame(Part):
             ``{"rule": "normal", "initial": 100, "column": {"cracking": "120 kN.m", …}, "beam": {…}}``.
         shear_failure: columns that fail in shear: ``{"rule": "sezen-moehle", "residual": 0.2}`` or
             ``{"strength": "300 kN", "slope": "5 MN/m"}``; without it their shear strength has no limit.
+        brace: braces between joints: ``[{"storeys": [1, 3], "bay": 1, "direction": "both", "EA": "600 MN"}]``; with ``"hinge"`` they
+            yield.
+        infill: masonry panels in the bays, as struts that bear compression alone:
+            ``[{"storeys": [2, 4], "modulus": "4 GPa", "thickness": "200 mm", "width": "1.4 m"}]``.
         position: place along the row, for ``apparent_velocity`` and ``coherency`` of the motion.
         motion: the ground under this building, if it differs: ``{"arrival": "30 ms"}``, ``{"record": …, "scale": …}``.
         gravity: whether the run starts from the displacements under self weight; ``False`` by default.
@@ -155,6 +159,8 @@ class Frame(Part):
         foundation: Table | None = None,
         hinges: Table | None = None,
         shear_failure: Table | None = None,
+        brace: Sequence[Table] | None = None,
+        infill: Sequence[Table] | None = None,
         position: Quantity | None = None,
         motion: Table | None = None,
         gravity: bool | None = None,
@@ -191,6 +197,8 @@ class Frame(Part):
                 "foundation": foundation,
                 "hinges": hinges,
                 "shear_failure": shear_failure,
+                "brace": brace,
+                "infill": infill,
                 "position": position,
                 "motion": motion,
                 "gravity": gravity,

@@ -12,7 +12,7 @@ use jostle::hysteresis::Side;
 use jostle::judgement::Stated;
 use jostle::model::{Damping, Structure, Tiers, usual_damping_modes};
 use jostle::system::BuildingSystem;
-use jostle::{Building, Frame, LinkLaw, Model, SpaceMember, SpacePlace, System};
+use jostle::{Building, DiagonalKind, Frame, LinkLaw, Model, SpaceMember, SpacePlace, System};
 
 use crate::args::CheckArgs;
 use crate::failure::Failure;
@@ -230,6 +230,23 @@ fn axial_of_columns(frame: &Frame, is_stated: Option<bool>) -> String {
     format!("{what}{why}; {:.1} times as high as wide", height / width)
 }
 
+/// Braces and infill panels, as far as there are any.
+fn diagonals(frame: &Frame) -> String {
+    let count = |kind| {
+        let all = frame.diagonals.iter();
+        all.filter(|own| own.place.kind == kind).count()
+    };
+    let mut text = String::new();
+    // A panel is two struts.
+    let [braces, panels] = [count(DiagonalKind::Brace), count(DiagonalKind::Infill) / 2];
+    for (count, noun) in [(braces, "brace"), (panels, "infill panel")] {
+        if count > 0 {
+            text += &format!(", {}", counted(count, noun));
+        }
+    }
+    text
+}
+
 fn describe(
     text: &mut String,
     model: &Model,
@@ -240,9 +257,10 @@ fn describe(
     for (index, building) in system.structures().iter().enumerate() {
         let kind = match &model.buildings[index].structure {
             Structure::Frame(frame) => format!(
-                "frame, {}, {}",
+                "frame, {}, {}{}",
                 counted(frame.storey_heights.len(), "storey"),
-                counted(frame.spans.len(), "span")
+                counted(frame.spans.len(), "span"),
+                diagonals(frame)
             ),
             Structure::Shear(shear) => {
                 format!("shear building, {}", counted(shear.mass.len(), "storey"))

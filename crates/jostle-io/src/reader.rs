@@ -485,6 +485,11 @@ fn suggest(key: &str, sections: &'static [Section]) -> String {
         (Section::Given, "given"),
         (Section::SpaceFrame, "space-frame"),
     ];
+    // Frames have braces and infills of their own.
+    let of_frames = sections.contains(&Section::Frame) && !matches!(key, "wall" | "strut");
+    if sections.contains(&Section::Building) && NOT_MEMBERS.contains(&key) && !of_frames {
+        return "what stands between two floors beside columns is a [[building.damper]], without dashpot too: floors = [1, 2] with the horizontal stiffness, and law = \"yielding\" with its strength".into();
+    }
     for (section, kind) in other_kinds {
         if sections.contains(&Section::Building) && keys_of(&[section]).any(|k| k.name == key) {
             return format!("this key belongs to buildings of kind = \"{kind}\"");
@@ -492,9 +497,6 @@ fn suggest(key: &str, sections: &'static [Section]) -> String {
     }
     if sections == [Section::Beam] && key == "mass" {
         return "the mass on the beams is beam_mass of the building".into();
-    }
-    if sections.contains(&Section::Building) && NOT_MEMBERS.contains(&key) {
-        return "what stands between two floors beside columns is a [[building.damper]], without dashpot too: floors = [1, 2] with the horizontal stiffness, and law = \"yielding\" with its strength".into();
     }
     match nearest(key, keys_of(sections).map(|key| key.name)) {
         Some(name) => format!("did you mean \"{name}\"?"),

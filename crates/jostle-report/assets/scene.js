@@ -65,6 +65,8 @@ class Scene {
         pinned: svg("path", { class: "pinned" }, group),
         ghost: svg("path", { class: "ghost" }, group),
         bearings: svg("path", { class: "bearings" }, group),
+        panels: svg("path", { class: "panels" }, group),
+        braces: svg("path", { class: "braces" }, group),
         columns: svg("path", { class: "columns" }, group),
         floors: svg("path", { class: building.frame ? "beams" : "slabs" }, group),
         // Yielded ones by their ductility.
@@ -328,6 +330,7 @@ class Scene {
         .join("");
     part.columns.setAttribute("d", lines.map((x) => column(x, sway)).join(""));
     part.floors.setAttribute("d", floor(sway));
+    this.drawDiagonals(part, building.diagonals ?? [], lines, heights, sway);
     part.bearings.setAttribute("d", building.isolated ? this.bearings(lines, sway[0]) : "");
     this.drawHinges(part, lines, heights, sway, t);
     const ghost = this.ghost && this.other ? this.places(this.other[i], without, t) : null;
@@ -340,6 +343,17 @@ class Scene {
     part.sway.setAttribute("x", this.px(this.left[i] + this.widths[i] / 2));
     part.sway.setAttribute("y", this.py(heights[heights.length - 1]) - 12);
     part.sway.textContent = `${fixed(roof * 1e3, 1)} mm`;
+  }
+
+  /** Braces as lines between joints, infill panels as shaded bays. */
+  drawDiagonals(part, diagonals, lines, heights, sway) {
+    const at = (line, level) => `${this.px(lines[line] + this.exaggeration * sway[level]).toFixed(2)},${this.py(heights[level]).toFixed(2)}`;
+    const braces = diagonals.filter((own) => !own.infill);
+    part.braces.setAttribute("d", braces.map(({ storey, lines: [low, high] }) => `M${at(low, storey - 1)}L${at(high, storey)}`).join(""));
+    // Both struts of a panel lie in one bay.
+    const panels = diagonals.filter((own) => own.infill && own.lines[0] < own.lines[1]);
+    const panel = ({ storey, lines: [left, right] }) => `M${at(left, storey - 1)}L${at(right, storey - 1)}L${at(right, storey)}L${at(left, storey)}z`;
+    part.panels.setAttribute("d", panels.map(panel).join(""));
   }
 
   /** Marks near the ends of members, off the joint by a little so that all four around it are seen. */

@@ -54,6 +54,16 @@ pub(crate) fn places(model: &Model) -> Vec<Place> {
 }
 
 fn hysteresis_of(building: &Building, at: SpringPlace) -> Option<Hysteresis> {
+    if let SpringPlace::Diagonal { frame, place } = at {
+        let diagonals = match (&building.structure, frame) {
+            (Structure::Frame(own), None) => &own.diagonals,
+            (Structure::Tiers(tiers), Some(frame)) => &tiers.frames.get(frame - 1)?.frame.diagonals,
+            _ => return None,
+        };
+        // Struts that lift off are no hinges.
+        let own = diagonals.iter().find(|own| own.place == place)?;
+        return own.hysteresis.filter(|_| at.is_hinge());
+    }
     if let SpringPlace::Base { motion, .. } = at {
         return match motion {
             BaseMotion::Rocking => building.base.rotational_hinge,

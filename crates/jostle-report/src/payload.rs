@@ -6,7 +6,7 @@ use jostle::model::{Building, Gap, LumpedFloor, Model, Structure};
 use jostle::motion::{GroundMotion, Wave};
 use jostle::results::summary::{ContactSummary, SpringSummary, Summary};
 use jostle::structure::SpringPlace;
-use jostle::{SpaceFrame, SpaceMember, SpacePlace};
+use jostle::{Diagonal, DiagonalKind, SpaceFrame, SpaceMember, SpacePlace};
 use serde::Serialize;
 
 use crate::Page;
@@ -136,8 +136,21 @@ struct Outline<'a> {
     heights: Vec<f64>,
     /// Bay widths \[m\].
     spans: Vec<f64>,
+    /// Braces and struts of a frame in one plane.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    diagonals: Vec<DiagonalData>,
     /// Whether it stands on bearings.
     isolated: bool,
+}
+
+/// A brace, or a strut of an infill panel.
+#[derive(Serialize)]
+struct DiagonalData {
+    storey: usize,
+    /// Column lines of its lower and its upper end, from 0.
+    lines: [usize; 2],
+    /// Whether it is part of a panel.
+    infill: bool,
 }
 
 /// A column or a beam of a space frame.
@@ -147,6 +160,16 @@ struct MemberData {
     ends: [[f64; 2]; 2],
     /// Floors, from 0, with which they move; `null` is the ground.
     floors: [Option<usize>; 2],
+}
+
+impl DiagonalData {
+    fn of(own: &Diagonal) -> Self {
+        Self {
+            storey: own.place.storey,
+            lines: own.place.lines(),
+            infill: own.place.kind == DiagonalKind::Infill,
+        }
+    }
 }
 
 impl MemberData {
@@ -488,6 +511,10 @@ fn outline(building: &Building) -> Outline<'_> {
         frame,
         heights: building.floor_heights(),
         spans,
+        diagonals: match &building.structure {
+            Structure::Frame(frame) => frame.diagonals.iter().map(DiagonalData::of).collect(),
+            _ => Vec::new(),
+        },
         isolated: building.base.isolation.is_some(),
     }
 }

@@ -8,7 +8,7 @@ use jostle::results::contact_sensitivity::ContactSensitivity;
 use jostle::results::isolation_bounds::{Bounded, IsolationBounds};
 use jostle::results::response::FloorResponse;
 use jostle::results::summary::{
-    BuildingSummary, ContactSummary, ExceededSummary, GapSummary, LinkSummary, Summary,
+    BuildingSummary, ContactSummary, ExceededSummary, GapSummary, LinkSummary, PartSummary, Summary,
 };
 use jostle::separation::{Requirement, Requirements};
 use jostle_io::Input;
@@ -70,6 +70,7 @@ fn write_all(
     write_foundations(text, summary)?;
     write_hinges(text, &summary.buildings)?;
     write_shear_failures(text, &summary.buildings)?;
+    write_parts(text, &summary.buildings)?;
     write_capacity(text, &summary.buildings)?;
     for (index, gap) in summary.gaps.iter().enumerate() {
         let required = summary.required_gaps(&input.model, index, &input.codes);
@@ -414,6 +415,33 @@ fn write_shear_failures(text: &mut String, buildings: &[BuildingSummary]) -> std
 }
 
 /// The first member beyond its capacity, and the worst; one line if none is beyond it.
+/// The greatest forces of braces and of struts of every building.
+fn write_parts(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::Result {
+    for (kind, noun) in [("brace", "Braces"), ("infill", "Infill struts")] {
+        for building in buildings {
+            let own = || building.parts.iter().filter(|own| own.kind == kind);
+            let force = |own: &PartSummary| own.force_max_n.max(-own.force_min_n);
+            let Some(worst) = own().max_by(|a, b| force(a).total_cmp(&force(b))) else {
+                continue;
+            };
+            let dissipated: f64 = own().map(|own| own.dissipated_j).sum();
+            let spent = match dissipated > 0.0 {
+                true => format!("; {:.1} kJ dissipated in all", dissipated / 1e3),
+                false => String::new(),
+            };
+            writeln!(
+                text,
+                "\n{noun} of {}: up to {:.0} kN of tension and {:.0} kN of compression in {}{spent}",
+                building.name,
+                worst.force_max_n / 1e3,
+                -worst.force_min_n / 1e3,
+                worst.name
+            )?;
+        }
+    }
+    Ok(())
+}
+
 fn write_capacity(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::Result {
     let rated = || {
         buildings

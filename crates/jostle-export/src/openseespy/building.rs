@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use jostle::ProportionalDamping;
 use jostle::hysteresis::Hysteresis;
-use jostle::structure::{Element, Part, Spring, StickModel, Support};
+use jostle::structure::{Discretization, Element, Part, Spring, StickModel, Support};
 use jostle::system::BuildingSystem;
 
 use super::script::{Script, comment, python_bool, python_damping, rounded, text};
@@ -22,7 +22,8 @@ impl Script<'_> {
         self.add_nodes(index, building, &ties);
         self.add_members(index, stick_model);
         self.add_hinges(index, stick_model, &ties)?;
-        self.add_storeys(index, stick_model)?;
+        self.add_storeys(index, building)?;
+        self.add_diagonals(index, building)?;
         self.add_foundation(index, building, &ties);
         Ok(())
     }
@@ -38,6 +39,7 @@ impl Script<'_> {
             &mut self.rigid,
             &mut self.springs,
             &mut self.levered,
+            &mut self.diagonals,
             &mut self.leaning,
         ] {
             table.push_str(&title);
@@ -204,7 +206,12 @@ impl Script<'_> {
         Ok(())
     }
 
-    fn add_storeys(&mut self, index: usize, stick_model: &StickModel) -> Result<(), &'static str> {
+    fn add_storeys(&mut self, index: usize, building: &BuildingSystem) -> Result<(), &'static str> {
+        let Discretization {
+            stick_model,
+            diagonals,
+            ..
+        } = &building.discretization;
         for spring in &stick_model.springs {
             let [first, last] = spring.ends.map(|node| self.tag(index, node));
             if stick_model.foundation.is_some() && spring.lever.is_some_and(|lever| lever != 0.0) {
@@ -218,7 +225,13 @@ impl Script<'_> {
         }
         // On a foundation they are damping relative to it.
         let on_foundation = stick_model.foundation.is_some();
-        for element in stick_model.elements.iter().filter(|_| !on_foundation) {
+        let is_diagonal = |element: &&Element| match element {
+            Element::Spring { row, .. } => diagonals.iter().any(|own| own.elongation == *row),
+            Element::Matrix { .. } => false,
+        };
+        let elements = stick_model.elements.iter();
+        let elements = elements.filter(|own| !on_foundation && !is_diagonal(own));
+        for element in elements {
             let between = match element {
                 Element::Spring {
                     part,
@@ -247,6 +260,29 @@ impl Script<'_> {
                 .map(|material| (1, material))
                 .collect();
             self.spring(first, last, &directions, ProportionalDamping::Initial);
+        }
+        Ok(())
+    }
+
+    /// Braces and struts, along the lines between their joints.
+    fn add_diagonals(
+        &mut self,
+        index: usize,
+        building: &BuildingSystem,
+    ) -> Result<(), &'static str> {
+        for own in &building.discretization.diagonals {
+            let hysteresis = own.spring.as_ref();
+            let material = self.spring_materials(own.stiffness, hysteresis, 0.0)?;
+            let [first, last] = own.ends.map(|node| self.tag(index, node));
+            // What yields has no part in the damping of the building.
+            let damped = python_bool(hysteresis.is_none());
+            for material in material {
+                let tag = self.element();
+                let _ = writeln!(
+                    self.diagonals,
+                    "    ({tag}, {first}, {last}, {material}, {damped}),"
+                );
+            }
         }
         Ok(())
     }

@@ -26,6 +26,7 @@ pub(super) struct Script<'a> {
     pub(super) springs: String,
     /// Springs of storeys and of the soil that the rotation of a foundation deforms.
     pub(super) levered: String,
+    pub(super) diagonals: String,
     /// Bearings in plan that yield or slide.
     pub(super) sliders: String,
     pub(super) leaning: String,
@@ -93,6 +94,7 @@ impl<'a> Script<'a> {
             rigid: String::new(),
             springs: String::new(),
             levered: String::new(),
+            diagonals: String::new(),
             sliders: String::new(),
             leaning: String::new(),
             contacts: String::new(),

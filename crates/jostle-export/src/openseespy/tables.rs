@@ -119,6 +119,12 @@ impl Script<'_> {
         )?;
         table(
             out,
+            "DIAGONALS",
+            "element, lower node, upper node, material of the axial force, whether Rayleigh damping acts on it",
+            &self.diagonals,
+        )?;
+        table(
+            out,
             "SLIDERS",
             "element, point of the ground, point of the mat, stiffness [N/m] and strength [N] of a bearing that yields or slides",
             &self.sliders,

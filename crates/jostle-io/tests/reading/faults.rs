@@ -673,7 +673,7 @@ fn parameters_belong_to_their_law() {
 
 /// What other programs have between floors is named where it is missed.
 #[test]
-fn braces_and_infills_are_dampers_without_dashpot() {
+fn braces_and_infills_of_storeys_are_dampers_without_dashpot() {
     for key in ["brace", "infill", "wall"] {
         let shown = refusal(&format!("{SHEAR}{key} = {{ stiffness = \"80 MN/m\" }}\n"));
         assert!(shown.contains("[[building.damper]]"), "{shown}");

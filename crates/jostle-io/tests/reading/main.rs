@@ -6,6 +6,7 @@ mod capacity;
 mod codes;
 mod damage;
 mod defaults;
+mod diagonals;
 mod faults;
 mod fixture;
 mod formats;

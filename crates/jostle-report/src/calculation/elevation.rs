@@ -169,7 +169,7 @@ fn drawing(
     left: f64,
     [scale, ground, pit]: [f64; 3],
 ) -> Markup {
-    let frame = matches!(building.structure, Structure::Frame(_));
+    let is_frame = matches!(building.structure, Structure::Frame(_));
     let y = |height: f64| ground - scale * height;
     let x = |across: f64| left + scale * across;
     let (right, top) = (x(outline.width()), y(outline.height()));
@@ -201,7 +201,15 @@ fn drawing(
     };
     html! {
         g style=(colour(index)) {
-            @if frame {
+            @if let Structure::Frame(frame) = &building.structure {
+                @for own in &frame.diagonals {
+                    @let ([from, to], storey) = (own.place.lines(), own.place.storey);
+                    @let ends = [(outline.lines[from], storey - 1), (outline.lines[to], storey)].map(|(line, level)| {
+                        let height = level.checked_sub(1).map_or(0.0, |floor| outline.floors[floor]);
+                        [x(line), y(height)]
+                    });
+                    line.(own.place.kind.name()) x1=(round(ends[0][0])) x2=(round(ends[1][0])) y1=(round(ends[0][1])) y2=(round(ends[1][1])) {}
+                }
                 @for line in &outline.lines { line.columns x1=(round(x(*line))) x2=(round(x(*line))) y1=(round(ground)) y2=(round(top)) {} }
                 @for floor in &outline.floors { line.beams x1=(round(left)) x2=(round(right)) y1=(round(y(*floor))) y2=(round(y(*floor))) {} }
             } @else {
@@ -213,7 +221,7 @@ fn drawing(
         @for (text, at) in &written {
             text transform=(format!("translate({:.1} {:.1}) rotate(-90)", left - 9.0, y(*at))) text-anchor="middle" { (text) }
         }
-        @if frame {
+        @if is_frame {
             @for pair in outline.lines.windows(2) {
                 text x=(round(0.5 * (x(pair[0]) + x(pair[1])))) y=(round(ground + pit + 15.0)) text-anchor="middle" { (format::plain(pair[1] - pair[0], 4)) }
             }

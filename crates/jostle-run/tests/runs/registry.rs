@@ -82,6 +82,7 @@ width = "10 mm"
 
 /// A building on bearings before a wall that gives way.
 const FAILING: &str = include_str!("../../../../examples/columns_that_fail_in_shear.toml");
+const BRACED: &str = include_str!("../../../../examples/braced_and_infilled_frames.toml");
 const SPACE_FRAME: &str = include_str!("../../../jostle-validation/data/space/S8_space_frame.toml");
 
 const ISOLATED: &str = r#"
@@ -234,6 +235,7 @@ fn every_number_of_the_summary_is_in_the_registry_and_the_other_way_round() {
     let failing = failing.expect("a summary is JSON");
     let space_frame = format!("{SPACE_FRAME}\n[output]\nmembers = true\n");
     let space_frame = serde_json::to_value(summary_of(&space_frame)).expect("a summary is JSON");
+    let braced = serde_json::to_value(summary_of(BRACED)).expect("a summary is JSON");
     let all = owners();
     // Numbers of other files have their own tests.
     let in_summary = |owner: &&Owner| !owner.key.is_empty() && !owner.key.contains(": ");
@@ -259,6 +261,8 @@ fn every_number_of_the_summary_is_in_the_registry_and_the_other_way_round() {
             // The same objects have the numbers of the other plane as well.
             let same_key = all.iter().filter(|other| other.key == owner.key);
             compare(&space_frame, &same_key.collect::<Vec<_>>());
+        } else if owner.title == "Braces and struts" {
+            compare(&braced, &[owner]);
         } else if owner.title == "Ground under a building" {
             compare(&delayed, &[owner]);
         } else if owner.title == "Foundations" {

@@ -2,15 +2,20 @@
 
 use super::{Known, Tally, quoted};
 use crate::hysteresis::{Hysteresis, Side};
-use crate::model::{Building, Hinges, STANDARD_GRAVITY, Structure};
+use crate::model::{Building, Diagonal, DiagonalKind, Hinges, STANDARD_GRAVITY, Structure};
 
 /// Drift at which storeys of concrete frames yield: θ_y = 0.5 ε_y L_b/h_b with ε_y = 0.2 % and L_b/h_b = 10 \[–\].
 const YIELD_DRIFT: f64 = 0.01;
 
 /// Whether storeys or members of a building can yield, not its base alone.
 pub(super) fn structure_yields(building: &Building) -> bool {
-    building.hinges.is_some()
-        || matches!(&building.structure, Structure::Tiers(tiers) if tiers.may_yield())
+    let yields = |own: &Diagonal| own.place.kind == DiagonalKind::Brace && own.hysteresis.is_some();
+    match &building.structure {
+        _ if building.hinges.is_some() => true,
+        Structure::Tiers(tiers) => tiers.may_yield(),
+        Structure::Frame(frame) => frame.diagonals.iter().any(yields),
+        Structure::Shear(_) | Structure::Given(_) => false,
+    }
 }
 
 /// 1 for a building that yields without P-Delta, 0 for others.

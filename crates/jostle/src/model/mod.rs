@@ -151,7 +151,7 @@ impl Default for Building {
 }
 
 impl Building {
-    /// Whether anything in it, or under it, may crack or yield.
+    /// Whether anything in it, or under it, may crack, yield or lift off.
     #[must_use]
     pub fn may_yield(&self) -> bool {
         self.hinges.is_some()
@@ -159,6 +159,7 @@ impl Building {
             || self.base.horizontal_hinge.is_some()
             || self.base.isolation.is_some_and(|own| !own.is_linear())
             || matches!(&self.structure, Structure::Tiers(own) if own.may_yield())
+            || matches!(&self.structure, Structure::Frame(own) if own.diagonals.iter().any(|own| own.hysteresis.is_some()))
     }
 }
 

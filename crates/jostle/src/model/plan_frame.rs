@@ -127,10 +127,11 @@ impl PlanFrame {
         heavy && self.frame.column_segments > 1
     }
 
-    /// Whether columns or beams may crack or yield.
+    /// Whether columns or beams may crack or yield, or diagonals yield or lift off.
     #[must_use]
     pub fn may_yield(&self) -> bool {
-        self.hinges != FrameHinges::default()
+        let mut diagonals = self.frame.diagonals.iter();
+        self.hinges != FrameHinges::default() || diagonals.any(|own| own.hysteresis.is_some())
     }
 
     /// Whether it stands along x or across.

@@ -4,6 +4,7 @@ use super::discretization::Discretization;
 use super::element::{Element, Part, X, Y, over_nodes};
 use super::spring_place::SpringPlace;
 use super::stick_model::{StickModel, YieldingElement};
+use crate::hysteresis::Hysteresis;
 use crate::linear::Row;
 use crate::model::{Diagonal, DiagonalPlace, ProportionalDamping};
 
@@ -14,12 +15,14 @@ pub struct FrameDiagonal {
     pub frame: Option<usize>,
     /// What it is, and where in its frame.
     pub place: DiagonalPlace,
+    /// Nodes of its lower and of its upper end.
+    pub ends: [usize; 2],
     /// Elongation over displacements of nodes, 3 × node + (0 horizontal, 1 vertical).
     pub elongation: Row,
     /// Axial force per elongation \[N/m\].
     pub stiffness: f64,
-    /// Whether its force is that of a spring that remembers.
-    pub yields: bool,
+    /// Its force, if it is that of a spring that remembers.
+    pub spring: Option<Hysteresis>,
 }
 
 impl Discretization {
@@ -50,9 +53,10 @@ impl Discretization {
             self.diagonals.push(FrameDiagonal {
                 frame: None,
                 place: own.place,
+                ends,
                 elongation,
                 stiffness: own.stiffness,
-                yields: own.hysteresis.is_some(),
+                spring: own.hysteresis,
             });
         }
     }

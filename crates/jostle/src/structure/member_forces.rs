@@ -263,7 +263,7 @@ impl MemberForces {
             let place = SpringPlace::of_diagonal(own);
             let mut form = LinearForm::default();
             match spring_places.iter().position(|known| *known == place) {
-                Some(spring) if own.yields => form.springs = Row::single(spring),
+                Some(spring) if own.spring.is_some() => form.springs = Row::single(spring),
                 _ => {
                     let elongation = stick_model.carried_row(&own.elongation);
                     form.displacement = building.equations.row(&elongation).times(own.stiffness);

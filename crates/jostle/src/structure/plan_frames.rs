@@ -59,6 +59,7 @@ pub(super) fn add_frames(
         let elements = sticks.append(own.stick_model, &place);
         let diagonals = own.diagonals.into_iter().map(|own| FrameDiagonal {
             frame: Some(index),
+            ends: own.ends.map(|end| first_node + end),
             elongation: own.elongation.moved_up(index_of((first_node, X))),
             ..own
         });

@@ -78,6 +78,9 @@ def build(axial):
         # Shear of a link: the difference of displacements across it, and its length times rotations.
         extra = ["-doRayleigh"] if damped else []
         ops.element("twoNodeLink", tag, first, last, "-mat", material, "-dir", 2, "-shearDist", share, *extra)
+    for tag, first, last, material, damped in DIAGONALS:
+        extra = ["-doRayleigh"] if damped else []
+        ops.element("twoNodeLink", tag, first, last, "-mat", material, "-dir", 1, *extra)
     add_sliders()
     if any(axial == "stiff" or not tied for *_, tied in RIGID):
         rigid = len(MATERIALS) + 1

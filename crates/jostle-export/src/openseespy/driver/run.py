@@ -352,7 +352,7 @@ def analyse(args):
 
 def main():
     used = [material for *_, springs, _ in SPRINGS for _, material in springs] + [row[3] for row in LINKS]
-    used += [row[3] for row in LEVERED]
+    used += [row[3] for row in (*LEVERED, *DIAGONALS)]
     used += [material for *_, springs in HINGED_ENDS for *_, material, _ in springs]
     yields = bool(SLIDERS) or any(MATERIALS[material - 1][0] != "Elastic" for material in used)
     parser = argparse.ArgumentParser(description=f"{TITLE}: for OpenSeesPy, {EXPORTED_BY}. Prints JSON.")

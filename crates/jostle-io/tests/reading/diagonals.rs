@@ -1,0 +1,110 @@
+//! Braces and infill panels of frames.
+
+use jostle::{DiagonalKind, Rise, Structure};
+use jostle_testkit::files::{refusal, sound};
+
+const FRAME: &str = r#"
+motion = { record = "el-centro-1940-ns" }
+[[building]]
+name = "A"
+storeys = 3
+storey_height = 3
+spans = [4, 4]
+concrete = "C30"
+beam_mass = 3000
+column = { width = 0.4, depth = 0.4 }
+beam = { width = 0.3, depth = 0.5 }
+"#;
+
+fn diagonals(more: &str) -> Vec<jostle::Diagonal> {
+    let input = sound(&format!("{FRAME}{more}"));
+    match &input.model.buildings[0].structure {
+        Structure::Frame(frame) => frame.diagonals.clone(),
+        other => panic!("{other:?}"),
+    }
+}
+
+/// Without storeys and bay a table is for all; EA is over the length of the diagonal.
+#[test]
+fn a_table_stands_for_the_bays_and_storeys_that_it_names() {
+    let all = diagonals("[[building.brace]]\nEA = \"500 MN\"\ndirection = \"both\"\n");
+    assert_eq!(all.len(), 12);
+    assert!((all[0].stiffness / (500e6 / 5.0) - 1.0).abs() < 1e-12);
+    let some = diagonals(
+        "[[building.brace]]\nstoreys = [2, 3]\nbay = 2\nstiffness = \"80 MN/m\"\ndirection = \"down\"\nhinge = { rule = \"bilinear\", yield = \"200 kN\", post_yield = 0.02 }\n",
+    );
+    let places: Vec<_> = some
+        .iter()
+        .map(|own| (own.place.storey, own.place.bay, own.place.rise))
+        .collect();
+    assert_eq!(places, [(2, 2, Rise::Left), (3, 2, Rise::Left)]);
+    assert!(some.iter().all(|own| {
+        own.hysteresis
+            .is_some_and(|own| own.backbone().yield_force() == 200e3)
+    }));
+}
+
+/// A panel is two struts of E w t / d that bear compression alone.
+#[test]
+fn a_panel_is_two_struts_without_tension() {
+    let struts = diagonals(
+        "[[building.infill]]\nstoreys = 3\nbay = 1\nmodulus = \"4 GPa\"\nthickness = \"200 mm\"\nwidth = \"1.25 m\"\n",
+    );
+    assert_eq!(struts.len(), 2);
+    for own in struts {
+        assert_eq!(own.place.kind, DiagonalKind::Infill);
+        let stiffness = 4e9 * 0.2 * 1.25 / 5.0;
+        assert!((own.stiffness / stiffness - 1.0).abs() < 1e-12);
+        let law = own.hysteresis.expect("it lifts off");
+        let force = |deformation| law.respond(&Default::default(), deformation).force;
+        assert_eq!(force(1e-3), 0.0);
+        assert!((force(-1e-3) / (-1e-3 * stiffness) - 1.0).abs() < 1e-12);
+    }
+}
+
+/// Every mistake names its key and a remedy.
+#[test]
+fn mistakes_are_explained() {
+    for (text, expected) in [
+        ("[[building.brace]]\nbay = 1\n", "building[0].brace[0].EA"),
+        (
+            "[[building.brace]]\nEA = \"1 GN\"\nstiffness = \"80 MN/m\"\n",
+            "and stiffness are both given",
+        ),
+        (
+            "[[building.brace]]\nEA = \"1 GN\"\nbay = 3\n",
+            "must rise and lie between 1 and 2, found 3 to 3",
+        ),
+        (
+            "[[building.brace]]\nEA = \"1 GN\"\nstoreys = [3, 4]\n",
+            "must rise and lie between 1 and 3, found 3 to 4",
+        ),
+        (
+            "[[building.brace]]\nEA = \"-1 GN\"\n",
+            "building[0].brace[0].EA",
+        ),
+        (
+            "[[building.brace]]\nEA = \"1 GN\"\n[[building.brace]]\nEA = \"2 GN\"\nstoreys = 1\n",
+            "gives brace.1.1.up a second time",
+        ),
+        (
+            "[[building.brace]]\nEA = \"1 GN\"\ndirection = \"left\"\n",
+            "available: up, down, both",
+        ),
+        (
+            "brace = \"X\"\n",
+            "write [[building.brace]] with double brackets",
+        ),
+        (
+            "[[building.infill]]\nmodulus = \"4 GPa\"\nthickness = \"200 mm\"\n",
+            "building[0].infill[0].width",
+        ),
+        (
+            "[[building.infill]]\nstiffness = \"80 MN/m\"\nwidth = \"1 m\"\n",
+            "and stiffness are both given",
+        ),
+    ] {
+        let shown = refusal(&format!("{FRAME}{text}"));
+        assert!(shown.contains(expected), "{text}\n{shown}");
+    }
+}
