@@ -27,6 +27,9 @@ pub(crate) struct SchemaArgs {
     /// List every check instead: what it compares, limits, source, remedy
     #[arg(long, conflicts_with = "results")]
     pub(crate) checks: bool,
+    /// Print which kind of building has which feature instead, as a table in Markdown
+    #[arg(long, conflicts_with_all = ["results", "checks"])]
+    pub(crate) combinations: bool,
 }
 
 /// A model, and options that change it.

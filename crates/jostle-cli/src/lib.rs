@@ -3,6 +3,7 @@
 mod args;
 mod check;
 mod collide;
+mod combinations;
 mod command_line;
 mod compare;
 mod completions;
@@ -59,6 +60,7 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
         Command::New(args) => starter::new(&args),
         Command::Completions(args) => completions::completions(&args, Args::command()),
         Command::Man(args) => man::man(&args, Args::command()),
+        Command::Schema(args) if args.combinations => terminal::print(&combinations::table()),
         Command::Schema(args) if args.checks => terminal::print(&match args.markdown {
             false => jostle_io::check_list(),
             true => jostle_io::check_reference(),

@@ -371,7 +371,7 @@ fn points_and_widths_of_a_gap_are_checked_one_by_one() {
         ),
         (
             "width = 0\nfloors = [[\"4 m\", \"4 m\"]]",
-            "21:11: gap[0].floors[0]: \"A\" has no floor at 4.000 m (nearest: 3.000 m), and a shear building cannot be hit between floors",
+            "21:11: gap[0].floors[0]: \"A\" has no floor at 4.000 m (nearest: 3.000 m), and no columns that can be hit between floors",
         ),
         (
             "width = 0\nfloors = [[\"wall\", 1]]",

@@ -83,7 +83,7 @@ impl Side<'_> {
         let hint = format!("(nearest: {nearest:.3} m)");
         if !self.has_columns() {
             return Err(format!(
-                "{at} {hint}, and a shear building cannot be hit between floors; move the point to a floor, raise level_tolerance, or describe \"{name}\" as a frame"
+                "{at} {hint}, and no columns that can be hit between floors; move the point to a floor, raise level_tolerance, or describe \"{name}\" as a frame"
             ));
         }
         if height > self.roof() {
@@ -274,7 +274,7 @@ fn all(
                     return Misfit::all(problem);
                 }
                 Misfit::all(format!(
-                    "\"all\" needs columns, and shear building \"{}\" has none at {height:.3} m, where \"{}\" has a floor; {}",
+                    "\"all\" needs columns that can be hit, and \"{}\" has none at {height:.3} m, where \"{}\" has a floor; {}",
                     other.building.name,
                     own.building.name,
                     remedy(a, b)

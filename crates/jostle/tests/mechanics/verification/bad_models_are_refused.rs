@@ -502,7 +502,7 @@ const CASES: &[Case] = &[
             shear_of(m).storey_heights.fill(3.0);
         },
         "gap[0].floors",
-        "\"all\" needs columns, and shear building \"tower\" has none at 3.200 m, where \"frame\" has a floor; floors of \"tower\" can hit columns of \"frame\": list the pairs, as floors = [[\"3.000 m\", 1], …]; or describe \"tower\" as a frame",
+        "\"all\" needs columns that can be hit, and \"tower\" has none at 3.200 m, where \"frame\" has a floor; floors of \"tower\" can hit columns of \"frame\": list the pairs, as floors = [[\"3.000 m\", 1], …]; or describe \"tower\" as a frame",
     ),
     (
         |m| m.gaps[0].floors = FloorPairs::listed(&[]),
@@ -537,7 +537,7 @@ const CASES: &[Case] = &[
     (
         |m| m.gaps[0].floors = FloorPairs::Heights(vec![3.2, 4.0]),
         "gap[0].floors[1]",
-        "\"tower\" has no floor at 4.000 m (nearest: 3.200 m), and a shear building cannot be hit between floors",
+        "\"tower\" has no floor at 4.000 m (nearest: 3.200 m), and no columns that can be hit between floors",
     ),
     (
         |m| m.gaps[0].floors = FloorPairs::Heights(vec![1.6]),

@@ -1,0 +1,333 @@
+//! `jostle schema --combinations`: which kind of building has which feature, asked of the program itself.
+
+use std::fmt::Write;
+
+use jostle::pushover::{LoadPattern, PushDirection};
+use jostle_export::{Export, openseespy};
+use jostle_io::{Format, read_model_text};
+use jostle_run::{Opened, RunError, pushed_buildings};
+
+/// A kind of building: its name, keys of one building, its tables, and what the gap beside it needs.
+struct Kind {
+    name: &'static str,
+    keys: &'static str,
+    tables: &'static str,
+    in_plan: bool,
+}
+
+/// Something that a model may ask for.
+struct Feature {
+    name: &'static str,
+    /// Keys of the motion.
+    motion: &'static str,
+    /// Keys of the analysis.
+    analysis: &'static str,
+    /// Keys of both buildings, after their own.
+    keys: &'static str,
+    /// Tables of both buildings.
+    tables: &'static str,
+    /// Keys of the gap; what it has by itself is left out where they begin with the same word.
+    gap: &'static str,
+    /// Further tables of the model.
+    more: &'static str,
+    /// Height of the lowest storey of the second building \[m\].
+    first_storey: f64,
+    then: Then,
+}
+
+/// What follows the reading of a model.
+#[derive(Clone, Copy, PartialEq)]
+enum Then {
+    Plan,
+    Push,
+    Export,
+}
+
+const USUAL: Feature = Feature {
+    name: "contact of floors at equal height",
+    motion: "",
+    analysis: "",
+    keys: "",
+    tables: "",
+    gap: "",
+    more: "",
+    first_storey: 3.0,
+    then: Then::Plan,
+};
+
+const KINDS: [Kind; 6] = [
+    Kind {
+        name: "frame",
+        keys: "kind = \"frame\"\nspans = [5, 5]\nconcrete = \"C30\"\ncolumn = { width = 0.5, depth = 0.5 }\nbeam = { width = 0.3, depth = 0.6 }\nbeam_mass = 4000\n",
+        tables: "",
+        in_plan: false,
+    },
+    Kind {
+        name: "shear",
+        keys: "kind = \"shear\"\nmass = \"40 t\"\nstiffness = \"60 MN/m\"\n",
+        tables: "",
+        in_plan: false,
+    },
+    Kind {
+        name: "given",
+        keys: "kind = \"given\"\nmatrices = { stiffness = [[120e6, -60e6], [-60e6, 60e6]], mass = [40e3, 40e3] }\nports = { \"1\" = { dof = 1, height = FIRST }, \"2\" = { dof = 2, height = SECOND } }\n",
+        tables: "",
+        in_plan: false,
+    },
+    Kind {
+        name: "shear, plan",
+        keys: "kind = \"shear\"\nplan = [10, 8]\nmass = \"40 t\"\nstiffness = { x = \"60 MN/m\", y = \"60 MN/m\", torsion = \"2 GN.m/rad\" }\n",
+        tables: "",
+        in_plan: true,
+    },
+    Kind {
+        name: "frame, plan",
+        keys: "kind = \"frame\"\nplan = [10, 8]\nmass = \"40 t\"\n",
+        tables: "[[building.frame]]\nat = [[0, 0], [0, 8]]\nspans = [5, 5]\nconcrete = \"C30\"\ncolumn = { width = 0.5, depth = 0.5 }\nbeam = { width = 0.3, depth = 0.6 }\n[[building.frame]]\nname = \"across\"\nat = [[0, 0], [10, 0]]\ndirection = \"y\"\nspans = [4, 4]\nconcrete = \"C30\"\ncolumn = { width = 0.5, depth = 0.5 }\nbeam = { width = 0.3, depth = 0.6 }\n",
+        in_plan: true,
+    },
+    Kind {
+        name: "space-frame",
+        keys: "kind = \"space-frame\"\nlines_x = [0, 5, 10]\nlines_y = [0, 4, 8]\nmass = \"40 t\"\nconcrete = \"C30\"\nbeam_x = { width = 0.3, depth = 0.6 }\nbeam_y = { width = 0.3, depth = 0.6 }\ncolumn = { size = [0.5, 0.5] }\n",
+        tables: "",
+        in_plan: true,
+    },
+];
+
+/// Yielding of every kind in its own words.
+const YIELDING: [&str; 6] = [
+    "hinges = { rule = \"bilinear\", column = { yield = \"300 kN.m\", post_yield = 0.01 }, beam = { yield = \"200 kN.m\", post_yield = 0.01 } }\n",
+    "hinges = { rule = \"bilinear\", yield = \"5 mm\", post_yield = 0.05 }\n",
+    "hinges = { rule = \"bilinear\", yield = \"200 kN\", post_yield = 0.05 }\n",
+    "hinges = { rule = \"bilinear\", x = { yield = \"5 mm\", post_yield = 0.05 }, y = { yield = \"5 mm\", post_yield = 0.05 } }\n",
+    "",
+    "hinges = { rule = \"bilinear\", column = { yield = \"300 kN.m\", post_yield = 0.01 }, beam = { yield = \"200 kN.m\", post_yield = 0.01 } }\n",
+];
+
+const OWN_WORDS: &str = "YIELDING";
+
+#[rustfmt::skip]
+fn features() -> Vec<Feature> {
+    let link = |name, law| Feature { name, more: law, ..USUAL };
+    vec![
+        USUAL,
+        Feature { name: "contact of slabs with columns between floors", gap: "floors = \"all\"\n", first_storey: 4.5, ..USUAL },
+        Feature { name: "friction along faces", gap: "friction = 0.4\n", ..USUAL },
+        Feature { name: "contact law `restitution`", gap: "law = \"restitution\"\nrestitution = 0.65\n", ..USUAL },
+        Feature { name: "contact law `rubber`", gap: "law = \"rubber\"\nstiffness = \"80 MN/m\"\nthickness = \"40 mm\"\n", ..USUAL },
+        Feature { name: "rigid wall", more: "[[gap]]\nbetween = [\"wall\", \"A\"]\nwidth = 0.02\nlaw = \"hertz\"\nstiffness = 2e9\n", ..USUAL },
+        Feature { name: "wall that gives way", more: "[[wall]]\nname = \"moat\"\nstiffness = \"120 MN/m\"\nmass = \"25 t\"\n[[gap]]\nbetween = [\"moat\", \"A\"]\nwidth = 0.02\nlaw = \"hertz\"\nstiffness = 2e9\n", ..USUAL },
+        link("linear link between neighbours", "[[link]]\nbetween = [\"A\", \"B\"]\nfloors = [[1, 1]]\nstiffness = \"20 MN/m\"\n"),
+        link("viscous link between neighbours", "[[link]]\nbetween = [\"A\", \"B\"]\nfloors = [[1, 1]]\nlaw = \"viscous\"\ndamping = \"200 kN.s/m\"\n"),
+        link("yielding link between neighbours", "[[link]]\nbetween = [\"A\", \"B\"]\nfloors = [[1, 1]]\nlaw = \"yielding\"\nstiffness = \"20 MN/m\"\nhinge = { rule = \"bilinear\", yield = \"100 kN\", post_yield = 0.05 }\n"),
+        Feature { name: "dampers inside a building", tables: "[[building.damper]]\nfloors = [0, 1]\ndamping = \"200 kN.s/m\"\n", ..USUAL },
+        Feature { name: "braces", tables: "[[building.brace]]\nEA = \"300 MN\"\n", ..USUAL },
+        Feature { name: "infill panels", tables: "[[building.infill]]\nstiffness = \"80 MN/m\"\n", ..USUAL },
+        Feature { name: "cracking and yielding", keys: OWN_WORDS, ..USUAL },
+        Feature { name: "columns that fail in shear", keys: "shear_failure = { strength = \"300 kN\", slope = \"5 MN/m\" }\n", ..USUAL },
+        Feature { name: "springs under the base", keys: "base = { horizontal_stiffness = \"400 MN/m\" }\n", ..USUAL },
+        Feature { name: "bearings", tables: "[building.isolation]\nkind = \"lead-rubber\"\nmat_mass = \"50 t\"\nstiffness = \"20 MN/m\"\nyield = \"60 kN\"\npost_yield = 0.1\n", ..USUAL },
+        Feature { name: "foundation on soil", tables: "[building.foundation]\nlength = \"9 m\"\nwidth = \"12 m\"\nmass = \"120 t\"\n", more: "[soil]\nshear_wave_velocity = \"200 m/s\"\ndensity = 1900\npoisson_ratio = 0.33\n", ..USUAL },
+        Feature { name: "P-Delta", keys: "p_delta = true\n", ..USUAL },
+        Feature { name: "run that starts under self weight", keys: "gravity = true\n", ..USUAL },
+        Feature { name: "one damping ratio for all modes", keys: "damping = { ratio = 0.05, modes = \"all\" }\n", ..USUAL },
+        Feature { name: "shaking from two sides", motion: "angle = \"30 deg\"\n", ..USUAL },
+        Feature { name: "vertical shaking", motion: "vertical = { kind = \"sine\", amplitude = 1, period = 0.1 }\n", ..USUAL },
+        Feature { name: "ground that differs under buildings", keys: "motion = { arrival = \"40 ms\" }\n", ..USUAL },
+        Feature { name: "forces of columns and beams", more: "[output]\nmembers = true\n", ..USUAL },
+        Feature { name: "solver `modal`", analysis: "solver = \"modal\"\n", ..USUAL },
+        Feature { name: "solver `riccati`", analysis: "solver = \"riccati\"\n", ..USUAL },
+        Feature { name: "solver `series`", analysis: "solver = \"series\"\n", ..USUAL },
+        Feature { name: "solver `product`", analysis: "solver = \"product\"\n", ..USUAL },
+        Feature { name: "pushover", then: Then::Push, ..USUAL },
+        Feature { name: "export to OpenSees", then: Then::Export, ..USUAL },
+    ]
+}
+
+/// The table in Markdown: every kind of building with every feature, `yes` or what the program says instead.
+pub(crate) fn table() -> String {
+    let mut text = String::from(
+        "# What can be combined\n\nTwo buildings of one kind stand side by side, and the model asks for one thing more. A cell has `yes`, or what the program says\ninstead. Written by `jostle schema --combinations`.\n\n|",
+    );
+    for kind in [""].into_iter().chain(KINDS.iter().map(|kind| kind.name)) {
+        let _ = write!(text, " {kind} |");
+    }
+    text.push_str("\n|");
+    text.push_str(&"---|".repeat(KINDS.len() + 1));
+    for feature in features() {
+        let _ = write!(text, "\n| {} |", feature.name);
+        for index in 0..KINDS.len() {
+            let answer = try_out(index, &feature);
+            let _ = write!(
+                text,
+                " {} |",
+                answer.err().unwrap_or_else(|| "yes".to_owned())
+            );
+        }
+    }
+    text.push('\n');
+    text
+}
+
+/// Asks for a feature of a kind; the refusal in one line.
+fn try_out(kind: usize, feature: &Feature) -> Result<(), String> {
+    let model = model(kind, feature);
+    let input = read_model_text("model", &model, Format::Toml, "".as_ref());
+    let input = input.map_err(|error| line_of(&error))?;
+    let opened = Opened::new(input, "model").map_err(|error| line_of(&error))?;
+    let motion = opened.plan().map_err(|error| match error {
+        RunError::Input(error) => line_of(&error),
+        other => cell(&other.to_string()),
+    })?;
+    match feature.then {
+        Then::Plan => Ok(()),
+        Then::Push => {
+            let buildings = [&opened.system.buildings[0]];
+            let (direction, pattern) = ([PushDirection::Right], LoadPattern::FirstMode);
+            let pushed = pushed_buildings(&buildings, &direction, pattern, 0.01);
+            pushed.map(|_| ()).map_err(|error| cell(&error.to_string()))
+        }
+        Then::Export => {
+            let exported = openseespy::export(&Export {
+                model: &opened.input.model,
+                system: &opened.system,
+                motion: &motion.0,
+            });
+            let line = |faults: Vec<jostle::ModelFault>| {
+                cell(
+                    &faults
+                        .first()
+                        .map_or_else(String::new, |own| own.problem.clone()),
+                )
+            };
+            exported.map(|_| ()).map_err(line)
+        }
+    }
+}
+
+/// A model of two buildings of a kind with a feature.
+fn model(kind: usize, feature: &Feature) -> String {
+    let own = &KINDS[kind];
+    let mut text = format!(
+        "[motion]\nkind = \"sine\"\namplitude = 2\nperiod = 0.6\nduration = 1\n{}\n[analysis]\n{}",
+        feature.motion, feature.analysis
+    );
+    for (index, name) in ["A", "B"].into_iter().enumerate() {
+        let first = if index == 0 {
+            3.0
+        } else {
+            feature.first_storey
+        };
+        let heights = match own.name {
+            // Its ports say how high its floors are.
+            "given" => String::new(),
+            _ => format!("storey_height = [{first:?}, 3.0]\n"),
+        };
+        let keys = own
+            .keys
+            .replace("FIRST", &format!("{first:?}"))
+            .replace("SECOND", &format!("{:?}", first + 3.0));
+        let place = match own.in_plan && index == 1 {
+            true => "at = [10.02, 0]\n",
+            false => "",
+        };
+        let (more, tables) = match feature.keys {
+            // Frames at lines of a plan say it frame by frame.
+            OWN_WORDS if YIELDING[kind].is_empty() => (
+                "",
+                own.tables
+                    .replace("spans", &format!("{}spans", YIELDING[0])),
+            ),
+            OWN_WORDS => (YIELDING[kind], own.tables.to_owned()),
+            keys => (keys, own.tables.to_owned()),
+        };
+        // What stands in frames of a plan belongs to them.
+        let inside =
+            feature.tables.contains("building.brace") || feature.tables.contains("building.infill");
+        let added = match inside && !own.tables.is_empty() {
+            true => feature.tables.replace("building.", "building.frame."),
+            false => feature.tables.to_owned(),
+        };
+        let _ = write!(
+            text,
+            "[[building]]\nname = \"{name}\"\n{heights}{keys}{place}{more}{tables}{added}"
+        );
+    }
+    let usual = [
+        ("law", "law = \"hertz\"\n"),
+        ("stiffness", "stiffness = 2e9\n"),
+    ];
+    let usual = usual.into_iter().filter(|(key, _)| {
+        let stated = |line: &str| line.starts_with(key);
+        !feature.gap.lines().any(stated) && !feature.gap.starts_with("law = \"restitution\"")
+    });
+    let usual: String = usual.map(|(_, line)| line).collect();
+    let width = match own.in_plan {
+        // Plans say how far apart they stand.
+        true => "",
+        false => "width = 0.02\n",
+    };
+    let _ = write!(
+        text,
+        "[[gap]]\nbetween = [\"A\", \"B\"]\n{width}{usual}{}{}",
+        feature.gap,
+        match own.in_plan {
+            // The face of a wall is solid on the right of the way.
+            true => {
+                let named = feature.more.replace(
+                    "[[gap]]\nbetween = [\"wall\",",
+                    "[[wall]]\nname = \"moat\"\n[[gap]]\nbetween = [\"moat\",",
+                );
+                let placed = "[[wall]]\nfrom = [-0.02, 8]\nto = [-0.02, 0]\n";
+                named
+                    .replace("[[wall]]\n", placed)
+                    .replace("width = 0.02\n", "")
+            }
+            false => feature.more.to_owned(),
+        }
+    );
+    text
+}
+
+/// The first problem of a model in one line.
+fn line_of(error: &jostle_io::InputError) -> String {
+    let first = error.faults.first();
+    cell(&first.map_or_else(String::new, |fault| {
+        let key = fault.path.rsplit(['.', ']']).next().unwrap_or_default();
+        match key.is_empty()
+            || fault.problem.starts_with("unknown")
+            || fault.problem.starts_with(key)
+        {
+            true => fault.problem.clone(),
+            false => format!("{key} {}", fault.problem),
+        }
+    }))
+}
+
+/// As a cell of a table.
+fn cell(text: &str) -> String {
+    text.lines().next().unwrap_or_default().replace('|', "\\|")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The page of the documentation is what the program says; `jostle schema --combinations > docs/combinations.md` writes it.
+    #[test]
+    fn the_page_in_the_documentation_is_this_one() {
+        let page = include_str!("../../../docs/combinations.md");
+        assert!(
+            table() == page,
+            "write docs/combinations.md anew: jostle schema --combinations > docs/combinations.md"
+        );
+    }
+
+    /// Every kind can at least touch its neighbour.
+    #[test]
+    fn every_kind_has_contact() {
+        for kind in 0..KINDS.len() {
+            assert_eq!(try_out(kind, &USUAL), Ok(()), "{}", KINDS[kind].name);
+        }
+    }
+}
