@@ -248,6 +248,13 @@ fn model(kind: usize, feature: &Feature) -> String {
             true => feature.tables.replace("building.", "building.frame."),
             false => feature.tables.to_owned(),
         };
+        let added = match own.in_plan {
+            true => added.replace(
+                "floors = [0, 1]\n",
+                "floors = [0, 1]\nat = [[2, 4], [8, 4]]\n",
+            ),
+            false => added,
+        };
         let _ = write!(
             text,
             "[[building]]\nname = \"{name}\"\n{heights}{keys}{place}{more}{tables}{added}"
@@ -278,6 +285,7 @@ fn model(kind: usize, feature: &Feature) -> String {
                     "[[gap]]\nbetween = [\"wall\",",
                     "[[wall]]\nname = \"moat\"\n[[gap]]\nbetween = [\"moat\",",
                 );
+                let named = named.replace("[[link]]\n", "[[link]]\nat = [[10, 4], [10.02, 4]]\n");
                 let placed = "[[wall]]\nfrom = [-0.02, 8]\nto = [-0.02, 0]\n";
                 named
                     .replace("[[wall]]\n", placed)

@@ -894,6 +894,7 @@ pub(crate) const KEYS: &[Key] = &[
     required(S::Link, "between", Neighbours, "Names of the left and the right neighbour; \"wall\" is a rigid wall at an end of the row. One building twice: links between its own floors."),
     default(S::Link, "floors", FloorPairs, "\"common\"", "Points that are joined, as for gaps. Inside one building: pairs of its floors, such as [[0, 1], [1, 2]]; 0 is its base.").any("heights are compared with those of the floors"),
     default(S::Link, "level_tolerance", Quantity(D::Length), "\"1 mm\"", "Floors whose heights differ by no more than this can be joined.").usual("a tolerance of levels", 1e-5, 1.0).possible(0.0, 20.0),
+    optional(S::LinkLaw, "at", Kind::PlanPoints, "For buildings with a plan: both ends, between which the force acts; of a link on the site, of a damper from the origin of the plan, the lower floor of a pair first.").usual("a length in plan", 1e-3, 5e3).possible(0.0, 1e5).signed(),
     required(S::Damper, "floors", FloorPairs, "The two floors that it joins, such as [0, 1], or a list of such pairs; 0 is the mat of an isolated building, otherwise the base.").any("heights are compared with those of the floors"),
 
     default(S::LinkLaw, "law", Choice(LINK_LAWS), "\"linear\"", "linear, spring and dashpot side by side; viscous, F = c v^α against the motion, with a spring in series if stiffness is given; maxwell, spring and dashpot in series; friction, a slider; yielding, a hysteresis rule; cable, tension only; stopper, compression only. All but linear need solver = \"riccati\"."),

@@ -593,7 +593,14 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, files: &Files) -> Option<Part
     } = buildings?;
     let paths = DamperPaths::new(links.len(), &dampers);
     links.extend(dampers.into_iter().map(|damper| damper.link));
-    plan::place(&mut buildings, &at, &gaps);
+    let origins = plan::place(&mut buildings, &at, &gaps);
+    for link in links.iter_mut().skip(paths.first()) {
+        // Dampers stand in the plan of their building.
+        if let ([Some(building), _], Some(ends)) = (link.between, &mut link.at) {
+            let [x, y] = origins[building];
+            *ends = ends.map(|at| [at[0] + x, at[1] + y]);
+        }
+    }
     let mut model = Model {
         title: title.unwrap_or_default(),
         buildings,

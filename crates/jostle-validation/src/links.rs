@@ -115,6 +115,7 @@ fn link(stored: &Value) -> Link {
         stiffness: optional("stiffness"),
         damping: optional("damping"),
         law,
+        ..Link::default()
     }
 }
 

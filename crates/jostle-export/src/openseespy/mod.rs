@@ -61,6 +61,13 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
                 .into(),
         );
     }
+    if export.system.is_in_space() && !model.links.is_empty() {
+        refuse(
+            "link".into(),
+            "and dampers of buildings with a plan are not exported yet; leave them out to compare"
+                .into(),
+        );
+    }
     if export.motion.has_own_grounds() && export.system.is_in_space() {
         refuse(
             "motion".into(),

@@ -3,7 +3,7 @@
 use jostle::model::LEVEL_TOLERANCE;
 use jostle::{FloorPairs, Level, Link};
 
-use super::link::{MOST_LINKS, Parameters, read_law};
+use super::link::{MOST_LINKS, Parameters, ends, read_law};
 use crate::keys::Section;
 use crate::reader::{Field, Reader};
 
@@ -58,6 +58,7 @@ fn read(reader: &mut Reader<'_>, field: &Field<'_>, index: usize) -> Option<Damp
             None
         }
     };
+    let at = ends(reader, &view);
     let Parameters {
         law,
         stiffness,
@@ -72,6 +73,7 @@ fn read(reader: &mut Reader<'_>, field: &Field<'_>, index: usize) -> Option<Damp
             stiffness,
             damping,
             law,
+            at,
         },
         path: field.path.clone(),
         is_single,
@@ -120,6 +122,11 @@ impl DamperPaths {
             first,
             paths: paths.collect(),
         }
+    }
+
+    /// Number of links before the first damper.
+    pub(super) fn first(&self) -> usize {
+        self.first
     }
 
     /// Turns the path of a link, as the check of a model has it, into that of the damper in the file.

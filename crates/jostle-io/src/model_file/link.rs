@@ -1,9 +1,10 @@
 //! `[[link]]`: springs, dampers and sliders that join neighbours, or floors of one building.
 
-use jostle::{Building, FloorPairs, Link, LinkLaw, Wall};
+use jostle::{Building, FloorPairs, Link, LinkLaw, PlanPoint, Wall};
 
 use super::between::{floors, neighbours, tolerance};
 use super::hinges::read_spring;
+use super::plan::pair;
 use crate::keys::{LINK_LAWS, Section};
 use crate::quantity::{Dimension, check_magnitude, split_number};
 use crate::reader::{Field, Reader, View};
@@ -49,6 +50,7 @@ fn read(
     let between = neighbours(reader, &view, buildings, walls, true);
     let floors = floors(reader, &view);
     let level_tolerance = tolerance(reader, &view);
+    let at = ends(reader, &view);
     let Parameters {
         law,
         stiffness,
@@ -61,7 +63,22 @@ fn read(
         stiffness,
         damping,
         law,
+        at,
     })
+}
+
+/// Where its ends stand in plan: two points.
+pub(super) fn ends(reader: &mut Reader<'_>, view: &View<'_>) -> Option<[PlanPoint; 2]> {
+    let field = reader.get(view, "at")?;
+    let entries = field.entries().unwrap_or_default();
+    let [from, to] = &entries[..] else {
+        let found = field.node.describe();
+        *reader.bad(&field, format!("expected both ends, found {found}")) =
+            Some("write at = [[\"10 m\", \"4 m\"], [\"10.1 m\", \"4 m\"]]".into());
+        return None;
+    };
+    let (from, to) = (pair(reader, from), pair(reader, to));
+    Some([from?, to?])
 }
 
 /// A law with its numbers.

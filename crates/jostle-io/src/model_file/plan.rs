@@ -512,8 +512,13 @@ fn storey_range(reader: &mut Reader<'_>, field: &Field<'_>, count: usize) -> Opt
 
 /// Moves buildings to their places: those with `at` there, the others in a row along x, each as far from the one before as
 /// the gap between them is wide.
-pub(super) fn place(buildings: &mut [Building], at: &[Option<PlanPoint>], gaps: &[Gap]) {
+pub(super) fn place(
+    buildings: &mut [Building],
+    at: &[Option<PlanPoint>],
+    gaps: &[Gap],
+) -> Vec<PlanPoint> {
     let mut end = 0.0;
+    let mut origins = vec![[0.0; 2]; buildings.len()];
     for index in 0..buildings.len() {
         let Structure::Tiers(tiers) = &mut buildings[index].structure else {
             continue;
@@ -527,8 +532,10 @@ pub(super) fn place(buildings: &mut [Building], at: &[Option<PlanPoint>], gaps: 
             [end + gap.map_or(0.0, Gap::width) - from, 0.0]
         });
         tiers.move_by(place);
+        origins[index] = place;
         end = to + place[0];
     }
+    origins
 }
 
 /// Notes gaps whose width differs from the distance of the plans.

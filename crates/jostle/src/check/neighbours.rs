@@ -80,6 +80,23 @@ fn check_between(
     false
 }
 
+/// Whether both sides are buildings, or a building and a wall with a name.
+fn two_in_space(
+    faults: &mut Faults,
+    path: &str,
+    between: [Option<usize>; 2],
+    model: &Model,
+) -> bool {
+    let count = model.buildings.len();
+    let known = |side: Option<usize>| side.is_some_and(|own| own < count + model.walls.len());
+    let is_building = |side: Option<usize>| side.is_some_and(|own| own < count);
+    let sound = between.into_iter().all(known) && between.into_iter().any(is_building);
+    faults.require(sound, format!("{path}.between"), || {
+        "names no two buildings of the model, nor a building and a wall of it".into()
+    });
+    sound
+}
+
 fn check_gap(faults: &mut Faults, path: &str, gap: &Gap, model: &Model) {
     faults.require(!gap.widths.is_empty(), format!("{path}.width"), || {
         "is empty; give one width, or one per contact".into()
@@ -158,7 +175,9 @@ fn check_link(faults: &mut Faults, path: &str, link: &Link, model: &Model) {
         && one == other
     {
         check_inside(faults, path, one, link, model);
-    } else if check_between(faults, path, link.between, model) {
+    } else if model.is_in_space() && two_in_space(faults, path, link.between, model)
+        || !model.is_in_space() && check_between(faults, path, link.between, model)
+    {
         check_floors(
             faults,
             path,

@@ -4,11 +4,16 @@ use super::{Faults, each, plan_frames, space_frame};
 use crate::contact::LawKind;
 use crate::interface::faces_of_gap;
 use crate::interface::plan_contacts::MOST_POINTS;
-use crate::model::{Base, Building, Gap, Model, PlanArea, PlanPoint, Structure, Tiers, Wall};
+use crate::model::{Base, Building, Gap, Link, Model, PlanArea, PlanPoint, Structure, Tiers, Wall};
 
 /// Whether all buildings have plans, or none has.
 pub(super) fn check_space(faults: &mut Faults, model: &Model) {
     if !model.is_in_space() {
+        for (path, link) in each(&model.links, "link") {
+            faults.require(link.at.is_none(), format!("{path}.at"), || {
+                "is for buildings with a plan; leave it out".into()
+            });
+        }
         return;
     }
     for (path, building) in each(&model.buildings, "building") {
@@ -17,10 +22,27 @@ pub(super) fn check_space(faults: &mut Faults, model: &Model) {
             "is missing: other buildings have one, and a model is either in space or in one plane; give it a plan, or remove plan from the others".into()
         });
     }
-    faults.require(model.links.is_empty(), "link".to_owned(), || {
-        "is not possible between buildings with a plan yet; leave it out".into()
-    });
+    for (path, link) in each(&model.links, "link") {
+        check_place(faults, &path, link);
+    }
     check_overlaps(faults, model);
+}
+
+/// Points between which a link acts.
+fn check_place(faults: &mut Faults, path: &str, link: &Link) {
+    let field = format!("{path}.at");
+    let Some([from, to]) = link.at else {
+        faults.add(
+            field,
+            "is missing: among buildings with plans a link needs both of its ends, such as at = [[\"10 m\", \"4 m\"], [\"10.1 m\", \"4 m\"]]",
+        );
+        return;
+    };
+    let finite = [from, to].iter().flatten().all(|own| own.is_finite());
+    faults.require(finite, field.as_str(), || "must be finite".into());
+    faults.require(!finite || from != to, field, || {
+        "names one point twice: the force of a link acts along the line between its ends".into()
+    });
 }
 
 pub(super) fn check_tiers(faults: &mut Faults, path: &str, tiers: &Tiers, building: &Building) {

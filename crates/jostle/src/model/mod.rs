@@ -508,15 +508,13 @@ pub enum ProportionalDamping {
 /// They have no force while the buildings are at rest. Rayleigh damping of the buildings does not act on them.
 ///
 /// ```
-/// use jostle::{FloorPairs, Link, LinkLaw};
+/// use jostle::{FloorPairs, Link};
 ///
 /// let damper = Link {
 ///     between: [Some(0), Some(1)],
 ///     floors: FloorPairs::listed(&[(3, 3)]),
-///     level_tolerance: 1e-3,
-///     stiffness: 0.0,
 ///     damping: 400e3, // N·s/m
-///     law: LinkLaw::Linear,
+///     ..Link::default()
 /// };
 /// assert_eq!(damper.floors, FloorPairs::listed(&[(3, 3)]));
 /// ```
@@ -535,6 +533,24 @@ pub struct Link {
     pub damping: f64,
     /// How the force follows from the change of length.
     pub law: LinkLaw,
+    /// Where the ends of every link stand on the site, for buildings with plans: its force acts along the line between them; inside a
+    /// building from the lower to the upper floor of a pair \[m\].
+    pub at: Option<[PlanPoint; 2]>,
+}
+
+impl Default for Link {
+    /// A link without stiffness and damping between a wall on the left and one on the right, which the check refuses.
+    fn default() -> Self {
+        Self {
+            between: [None; 2],
+            floors: FloorPairs::Common,
+            level_tolerance: LEVEL_TOLERANCE,
+            stiffness: 0.0,
+            damping: 0.0,
+            law: LinkLaw::Linear,
+            at: None,
+        }
+    }
 }
 
 impl Link {

@@ -55,8 +55,10 @@ impl AssembledBuilding {
 
     /// Adds links between its floors to its storey forces.
     pub(crate) fn link(&mut self, links: Vec<InnerLink>) {
+        let axis = self.discretization.centres.first().copied();
         for (index, link) in links.iter().enumerate() {
-            self.storeys.add_link(index, &link.ends);
+            self.storeys
+                .add_link(index, &link.ends, axis.unwrap_or_default());
         }
         self.inner_links = links;
     }

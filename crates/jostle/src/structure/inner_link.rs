@@ -18,16 +18,26 @@ pub struct InnerLink {
     pub floors: [usize; 2],
     /// Force per rate of shortening of one with a linear dashpot beside its spring, otherwise 0 \[N·s/m\].
     pub damping: f64,
-    /// Heights of its ends above the base \[m\], and how its compression counts among the restoring forces there, 1 or −1; an end
-    /// at the base has none.
-    pub ends: Vec<(f64, f64)>,
+    /// Its ends, without one at the base.
+    pub ends: Vec<LinkEnd>,
+}
+
+/// An end of a link at a floor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinkEnd {
+    /// Height above the base \[m\].
+    pub height: f64,
+    /// How a compression of 1 N counts among the restoring forces there: along x, across \[–\], and as a torque about the origin of the
+    /// site \[m\]; 1 or −1 along x in one plane.
+    pub shares: [f64; 3],
 }
 
 impl InnerLink {
-    /// How its compression counts in the base shear: 0 between two floors, 1 or −1 between a floor and the base.
+    /// How its compression counts in the base shear: 0 between two floors, 1 or −1 between a floor and the base, less at an angle in
+    /// plan.
     #[must_use]
     pub fn of_base(&self) -> f64 {
-        self.ends.iter().map(|(_, sign)| sign).sum()
+        self.ends.iter().map(|end| end.shares[0]).sum()
     }
 
     /// In words, for the corners of its spring.

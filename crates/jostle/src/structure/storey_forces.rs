@@ -3,9 +3,9 @@
 use crate::linear::Row;
 use crate::model::LEVEL_TOLERANCE;
 use crate::structure::Equations;
-use crate::structure::StickModel;
 use crate::structure::element::{self, Part, Place, THETA, X, Y};
 use crate::structure::stick_elements;
+use crate::structure::{LinkEnd, StickModel};
 
 /// Storey forces as linear forms of displacements.
 ///
@@ -158,8 +158,8 @@ impl StoreyForces {
         all
     }
 
-    /// Adds a link between floors of a building in one plane; `ends`: heights \[m\], and how its compression counts there.
-    pub(crate) fn add_link(&mut self, link: usize, ends: &[(f64, f64)]) {
+    /// Adds a link between floors of a building; `axis`: centre of mass of its lowest floor on the site \[m\].
+    pub(crate) fn add_link(&mut self, link: usize, ends: &[LinkEnd], axis: [f64; 2]) {
         let mut top = 0.0;
         let storeys = self.storeys[..self.per_direction].iter();
         let tops = storeys.map(|storey| {
@@ -167,22 +167,35 @@ impl StoreyForces {
             top
         });
         let tops: Vec<f64> = tops.collect();
-        for (height, sign) in ends {
-            if let Some((storey, arm)) = self.arm(&tops, *height) {
-                storey.of_links.push((link, [*sign, sign * arm]));
+        let directions = self.storeys.len() / self.per_direction.max(1);
+        for end in ends {
+            let [x, y, torque] = end.shares;
+            let about_axis = torque - axis[0] * y + axis[1] * x;
+            let shares = [x, y, about_axis].into_iter().enumerate();
+            for (direction, share) in shares.take(directions) {
+                if let (true, Some((storey, arm))) = (share != 0.0, self.place(&tops, end.height)) {
+                    let own = &mut self.storeys[direction * self.per_direction + storey];
+                    own.of_links.push((link, [share, share * arm]));
+                }
             }
         }
     }
 
     /// The storey of a node, and its height above the base of the storey \[m\]; `None` at the ground.
     fn arm(&mut self, tops: &[f64], height: f64) -> Option<(&mut Storey, f64)> {
+        let (at, arm) = self.place(tops, height)?;
+        Some((&mut self.storeys[at], arm))
+    }
+
+    /// The same with the index of the storey.
+    fn place(&self, tops: &[f64], height: f64) -> Option<(usize, f64)> {
         if height <= LEVEL_TOLERANCE {
             return None;
         }
         let above = tops.partition_point(|top| *top + LEVEL_TOLERANCE < height);
         let at = above.min(tops.len().checked_sub(1)?);
         let base = if at == 0 { 0.0 } else { tops[at - 1] };
-        Some((&mut self.storeys[at], height - base))
+        Some((at, height - base))
     }
 
     /// Number of storeys; three times as many for a building in plan.

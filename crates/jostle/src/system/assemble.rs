@@ -1,7 +1,7 @@
 //! From a model to a system.
 
 use super::soil::{self, Founded, Ground};
-use super::{BuildingSystem, FoundationPlace, SpringSupport, System, WallPlace, finite};
+use super::{BuildingSystem, Floor, FoundationPlace, SpringSupport, System, WallPlace, finite};
 use crate::contact::{ContactLaw, effective_mass};
 use crate::interface::contact_points::{PointPair, SAME, mean};
 use crate::interface::{
@@ -13,7 +13,7 @@ use crate::model::{
     Base, Building, Damping, FloorPairs, LEVEL_TOLERANCE, Level, Link, LinkLaw, LumpedFloor, Model,
     ModelFault, PlanPoint, Structure,
 };
-use crate::structure::{Discretization, InnerLink, Support};
+use crate::structure::{Discretization, InnerLink, LinkEnd, Support};
 
 impl System {
     /// Assembles a model.
@@ -211,7 +211,12 @@ impl System {
             let mut pairs = joined.pairs.clone();
             sort_by(&mut pairs, |a, b| mean(a).total_cmp(&mean(b)));
             let inside = link.is_inside();
-            let ends: Vec<_> = if inside {
+            let ends: Vec<_> = if let Some(at) = link.at {
+                links_in_plan(self, link, &pairs, at)
+                    .into_iter()
+                    .map(Ok)
+                    .collect()
+            } else if inside {
                 ports_inside(self, link)
             } else {
                 let ends = |pair| ports(self, joined.between, pair);
@@ -577,7 +582,14 @@ fn inner_links(
             between: [Some(0); 2],
             ..Link::clone(link)
         };
-        for ports in ports_inside(&alone, &of_alone) {
+        let ends = match link.at {
+            Some(at) => {
+                let ends = links_in_plan(&alone, &of_alone, &[], at);
+                ends.into_iter().map(Ok).collect()
+            }
+            None => ports_inside(&alone, &of_alone),
+        };
+        for ports in ends {
             let ports = ports.map_err(|problem| {
                 vec![ModelFault {
                     path: format!("link[{number}].floors"),
@@ -602,11 +614,102 @@ fn inner_links(
                 } else {
                     0.0
                 },
-                ends: sides().map(|(port, sign)| (port.height, -sign)).collect(),
+                ends: sides()
+                    .map(|(port, sign)| LinkEnd {
+                        height: port.height,
+                        shares: force_in_plan(link, sign).map(|share| -sign * share),
+                    })
+                    .collect(),
             });
         }
     }
     Ok(found)
+}
+
+/// Direction of a link from its first to its second end, and the torque of a unit force in it about the origin of the site, at the end
+/// with this sign \[m\]; along x in one plane.
+fn force_in_plan(link: &Link, sign: f64) -> [f64; 3] {
+    let Some(at) = link.at else {
+        return [1.0, 0.0, 0.0];
+    };
+    let [x, y] = direction_of(at);
+    let end = at[usize::from(sign > 0.0)];
+    [x, y, end[0] * y - end[1] * x]
+}
+
+/// Unit vector from one point to another in plan.
+fn direction_of([from, to]: [PlanPoint; 2]) -> [f64; 2] {
+    let [x, y] = [to[0] - from[0], to[1] - from[1]];
+    let length = libm::hypot(x, y);
+    [x / length, y / length]
+}
+
+/// Ends of the links of a model between points in plan, from the lowest up; `pairs`: heights of the floors of neighbours \[m\].
+fn links_in_plan(
+    system: &System,
+    link: &Link,
+    pairs: &[PointPair],
+    at: [PlanPoint; 2],
+) -> Vec<PortPair> {
+    let mut ends: Vec<PortPair> = match (&link.floors, link.is_inside()) {
+        (FloorPairs::Listed(pairs), true) => {
+            let floor = |level: Level| match level {
+                Level::Floor(floor) => Some(floor),
+                Level::Height(_) | Level::Wall => None,
+            };
+            let pairs = pairs.iter().map(|pair| pair.map(floor));
+            pairs
+                .map(|floors| ports_in_plan(system, link.between, floors, at))
+                .collect()
+        }
+        _ => {
+            let floor_at = |side: usize, height: f64| {
+                let own = system.buildings.get(link.between[side]?)?;
+                let near = |floor: &Floor| (floor.height - height).abs() <= 2.0 * SAME;
+                own.floors.iter().position(near).map(|index| index + 1)
+            };
+            let floors = |pair: &PointPair| [0, 1].map(|side| floor_at(side, pair[side]?));
+            pairs
+                .iter()
+                .map(|pair| ports_in_plan(system, link.between, floors(pair), at))
+                .collect()
+        }
+    };
+    sort_by(&mut ends, |a, b| a.height().total_cmp(&b.height()));
+    ends
+}
+
+/// Ends of a link between two floors in plan, counted from 1, or a floor and the mat, which is floor 0; `None` is a wall or the ground.
+fn ports_in_plan(
+    system: &System,
+    between: [Option<usize>; 2],
+    floors: [Option<usize>; 2],
+    at: [PlanPoint; 2],
+) -> PortPair {
+    let direction = direction_of(at);
+    let ends = [0, 1].map(|side| {
+        let (building, floor) = (between[side]?, floors[side]?);
+        let own = system.buildings.get(building)?;
+        let (row, height) = match floor.checked_sub(1) {
+            Some(index) => (
+                own.row_at(index, at[side], direction),
+                own.floors[index].height,
+            ),
+            None => {
+                let mat = own.mat_in_plan.as_ref()?;
+                (mat.row_at(at[side], direction), 0.0)
+            }
+        };
+        let mass = row.moved_down(own.offset).moving_mass(&own.equations.mass);
+        Some(Port {
+            building,
+            row,
+            mass,
+            floor: Some(floor).filter(|floor| *floor > 0),
+            height,
+        })
+    });
+    PortPair(ends)
 }
 
 /// Whether an end is the foundation of its building: what acts there acts below it.

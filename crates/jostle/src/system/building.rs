@@ -379,21 +379,17 @@ impl BuildingSystem {
             Damping::AllModes { .. } => (0.0, 0.0),
             Damping::Rayleigh { alpha, beta } => (*alpha, *beta),
             Damping::Ratio { ratio, modes } => {
-                let lateral: Vec<f64> = if self.is_in_space() {
-                    self.frequencies_along()
-                } else {
-                    let modes = self.lateral_modes();
-                    modes.map(|mode| mode.circular_frequency).collect()
-                };
-                let frequency = |number: &usize| {
-                    lateral.get(number - 1).copied().ok_or_else(|| {
+                let lateral = self.modes_along();
+                let frequency =
+                    |number: &usize| {
+                        lateral.get(number - 1).map(|own| own.frequency).ok_or_else(|| {
                         format!(
                             "lateral mode {number} does not exist: \"{}\" has {} lateral modes",
                             self.name,
                             lateral.len()
                         )
                     })
-                };
+                    };
                 let usual = usual_damping_modes(lateral.len());
                 let asked = &modes[..];
                 let modes = if modes.is_empty() { usual } else { asked };
@@ -406,15 +402,13 @@ impl BuildingSystem {
                 // Squares of frequencies, as far as damping in proportion to stiffness acts: not on springs of links.
                 let damped: Vec<f64> = modes
                     .iter()
-                    .map(|number| self.own_stiffness(*number))
+                    .map(|number| lateral[number - 1].own_stiffness)
                     .collect();
                 match (&frequencies[..], &damped[..]) {
                     (&[single], &[own]) if on_mat && !self.inner_links.is_empty() => {
                         (0.0, 2.0 * ratio * single / own)
                     }
-                    (&[low, high], &[own_low, own_high])
-                        if !self.inner_links.is_empty() && !self.is_in_space() =>
-                    {
+                    (&[low, high], &[own_low, own_high]) if !self.inner_links.is_empty() => {
                         let beta = 2.0 * ratio * (high - low) / (own_high - own_low);
                         let alpha = 2.0 * ratio * low - beta * own_low;
                         if alpha >= 0.0 && beta >= 0.0 {
@@ -457,14 +451,13 @@ impl BuildingSystem {
         0.5 * (equations.alpha + damped / mass) / mode.circular_frequency
     }
 
-    /// φᵀKφ of a lateral mode, counted from 1, without the springs of links between floors, ω² if there are none \[rad²/s²\].
-    fn own_stiffness(&self, number: usize) -> f64 {
-        let Some(mode) = self.lateral_modes().nth(number - 1) else {
-            return f64::NAN;
-        };
-        let links = self.inner_links.iter();
-        let links = links.map(|link| link.stiffness * link.shortening.value(&mode.shape).powi(2));
-        mode.circular_frequency.powi(2) - links.sum::<f64>()
+    /// Lateral modes along the row, longest period first: of a building in space with all displacements but those along x held.
+    fn modes_along(&self) -> Vec<ModeAlong> {
+        if self.is_in_space() {
+            return self.modes_with_all_else_held();
+        }
+        let of_mode = |mode: &Mode| ModeAlong::new(mode, &self.inner_links);
+        self.lateral_modes().map(of_mode).collect()
     }
 
     /// Whether its floors move in both horizontal directions and turn.
@@ -473,10 +466,9 @@ impl BuildingSystem {
         self.structure.discretization.stick_model.in_plan
     }
 
-    /// Circular frequencies with all displacements but those along x held, rising \[rad/s\].
-    fn frequencies_along(&self) -> Vec<f64> {
+    fn modes_with_all_else_held(&self) -> Vec<ModeAlong> {
         if !self.discretization.stick_model.frame_nodes.is_empty() {
-            return self.frequencies_of_frames_along();
+            return self.modes_of_frames_along();
         }
         let equations = &self.equations;
         let along: Vec<usize> = (0..equations.len())
@@ -494,27 +486,52 @@ impl BuildingSystem {
                 let force = spring.hysteresis.initial_tangent() * spring.deformation(&unit);
                 spring.row.push(force, &mut column);
             }
+            for link in &self.inner_links {
+                let force = link.stiffness * link.shortening.value(&unit);
+                link.shortening.push(force, &mut column);
+            }
             for (i, &row) in along.iter().enumerate().skip(j) {
                 lower[i][j] = column[row] / (equations.mass[row] * equations.mass[dof]).sqrt();
             }
         }
-        let (values, _) = symmetric::eigen(&lower);
-        values.into_iter().map(f64::sqrt).collect()
+        let (values, vectors) = symmetric::eigen(&lower);
+        let modes = values.into_iter().zip(vectors).map(|(value, vector)| {
+            let mut shape = vec![0.0; equations.len()];
+            for (&dof, own) in along.iter().zip(vector) {
+                shape[dof] = own / equations.mass[dof].sqrt();
+            }
+            ModeAlong::of_shape(value.sqrt(), &shape, &self.inner_links)
+        });
+        modes.collect()
     }
 
     /// The same for a building with frames: lateral modes of the building whose floors neither move across nor turn.
-    fn frequencies_of_frames_along(&self) -> Vec<f64> {
+    fn modes_of_frames_along(&self) -> Vec<ModeAlong> {
         let mut held = self.discretization.clone();
         for &floor in &held.floors {
             held.stick_model.nodes[floor].support = Support::Guided;
         }
-        let held = AssembledBuilding::new(&self.name, held);
+        let mut held = AssembledBuilding::new(&self.name, held);
+        // Links act on floors, which only move along x now.
+        let n = self.floors.len();
+        let moved = |(dof, share): &(usize, f64)| {
+            let mut along = self.tracks[..n].iter();
+            let floor = along.position(|own| own.dof - self.offset == *dof)?;
+            Some((held.floor_dofs[floor], *share))
+        };
+        let links = self.inner_links.iter().map(|link| InnerLink {
+            shortening: link.shortening.entries().iter().filter_map(moved).collect(),
+            ..link.clone()
+        });
+        held.inner_links = links.collect();
         let sweep = RiccatiSweep::through(&held.equations);
         let modes = lateral_modes_along(&held, &sweep).unwrap_or_default();
         let along = modes
             .iter()
             .filter(|mode| mode.effective_mass_ratio_x >= LATERAL_SHARE);
-        along.map(|mode| mode.circular_frequency).collect()
+        along
+            .map(|mode| ModeAlong::new(mode, &held.inner_links))
+            .collect()
     }
 
     /// Places the corners of its floors, given on the site from the ground up \[m\].
@@ -593,6 +610,30 @@ impl BuildingSystem {
     #[must_use]
     pub fn range(&self) -> std::ops::Range<usize> {
         self.offset..self.offset + self.equations.len()
+    }
+}
+
+/// A lateral mode along the row, as far as damping needs it.
+struct ModeAlong {
+    /// Circular frequency \[rad/s\].
+    frequency: f64,
+    /// φᵀKφ without the springs of links between floors, ω² if there are none \[rad²/s²\].
+    own_stiffness: f64,
+}
+
+impl ModeAlong {
+    fn new(mode: &Mode, links: &[InnerLink]) -> Self {
+        Self::of_shape(mode.circular_frequency, &mode.shape, links)
+    }
+
+    /// `shape`: with a mass of 1 kg.
+    fn of_shape(frequency: f64, shape: &[f64], links: &[InnerLink]) -> Self {
+        let links = links.iter();
+        let links = links.map(|link| link.stiffness * link.shortening.value(shape).powi(2));
+        Self {
+            frequency,
+            own_stiffness: frequency.powi(2) - links.sum::<f64>(),
+        }
     }
 }
 

@@ -262,6 +262,7 @@ fn every_joint_and_struck_point_is_in_equilibrium() {
         floors: FloorPairs::Listed(vec![[Level::Height(7.7), Level::Floor(2)]]),
         level_tolerance: 1e-3,
         law: jostle::LinkLaw::Linear,
+        ..Link::default()
     });
     let models = [
         ("plain", neighbours()),

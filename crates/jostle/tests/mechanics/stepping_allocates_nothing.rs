@@ -59,6 +59,7 @@ fn blows_and_links_allocate_nothing_either() {
         stiffness: 1e6,
         damping: 5e4,
         law: LinkLaw::Linear,
+        ..Link::default()
     }];
     never_more_often(&model);
 }
@@ -83,6 +84,7 @@ fn links_that_are_not_linear_bearings_and_walls_allocate_nothing_either() {
         stiffness,
         damping,
         law,
+        ..Link::default()
     };
     model.links = vec![
         link(LinkLaw::Viscous { exponent: 0.4 }, 0.0, 2e4),

@@ -103,6 +103,7 @@ fn models() -> Vec<Model> {
         stiffness: 2e7,
         damping: 1e5,
         law: LinkLaw::Linear,
+        ..Link::default()
     };
     let beta = Damping::Rayleigh {
         alpha: 0.2,

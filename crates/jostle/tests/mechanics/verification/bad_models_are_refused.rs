@@ -39,6 +39,7 @@ fn link(stiffness: f64, damping: f64) -> Link {
         stiffness,
         damping,
         law: jostle::LinkLaw::Linear,
+        ..Link::default()
     }
 }
 

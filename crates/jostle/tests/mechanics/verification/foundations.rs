@@ -524,6 +524,7 @@ fn links_between_floors_on_soil_are_part_of_their_storeys() {
             stiffness,
             damping: BETA * stiffness,
             law: LinkLaw::Linear,
+            ..Link::default()
         });
     }
     let (motion, plan) = (shaking(4.0), steps(1e-3, 1));

@@ -187,6 +187,7 @@ fn energy_closes_with_contacts_links_and_momentum_laws() {
         stiffness,
         damping,
         law,
+        ..Link::default()
     };
     let cases = [
         (LawKind::Linear, Some(link(LinkLaw::Linear, 4e6, 2e5)), true),

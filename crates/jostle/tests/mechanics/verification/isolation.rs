@@ -283,6 +283,7 @@ fn link(floors: &[(usize, usize)], law: LinkLaw, stiffness: f64, damping: f64) -
         stiffness,
         damping,
         law,
+        ..Link::default()
     }
 }
 

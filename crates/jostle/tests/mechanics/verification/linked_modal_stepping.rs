@@ -39,6 +39,7 @@ fn link(between: [Option<usize>; 2], floors: &[(usize, usize)], of: [f64; 2]) ->
         stiffness: of[0],
         damping: of[1],
         law: jostle::LinkLaw::Linear,
+        ..Link::default()
     }
 }
 

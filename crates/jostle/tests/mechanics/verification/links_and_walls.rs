@@ -50,6 +50,7 @@ fn link(between: [Option<usize>; 2], stiffness: f64, damping: f64) -> Link {
         stiffness,
         damping,
         law: LinkLaw::Linear,
+        ..Link::default()
     }
 }
 

@@ -23,6 +23,7 @@ fn braces(floors: &[(usize, usize)], stiffness: f64, damping: f64) -> Link {
         stiffness,
         damping,
         law: LinkLaw::Linear,
+        ..Link::default()
     }
 }
 

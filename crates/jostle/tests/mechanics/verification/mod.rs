@@ -27,6 +27,7 @@ mod isolation_energy;
 mod isolation_in_plan;
 mod linked_modal_stepping;
 mod links_and_walls;
+mod links_in_plan;
 mod links_inside;
 mod mirrored_model_mirrors_the_answer;
 mod modal_stepping;

@@ -52,6 +52,7 @@ fn towers(count: usize) -> Model {
             stiffness: 2e6,
             damping: 1e5,
             law: jostle::LinkLaw::Linear,
+            ..Link::default()
         })
         .collect();
     model
@@ -144,6 +145,7 @@ fn frames_of_unequal_storeys_equal_one_system_of_full_matrices() {
         stiffness: 1e6,
         damping: 2e5,
         law: jostle::LinkLaw::Linear,
+        ..Link::default()
     });
     let system = assembled(&model);
     let heights: Vec<(usize, [Option<usize>; 2], f64)> = system
@@ -212,6 +214,7 @@ fn the_cost_of_a_step_grows_with_the_number_of_buildings_only_once() {
                 stiffness: 1e6,
                 damping: 1e5,
                 law: jostle::LinkLaw::Linear,
+                ..Link::default()
             })
             .collect();
         let work = run(&assembled(&model), &shaking(0.5), &steps(1e-3, 1)).work;
