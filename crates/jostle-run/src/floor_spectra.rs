@@ -100,10 +100,10 @@ pub(crate) fn filter_floors(request: Option<&FloorSpectraRequest>, outcome: &mut
     let low_pass = low_pass(request);
     let order = request.map_or(USUAL_ORDER, |request| request.order);
     let column = |column| history.column(column).unwrap_or_default();
-    let (time, ground) = (column(Column::Time), column(Column::GroundAcceleration));
+    let (time, ground) = (column(Column::TIME), column(Column::GROUND_ACCELERATION));
     let one = |building: usize, floor: usize| -> Result<f64, MotionFault> {
-        let total = column(Column::TotalAcceleration { building, floor });
-        let velocity = column(Column::Velocity { building, floor });
+        let total = column(Column::total_acceleration(building, floor));
+        let velocity = column(Column::velocity(building, floor));
         let motion = UnevenMotion::with_velocity(time.clone(), total, &velocity, &ground)?;
         filtered_peak(&motion, low_pass, order)
     };
@@ -178,12 +178,12 @@ fn compute(
     row_interval: f64,
 ) -> Result<RunFloorSpectra, MotionFault> {
     let column = |column| history.column(column).unwrap_or_default();
-    let (time, ground) = (column(Column::Time), column(Column::GroundAcceleration));
+    let (time, ground) = (column(Column::TIME), column(Column::GROUND_ACCELERATION));
     let mut resolution = 0.0_f64;
     let mut floors = Vec::with_capacity(request.floors.len());
     for &(building, floor) in &request.floors {
-        let total = column(Column::TotalAcceleration { building, floor });
-        let velocity = column(Column::Velocity { building, floor });
+        let total = column(Column::total_acceleration(building, floor));
+        let velocity = column(Column::velocity(building, floor));
         let motion = UnevenMotion::with_velocity(time.clone(), total, &velocity, &ground)?;
         let spectra = spectra(request, &motion)?;
         let coarse = self::spectra(request, &motion.every_second())?;

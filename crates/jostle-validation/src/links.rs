@@ -305,14 +305,11 @@ fn compare(source: &str, case: &Value, tolerance: f64) -> Vec<Row> {
 /// Displacements at the instants stored.
 fn states(case: &Value, system: &System, outcome: &Outcome) -> Vec<(f64, f64)> {
     let history = outcome.history.as_ref().expect("it is recorded");
-    let times = history.column(Column::Time).expect("it has times");
+    let times = history.column(Column::TIME).expect("it has times");
     let mut columns = Vec::new();
     for (index, building) in system.buildings.iter().enumerate() {
         for floor in 1..=building.floors.len() {
-            let column = Column::Displacement {
-                building: index,
-                floor,
-            };
+            let column = Column::displacement(index, floor);
             columns.push(history.column(column).expect("it is recorded"));
         }
     }

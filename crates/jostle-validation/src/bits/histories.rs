@@ -59,7 +59,7 @@ pub(super) fn describe(outcome: &Outcome) -> Value {
     let time = history
         .columns()
         .iter()
-        .position(|own| *own == Column::Time);
+        .position(|own| *own == Column::TIME);
     let at = |row: usize| time.map_or(0.0, |time| history.row(row)[time]);
     let end = at(history.len() - 1);
     let mut spans: [Bits; SPANS] = Default::default();

@@ -56,80 +56,47 @@ pub(crate) struct Instant<'a> {
 
 /// Columns of a history, in order.
 pub(crate) fn columns(system: &System, grounds: &RunGrounds<'_>) -> Vec<Column> {
-    let mut columns = vec![Column::Time, Column::GroundAcceleration];
+    let mut columns = vec![Column::TIME, Column::GROUND_ACCELERATION];
     if system.is_in_space() {
-        columns.push(Column::GroundAccelerationAcross);
+        columns.push(Column::GROUND_ACCELERATION.across());
     }
-    for (building, properties) in system.structures().iter().enumerate() {
-        for floor in 1..=properties.floors.len() {
-            columns.extend([
-                Column::Displacement { building, floor },
-                Column::Velocity { building, floor },
-                Column::TotalAcceleration { building, floor },
-            ]);
-        }
-        if properties.is_in_space() {
-            for floor in 1..=properties.floors.len() {
-                columns.extend([
-                    Column::DisplacementAcross { building, floor },
-                    Column::VelocityAcross { building, floor },
-                    Column::TotalAccelerationAcross { building, floor },
-                ]);
-            }
-            for floor in 1..=properties.floors.len() {
-                columns.extend([
-                    Column::Rotation { building, floor },
-                    Column::RotationRate { building, floor },
-                    Column::RotationAcceleration { building, floor },
-                ]);
-            }
-        }
+    for (building, own) in system.structures().iter().enumerate() {
+        let floors = own.floors.len();
+        let tracks = own.tracks.iter().enumerate();
+        columns.extend(tracks.flat_map(|(place, track)| {
+            Column::motion(building, place % floors + 1, track.direction)
+        }));
     }
     let contacts = system.reported_contacts();
-    columns.extend((0..contacts).map(|contact| Column::ContactForce { contact }));
+    columns.extend((0..contacts).map(Column::contact_force));
     columns.extend(
         (0..system.contacts.len())
             .filter(|contact| has_closing(system, grounds, *contact))
-            .map(|contact| Column::Closing { contact }),
+            .map(Column::closing),
     );
     let links = system.model_links().len();
-    columns.extend((0..links).map(|link| Column::LinkForce { link }));
+    columns.extend((0..links).map(Column::link_force));
     let followed = system.links_followed.iter();
-    columns.extend(
-        followed.flat_map(|&link| [Column::LinkStroke { link }, Column::LinkSpeed { link }]),
-    );
-    let supported = system.buildings.iter().enumerate();
-    for (building, _) in supported.filter(|(_, own)| own.support.is_some()) {
-        let floor = 0;
-        columns.extend([
-            Column::Displacement { building, floor },
-            Column::Velocity { building, floor },
-            Column::TotalAcceleration { building, floor },
-            Column::SupportForce { building },
-        ]);
-        if system.buildings[building].mat_in_plan.is_some() {
-            columns.extend([
-                Column::DisplacementAcross { building, floor },
-                Column::VelocityAcross { building, floor },
-                Column::TotalAccelerationAcross { building, floor },
-                Column::SupportForceAcross { building },
-                Column::Rotation { building, floor },
-                Column::RotationRate { building, floor },
-                Column::RotationAcceleration { building, floor },
-            ]);
+    columns
+        .extend(followed.flat_map(|&link| [Column::link_stroke(link), Column::link_speed(link)]));
+    for (building, own) in system.buildings.iter().enumerate() {
+        if own.support.is_some() {
+            columns.extend(Column::motion(building, 0, Direction::Along));
+            columns.push(Column::support_force(building));
+        }
+        if own.mat_in_plan.is_some() {
+            columns.extend(Column::motion(building, 0, Direction::Across));
+            columns.push(Column::support_force(building).across());
+            columns.extend(Column::motion(building, 0, Direction::Turning));
         }
     }
-    columns.extend(EnergyTerm::ALL.map(Column::Energy));
+    columns.extend(EnergyTerm::ALL.map(Column::energy));
     if grounds.part {
-        columns.push(Column::Energy(EnergyTerm::Ground));
+        columns.push(Column::energy(EnergyTerm::Ground));
         let places = 0..grounds.places();
-        columns.extend(
-            places
-                .clone()
-                .map(|building| Column::GroundDisplacement { building }),
-        );
+        columns.extend(places.clone().map(Column::ground_displacement));
         if system.is_in_space() {
-            columns.extend(places.map(|building| Column::GroundDisplacementAcross { building }));
+            columns.extend(places.map(|building| Column::ground_displacement(building).across()));
         }
     }
     columns

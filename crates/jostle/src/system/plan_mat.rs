@@ -104,7 +104,7 @@ impl BuildingSystem {
     pub(crate) fn below_lowest(&self, direction: Direction, displacement: &[f64]) -> f64 {
         let dof = match (direction, &self.mat_in_plan) {
             (Direction::Along, _) => self.foot,
-            (_, None) => None,
+            (_, None) | (Direction::Up, _) => None,
             (Direction::Across, Some(mat)) => Some(mat.dofs[1]),
             (Direction::Turning, Some(mat)) => Some(mat.dofs[2]),
         };

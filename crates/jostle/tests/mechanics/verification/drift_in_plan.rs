@@ -87,9 +87,9 @@ fn drifts_are_those_of_recorded_motions() {
         for storey in 0..3 {
             let motion_of = |floor: usize| {
                 [
-                    column(Column::Displacement { building, floor }),
-                    column(Column::DisplacementAcross { building, floor }),
-                    column(Column::Rotation { building, floor }),
+                    column(Column::displacement(building, floor)),
+                    column(Column::displacement(building, floor).across()),
+                    column(Column::displacement(building, floor).turning()),
                 ]
             };
             let (above, below) = (

@@ -149,7 +149,7 @@ fn a_shear_building_on_soil_is_the_same_as_by_its_matrices() {
         };
         let [expected, found] = [&given, &system].map(|system| run(system, &motion, &plan));
         for floor in 1..=3 {
-            let of = |outcome| column(outcome, Column::Displacement { building: 0, floor });
+            let of = |outcome| column(outcome, Column::displacement(0, floor));
             assert!(difference(&of(&found), &of(&expected)) < 1e-9);
         }
         let place = system.buildings[0].foundation.expect("it stands on one");
@@ -402,8 +402,8 @@ fn equal_neighbours_see_the_sum_of_a_row() {
     });
     for building in 0..2 {
         for floor in 1..=2 {
-            let expected = column(&one, Column::Displacement { building: 0, floor });
-            let found = column(&pair, Column::Displacement { building, floor });
+            let expected = column(&one, Column::displacement(0, floor));
+            let found = column(&pair, Column::displacement(building, floor));
             assert!(difference(&found, &expected) < 1e-9);
         }
         let peaks = [pair.foundations[building], one.foundations[0]];
@@ -462,11 +462,11 @@ fn condensed_equals_monolithic_on_soil() {
             };
             let outcome = run(&system, &motion, &plan);
             assert!(!outcome.impacts.is_empty());
-            let times = column(&outcome, Column::Time);
+            let times = column(&outcome, Column::TIME);
             let (peaks, displacement) = monolith(&system, &motion, &times);
             let contacts = 0..system.contacts.len();
             let got: Vec<f64> = contacts
-                .map(|contact| largest(&column(&outcome, Column::ContactForce { contact })))
+                .map(|contact| largest(&column(&outcome, Column::contact_force(contact))))
                 .collect();
             let forces = difference(&got, &peaks[..got.len()]);
             let displacements = difference(&outcome.state.displacement, &displacement);
@@ -529,7 +529,7 @@ fn links_between_floors_on_soil_are_part_of_their_storeys() {
     let (motion, plan) = (shaking(4.0), steps(1e-3, 1));
     let [expected, found] = [&stiff, &linked].map(|model| run(&assembled(model), &motion, &plan));
     for floor in 1..=3 {
-        let of = |outcome| column(outcome, Column::Displacement { building: 0, floor });
+        let of = |outcome| column(outcome, Column::displacement(0, floor));
         assert!(difference(&of(&found), &of(&expected)) < 1e-9);
     }
     let rocking = [&found, &expected].map(|outcome| outcome.foundations[0].rocking[0].value);

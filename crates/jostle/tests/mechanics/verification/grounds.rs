@@ -302,12 +302,9 @@ fn walls_stand_on_their_own_ground() {
         // The greatest of u + d_l − d_r over the recorded instants.
         let history = apart.history.as_ref().expect("a history");
         let time = history
-            .column(jostle::history::Column::Time)
+            .column(jostle::history::Column::TIME)
             .expect("times");
-        let floor = jostle::history::Column::Displacement {
-            building: 0,
-            floor: 2,
-        };
+        let floor = jostle::history::Column::displacement(0, 2);
         let u = history.column(floor).expect("displacements");
         let closings = time.iter().zip(&u).map(|(t, u)| {
             let [left, right] = grounds.each_ref().map(|path| path.at(*t).displacement[0]);

@@ -111,7 +111,7 @@ fn run(model: &Model, motion: &GroundMotion) -> (System, Outcome) {
 }
 
 fn along(outcome: &Outcome, floors: usize) -> Vec<f64> {
-    let of = |floor| column(outcome, Column::Displacement { building: 0, floor });
+    let of = |floor| column(outcome, Column::displacement(0, floor));
     (0..=floors).flat_map(of).collect()
 }
 

@@ -203,20 +203,8 @@ fn a_frame_with_rigid_beams_on_bearings_is_a_shear_building_on_them() {
             building.base.isolation = Some(own);
             let system = assembled(&alone(building));
             let outcome = run(&system, &shaking(4.0), &steps(1e-3, 1));
-            let u = column(
-                &outcome,
-                Column::Displacement {
-                    building: 0,
-                    floor: 0,
-                },
-            );
-            let roof = column(
-                &outcome,
-                Column::Displacement {
-                    building: 0,
-                    floor: 3,
-                },
-            );
+            let u = column(&outcome, Column::displacement(0, 0));
+            let roof = column(&outcome, Column::displacement(0, 3));
             assert!(
                 outcome.energy.worst_imbalance < 1e-8,
                 "{:e}",
@@ -428,15 +416,7 @@ fn very_stiff_bearings_are_a_fixed_base() {
         let system = assembled(&alone(building));
         run(&system, &shaking(4.0), &steps(1e-3, 1))
     });
-    let roof = |outcome: &jostle::Outcome| {
-        column(
-            outcome,
-            Column::Displacement {
-                building: 0,
-                floor: 4,
-            },
-        )
-    };
+    let roof = |outcome: &jostle::Outcome| column(outcome, Column::displacement(0, 4));
     let apart = difference(&roof(&a), &roof(&b));
     println!("{apart:e}");
     assert!(apart < 1e-5, "{apart:e}");

@@ -147,8 +147,8 @@ fn bearings() -> [Isolation; 5] {
 fn along(outcome: &Outcome, floors: usize, angle: f64) -> Vec<f64> {
     let (sin, cos) = angle.sin_cos();
     let of = |floor| {
-        let x = column(outcome, Column::Displacement { building: 0, floor });
-        let y = column(outcome, Column::DisplacementAcross { building: 0, floor });
+        let x = column(outcome, Column::displacement(0, floor));
+        let y = column(outcome, Column::displacement(0, floor).across());
         x.into_iter().zip(y).map(move |(x, y)| cos * x + sin * y)
     };
     (0..=floors).flat_map(of).collect()
@@ -172,7 +172,7 @@ fn on_a_line_bearings_are_those_of_one_plane() {
         let motion = shaking("line", 4.0, 1.0);
         let (_, flat) = run(&plane, &motion);
         let expected: Vec<f64> = (0..=storeys)
-            .flat_map(|floor| column(&flat, Column::Displacement { building: 0, floor }))
+            .flat_map(|floor| column(&flat, Column::displacement(0, floor)))
             .collect();
         let kind = own.isolator.name();
         for angle in [0.0, 37.0 * TAU / 360.0, 2.0] {
@@ -215,7 +215,7 @@ fn on_a_line_bearings_are_those_of_one_plane() {
                 assert!(stop > 1e4 && (peaks.ring_force / stop - 1.0).abs() < 1e-8);
             }
             if angle == 0.0 {
-                let force = |run: &Outcome| column(run, Column::SupportForce { building: 0 });
+                let force = |run: &Outcome| column(run, Column::support_force(0));
                 assert!(difference(&force(&deep), &force(&flat)) < 1e-9, "{kind}");
                 let shear = [&flat, &deep].map(|run| run.base_shear[0]);
                 assert!((shear[1] / shear[0] - 1.0).abs() < 1e-9, "{kind}");
@@ -527,9 +527,9 @@ fn the_worst_bearing_is_that_of_the_histories() {
     let (_, outcome) = run(&eccentric_block(lead_rubber(), 1e-3), &motion);
     let (building, floor) = (0, 0);
     let [u, v, turn] = [
-        Column::Displacement { building, floor },
-        Column::DisplacementAcross { building, floor },
-        Column::Rotation { building, floor },
+        Column::displacement(building, floor),
+        Column::displacement(building, floor).across(),
+        Column::displacement(building, floor).turning(),
     ]
     .map(|own| column(&outcome, own));
     let rows = u.iter().zip(&v).zip(&turn);
@@ -540,7 +540,7 @@ fn the_worst_bearing_is_that_of_the_histories() {
         moved.map(|[x, y]| x.hypot(y)).fold(0.0, f64::max)
     };
     // The lowest storey twists by the floor less the mat; its height is 3 m.
-    let above = column(&outcome, Column::Rotation { building, floor: 1 });
+    let above = column(&outcome, Column::displacement(building, 1).turning());
     let twists = above.iter().zip(&turn).map(|(a, b)| (a - b).abs() / 3.0);
     let twist = outcome.in_plan[0].turning[0].storey_drift;
     assert!((twists.fold(0.0, f64::max) / twist - 1.0).abs() < 1e-3);
@@ -679,15 +679,7 @@ fn a_mat_before_a_wall_hits_it_as_in_one_plane() {
         let apart = (b.peak_force.value / a.peak_force - 1.0).abs();
         assert!(apart < 1e-6, "{apart:e}");
     }
-    let of = |run: &Outcome| {
-        column(
-            run,
-            Column::Displacement {
-                building: 0,
-                floor: 0,
-            },
-        )
-    };
+    let of = |run: &Outcome| column(run, Column::displacement(0, 0));
     let apart = difference(&of(&deep), &of(&flat));
     println!("{} impacts, {apart:e}", flat.impacts.len());
     assert!(apart < 1e-7, "{apart:e}");

@@ -217,7 +217,7 @@ fn links_bases_and_leaning_columns_are_those_of_the_full_matrices() {
         let floors = [(0, 0, 3), (1, 4, 2), (2, 6, 4)];
         for (building, first, floors) in floors {
             for floor in 1..=floors {
-                let found = column(&outcome, Column::Displacement { building, floor });
+                let found = column(&outcome, Column::displacement(building, floor));
                 let found: Vec<f64> = found.into_iter().step_by(every).collect();
                 let expected: Vec<f64> = expected.iter().map(|u| u[first + floor - 1]).collect();
                 worst = worst.max(difference(&found, &expected));

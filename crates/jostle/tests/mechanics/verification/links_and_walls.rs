@@ -208,7 +208,7 @@ fn a_link_to_the_wall_is_a_spring_and_a_dashpot_to_the_ground() {
         let left = 0.5 * (mass * v * v + (own + stiffness) * u * u);
         let lost = 0.5 * (own + stiffness) * 0.03_f64.powi(2) - left;
         assert!((outcome.energy.links / lost - 1.0).abs() < 1e-9);
-        let force = column(&outcome, Column::LinkForce { link: 0 });
+        let force = column(&outcome, Column::link_force(0));
         let sign = if side == 0 { 1.0 } else { -1.0 };
         assert!((force[0] - sign * stiffness * 0.03).abs() < 1e-6);
         assert!((outcome.links[0].peak_force.value.abs() - largest(&force)).abs() < 1e-6);

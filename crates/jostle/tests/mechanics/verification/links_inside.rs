@@ -347,7 +347,7 @@ fn storey_shears_balance_the_inertia_above() {
             panic!("a tower is a shear building")
         };
         let accelerations: Vec<Vec<f64>> = (1..=4)
-            .map(|floor| column(&outcome, Column::TotalAcceleration { building: 0, floor }))
+            .map(|floor| column(&outcome, Column::total_acceleration(0, floor)))
             .collect();
         let rows = accelerations[0].len();
         for storey in 0..4 {

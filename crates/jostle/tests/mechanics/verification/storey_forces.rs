@@ -74,7 +74,7 @@ fn frames_bear_the_inertia_above() {
     let outcome = outcome(&system, Solver::Stiffness, 1e-3);
     let history = outcome.history.as_ref().expect("a history");
     let of_floor = |floor: usize| {
-        let column = Column::TotalAcceleration { building: 0, floor };
+        let column = Column::total_acceleration(0, floor);
         history.column(column).expect("a column")
     };
     let accelerations: Vec<Vec<f64>> = (1..=4).map(of_floor).collect();

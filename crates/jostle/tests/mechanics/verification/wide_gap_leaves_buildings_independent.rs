@@ -31,9 +31,9 @@ fn wide_gap_leaves_buildings_independent_bit_for_bit() {
         );
         for floor in 1..=floors {
             for quantity in [
-                |building, floor| Column::Displacement { building, floor },
-                |building, floor| Column::Velocity { building, floor },
-                |building, floor| Column::TotalAcceleration { building, floor },
+                |building, floor| Column::displacement(building, floor),
+                |building, floor| Column::velocity(building, floor),
+                |building, floor| Column::total_acceleration(building, floor),
             ] {
                 let bits = |values: Vec<f64>| -> Vec<u64> {
                     values.into_iter().map(f64::to_bits).collect()
