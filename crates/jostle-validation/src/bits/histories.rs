@@ -105,7 +105,7 @@ fn name(column: Column) -> String {
 fn springs(outcome: &Outcome) -> Option<String> {
     let history = outcome.spring_history.as_ref()?;
     let mut bits = Bits::default();
-    for spring in 0..outcome.springs.len() {
+    for spring in 0..outcome.state.springs.len() {
         for [deformation, force] in history.of_spring(spring) {
             bits.number(deformation.into());
             bits.number(force.into());

@@ -5,8 +5,10 @@ use crate::interface::MOST_POINTS;
 use crate::system::System;
 
 pub use column::{Column, EnergyTerm, Kind, Owner, Recorded};
+pub use peaks::{Peak, Peaks, PeaksOf};
 
 mod column;
+mod peaks;
 
 /// Time histories at the recorded instants: one row per instant, one column per quantity.
 ///
@@ -240,82 +242,6 @@ pub struct Extreme {
     pub at: f64,
 }
 
-/// Peak response of one floor.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct FloorPeaks {
-    /// Greatest displacement to the right \[m\].
-    pub displacement_max: Extreme,
-    /// Greatest displacement to the left, ≤ 0 \[m\].
-    pub displacement_min: Extreme,
-    /// Greatest total acceleration, either sign \[m/s²\].
-    pub total_acceleration: f64,
-    /// The same after a low-pass filter, which the mechanics leaves to its callers; `None` if it was not computed \[m/s²\].
-    pub filtered_acceleration: Option<f64>,
-    /// Greatest drift ratio of the storey below, either sign \[–\].
-    pub storey_drift: f64,
-    /// Greatest shear of the storey below, either sign \[N\].
-    pub storey_shear: f64,
-    /// Greatest overturning moment about the base of the storey below, either sign \[N·m\].
-    pub overturning_moment: f64,
-    /// Greatest vertical displacement of any mass of the floor, either sign; followed under vertical shaking only \[m\].
-    pub vertical_displacement: f64,
-}
-
-/// Peak response of what a building or a wall stands on: its bearings, or its spring and dashpot.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct SupportPeaks {
-    /// Greatest displacement to the right \[m\].
-    pub displacement_max: Extreme,
-    /// Greatest displacement to the left, ≤ 0 \[m\].
-    pub displacement_min: Extreme,
-    /// Greatest total acceleration, either sign \[m/s²\].
-    pub total_acceleration: f64,
-    /// Greatest force of springs, friction and dashpot together, without stops, either sign \[N\].
-    pub force: f64,
-    /// Energy dissipated in the dashpot \[J\].
-    pub damped: f64,
-    /// Those of a mat that moves across and turns too.
-    pub in_plan: Option<MatPeaks>,
-}
-
-/// Peaks of a mat in plan beside those along x.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct MatPeaks {
-    /// Greatest and least displacement of its centre across \[m\].
-    pub across: [Extreme; 2],
-    /// Greatest rotation counter-clockwise, and least \[rad\].
-    pub rotation: [Extreme; 2],
-    /// Greatest length of the displacement of a bearing \[m\].
-    pub stroke: Extreme,
-    /// That bearing, from 0.
-    pub bearing: usize,
-    /// Greatest displacement of a corner of the mat \[m\].
-    pub corner: f64,
-    /// Greatest total acceleration across, either sign \[m/s²\].
-    pub total_acceleration_across: f64,
-    /// Greatest force of bearings across, dashpots included, without the ring \[N\].
-    pub force_across: f64,
-    /// Greatest force of bearings and ring across, without dashpots \[N\].
-    pub base_shear_across: f64,
-    /// Greatest torque of these forces about the centre of mass of the lowest floor \[N·m\].
-    pub base_torque: f64,
-    /// Greatest force of the ring that stops it, in any direction \[N\].
-    pub ring_force: f64,
-    /// Energy dissipated in its dashpots \[J\].
-    pub damped: f64,
-}
-
-/// Peaks of a rigid foundation on soil.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct FoundationPeaks {
-    /// Greatest displacement to the right, and to the left (≤ 0) \[m\].
-    pub sway: [Extreme; 2],
-    /// Greatest rotation counter-clockwise, and clockwise (≤ 0) \[rad\].
-    pub rocking: [Extreme; 2],
-    /// Energy that its dashpots, apart from those to neighbours, take away: radiation and damping of the soil \[J\].
-    pub damped: f64,
-}
-
 /// Energies \[J\] and the greatest error of their balance so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Energy {
@@ -385,28 +311,6 @@ pub struct Work {
     pub shapes: u64,
     /// Runs repeated by modal stepping with more shapes or finer steps.
     pub repeated_runs: u64,
-}
-
-/// Peaks of a link.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct LinkTotals {
-    /// Force of greatest magnitude, positive in compression, and its instant \[N\].
-    pub peak_force: Extreme,
-    /// Greatest change of length, either sign \[m\].
-    pub peak_shortening: f64,
-    /// Greatest rate of change of length, either sign \[m/s\].
-    pub peak_rate: f64,
-    /// Work done on it, recoverable energy of its spring included \[J\].
-    pub work: f64,
-}
-
-/// Peaks of a spring that yields.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct SpringTotals {
-    /// Greatest force, either sign \[N·m or N\].
-    pub peak_force: f64,
-    /// Work done on it, recoverable energy included \[J\].
-    pub work: f64,
 }
 
 /// Deformation and force of every spring that yields at the instants of a [`History`], in single precision.

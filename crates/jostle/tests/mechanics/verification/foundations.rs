@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use jostle::history::Owner;
 use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
 use jostle::linear::StepMatrix;
 use jostle::stiffness::DirectStiffness;
@@ -160,21 +161,27 @@ fn a_shear_building_on_soil_is_the_same_as_by_its_matrices() {
         assert!(found.energy.worst_imbalance < 1e-9);
         // Storey forces do not know of the foundation; drifts are deformations.
         let [a, b] = [&found, &expected].map(|outcome| {
-            outcome.floors[0]
+            outcome
+                .peaks
+                .floors(0)
                 .iter()
-                .map(|floor| floor.storey_shear)
+                .map(|floor| floor.storey_shear())
                 .collect::<Vec<_>>()
         });
         assert!(difference(&a, &b) < 1e-9);
-        let lowest = found.floors[0][0];
-        let deformation = lowest.storey_drift * 4.0;
-        assert!((lowest.storey_shear / (90e6 * deformation) - 1.0).abs() < 1e-9);
-        assert!((found.base_shear[0] / lowest.storey_shear - 1.0).abs() < 1e-9);
-        let peaks = found.foundations[0];
-        assert!(peaks.sway[0].value > 0.0 && peaks.rocking[0].value > 0.0);
-        assert!(peaks.damped > 0.0 && peaks.damped < found.energy.damped);
+        let lowest = found.peaks.floor(0, 1);
+        let deformation = lowest.storey_drift() * 4.0;
+        assert!((lowest.storey_shear() / (90e6 * deformation) - 1.0).abs() < 1e-9);
+        assert!((found.peaks.base_shear(0) / lowest.storey_shear() - 1.0).abs() < 1e-9);
+        let owner = Owner::Foundation(0);
+        let peaks = found.peaks.owned_by(owner);
+        let swayed = peaks.displacement();
+        let rocked = peaks.turning().displacement();
+        assert!(swayed.greatest.value > 0.0 && rocked.greatest.value > 0.0);
+        let damped = found.peaks.work(owner);
+        assert!(damped > 0.0 && damped < found.energy.damped);
         let sway = found.state.displacement[place.dofs[0]];
-        assert!(sway <= peaks.sway[0].value && sway >= peaks.sway[1].value);
+        assert!(sway <= swayed.greatest.value && sway >= swayed.least.value);
     }
 }
 
@@ -406,11 +413,19 @@ fn equal_neighbours_see_the_sum_of_a_row() {
             let found = column(&pair, Column::displacement(building, floor));
             assert!(difference(&found, &expected) < 1e-9);
         }
-        let peaks = [pair.foundations[building], one.foundations[0]];
-        let [a, b] = peaks.map(|own| own.rocking.map(|extreme| extreme.value));
+        let [a, b] = [(&pair, building), (&one, 0)].map(|(run, building)| {
+            let own = run.peaks.owned_by(Owner::Foundation(building)).turning();
+            [own.displacement_max().value, own.displacement_min().value]
+        });
         assert!(difference(&a, &b) < 1e-9);
     }
-    assert!(largest(&[one.foundations[0].sway[0].value]) > 0.0);
+    assert!(
+        one.peaks
+            .owned_by(Owner::Foundation(0))
+            .displacement()
+            .size()
+            > 0.0
+    );
 }
 
 /// Storeys that yield on soil that couples their foundations, with impacts, against all displacements at once in full
@@ -532,7 +547,10 @@ fn links_between_floors_on_soil_are_part_of_their_storeys() {
         let of = |outcome| column(outcome, Column::displacement(0, floor));
         assert!(difference(&of(&found), &of(&expected)) < 1e-9);
     }
-    let rocking = [&found, &expected].map(|outcome| outcome.foundations[0].rocking[0].value);
+    let rocking = [&found, &expected].map(|outcome| {
+        let own = outcome.peaks.owned_by(Owner::Foundation(0)).turning();
+        own.displacement_max().value
+    });
     assert!((rocking[0] / rocking[1] - 1.0).abs() < 1e-9 && rocking[1] > 1e-4);
 }
 

@@ -1,6 +1,7 @@
 //! What summaries say of bearings: energy stored and dissipated, against loops of force and displacement in one plane and against
 //! the rate equation in plan; residual strokes, limits and the mat as floor 0, against the motion of the mat.
 
+use jostle::history::Owner;
 use jostle::results::summary::{BuildingSummary, IsolationInPlan};
 use jostle::{
     Column, GroundMotion, Isolation, Isolator, Model, Outcome, Plan, Stop, Structure, Summary,
@@ -313,8 +314,8 @@ fn strokes_are_those_of_the_worst_bearing() {
         floor.displacement_across_max_m,
         in_plan.displacement_across_max_m
     );
-    let peaks = outcome.supports[0].in_plan.expect("in plan");
-    assert_eq!(floor.storey_shear_across_peak_n, peaks.base_shear_across);
+    let base = outcome.peaks.owned_by(Owner::Building(0)).across();
+    assert_eq!(floor.storey_shear_across_peak_n, base.storey_shear());
 }
 
 /// The same in one plane: either side counts.

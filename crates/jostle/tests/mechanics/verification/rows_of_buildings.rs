@@ -59,8 +59,8 @@ fn towers(count: usize) -> Model {
 
 /// Peak force of every contact and link.
 fn peaks(outcome: &Outcome, system: &System) -> Vec<f64> {
-    let contacts = (0..system.contacts.len()).map(|contact| Column::contact_force(contact));
-    let links = (0..system.links.len()).map(|link| Column::link_force(link));
+    let contacts = (0..system.contacts.len()).map(Column::contact_force);
+    let links = (0..system.links.len()).map(Column::link_force);
     contacts
         .chain(links)
         .map(|force| largest(&column(outcome, force)))

@@ -356,13 +356,18 @@ fn pinched_storeys_hold_the_tolerance() {
     assert_eq!(usual.end, RunEnd::Completed);
     assert!(!fine.impacts.is_empty() && yielded(&fine, &system) > 0);
     assert_eq!(usual.impacts.len(), fine.impacts.len());
-    for (building, (found, exact)) in usual.floors.iter().zip(&fine.floors).enumerate() {
+    for (building, (found, exact)) in usual
+        .peaks
+        .buildings()
+        .zip(fine.peaks.buildings())
+        .enumerate()
+    {
         let greatest = exact
             .iter()
-            .map(|f| f.total_acceleration)
+            .map(|f| f.total_acceleration())
             .fold(0.0, f64::max);
         for (found, exact) in found.iter().zip(exact) {
-            let error = (found.total_acceleration - exact.total_acceleration).abs() / greatest;
+            let error = (found.total_acceleration() - exact.total_acceleration()).abs() / greatest;
             println!("building {building}: {error:e}");
             assert!(error <= 1e-3, "{found:?} for {exact:?}");
         }
