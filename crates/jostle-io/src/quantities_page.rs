@@ -97,30 +97,30 @@ fn write_owner(page: &mut String, owner: &Owner) -> std::fmt::Result {
 fn write_histories(page: &mut String) -> std::fmt::Result {
     let (building, floor) = (0, 3);
     let columns = [
-        Column::Time,
-        Column::GroundAcceleration,
-        Column::Displacement { building, floor },
-        Column::Velocity { building, floor },
-        Column::TotalAcceleration { building, floor },
-        Column::GroundAccelerationAcross,
-        Column::DisplacementAcross { building, floor },
-        Column::VelocityAcross { building, floor },
-        Column::TotalAccelerationAcross { building, floor },
-        Column::Rotation { building, floor },
-        Column::RotationRate { building, floor },
-        Column::RotationAcceleration { building, floor },
-        Column::ContactForce { contact: 0 },
-        Column::Closing { contact: 0 },
-        Column::LinkForce { link: 0 },
-        Column::LinkStroke { link: 0 },
-        Column::LinkSpeed { link: 0 },
-        Column::SupportForce { building: 0 },
+        Column::TIME,
+        Column::GROUND_ACCELERATION,
+        Column::displacement(building, floor),
+        Column::velocity(building, floor),
+        Column::total_acceleration(building, floor),
+        Column::GROUND_ACCELERATION.across(),
+        Column::displacement(building, floor).across(),
+        Column::velocity(building, floor).across(),
+        Column::total_acceleration(building, floor).across(),
+        Column::displacement(building, floor).turning(),
+        Column::velocity(building, floor).turning(),
+        Column::total_acceleration(building, floor).turning(),
+        Column::contact_force(0),
+        Column::closing(0),
+        Column::link_force(0),
+        Column::link_stroke(0),
+        Column::link_speed(0),
+        Column::support_force(0),
     ];
-    let energies = EnergyTerm::ALL.into_iter().map(Column::Energy);
+    let energies = EnergyTerm::ALL.into_iter().map(Column::energy);
     let of_grounds = [
-        Column::Energy(EnergyTerm::Ground),
-        Column::GroundDisplacement { building: 0 },
-        Column::GroundDisplacementAcross { building: 0 },
+        Column::energy(EnergyTerm::Ground),
+        Column::ground_displacement(0),
+        Column::ground_displacement(0).across(),
     ];
     writeln!(
         page,

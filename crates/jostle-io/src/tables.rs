@@ -4,7 +4,7 @@ use std::io::{BufWriter, Write};
 use std::path::Path;
 use std::sync::Arc;
 
-use jostle::history::MemberHistory;
+use jostle::history::{MemberHistory, Owner};
 use jostle::hysteresis::{ForceRow, Side};
 use jostle::linear::sort_by;
 use jostle::quantity::Read;
@@ -668,19 +668,9 @@ fn column_name(model: &Model, contacts: &[String], links: &[String], column: Col
         name.unwrap_or_else(|| format!("{what}{}", index + 1)) + "."
     };
     let recorded = column.recorded();
-    let place = match column {
-        Column::Time | Column::GroundAcceleration | Column::GroundAccelerationAcross => {
-            String::new()
-        }
-        Column::Displacement { .. }
-        | Column::Velocity { .. }
-        | Column::TotalAcceleration { .. }
-        | Column::DisplacementAcross { .. }
-        | Column::VelocityAcross { .. }
-        | Column::TotalAccelerationAcross { .. }
-        | Column::Rotation { .. }
-        | Column::RotationRate { .. }
-        | Column::RotationAcceleration { .. } => {
+    let place = match column.owner {
+        Owner::Run if recorded.owner == "energy" => "energy_".to_owned(),
+        Owner::Floor { .. } => {
             if let Some(wall) = wall_behind(model, index) {
                 return format!("{}.{}{}", plain(wall), recorded.name, recorded.unit.suffix);
             }
@@ -688,26 +678,26 @@ fn column_name(model: &Model, contacts: &[String], links: &[String], column: Col
             let name = name.unwrap_or_else(|| format!("B{}", index + 1));
             format!("{name}.floor{floor}.")
         }
-        Column::ContactForce { .. } | Column::Closing { .. } => joint(contacts, "contact"),
-        Column::LinkForce { .. } | Column::LinkStroke { .. } | Column::LinkSpeed { .. } => {
-            joint(links, "link")
-        }
-        Column::SupportForce { .. } | Column::SupportForceAcross { .. } => {
-            match wall_behind(model, index) {
-                Some(wall) => format!("{}.", plain(wall)),
-                None => {
-                    let name = model.buildings.get(index).map(|b| plain(&b.name));
-                    format!("{}.isolation.", name.unwrap_or_default())
-                }
+        Owner::Contact(_) => joint(contacts, "contact"),
+        Owner::Link(_) => joint(links, "link"),
+        Owner::Support(_) => match wall_behind(model, index) {
+            Some(wall) => format!("{}.", plain(wall)),
+            None => {
+                let name = model.buildings.get(index).map(|b| plain(&b.name));
+                format!("{}.isolation.", name.unwrap_or_default())
             }
-        }
-        Column::GroundDisplacement { .. } | Column::GroundDisplacementAcross { .. } => {
-            match ground_under(model, index) {
-                Some(name) => format!("{}.", plain(name)),
-                None => format!("B{}.", index + 1),
-            }
-        }
-        Column::Energy(_) => "energy_".to_owned(),
+        },
+        Owner::Ground(_) => match ground_under(model, index) {
+            Some(name) => format!("{}.", plain(name)),
+            None => format!("B{}.", index + 1),
+        },
+        // Others are no columns of histories.
+        Owner::Run
+        | Owner::Building(_)
+        | Owner::Bearing { .. }
+        | Owner::Foundation(_)
+        | Owner::Gap(_)
+        | Owner::Spring(_) => String::new(),
     };
     place + recorded.name + recorded.unit.suffix
 }

@@ -54,25 +54,23 @@ impl Device<'_> {
     pub(crate) fn points(&self, page: &Page) -> Option<Vec<[f32; 2]>> {
         let (moved, force) = match self.source {
             Source::Bearings(building) => (
-                page.history
-                    .column(Column::Displacement { building, floor: 0 })?,
-                page.history.column(Column::SupportForce { building })?,
+                page.history.column(Column::displacement(building, 0))?,
+                page.history.column(Column::support_force(building))?,
             ),
             Source::BearingsAcross(building) => (
                 page.history
-                    .column(Column::DisplacementAcross { building, floor: 0 })?,
+                    .column(Column::displacement(building, 0).across())?,
                 page.history
-                    .column(Column::SupportForceAcross { building })?,
+                    .column(Column::support_force(building).across())?,
             ),
             Source::Path(building) => (
+                page.history.column(Column::displacement(building, 0))?,
                 page.history
-                    .column(Column::Displacement { building, floor: 0 })?,
-                page.history
-                    .column(Column::DisplacementAcross { building, floor: 0 })?,
+                    .column(Column::displacement(building, 0).across())?,
             ),
             Source::Link(index, link, floors) => (
                 stroke(page, index, link, floors)?,
-                page.history.column(Column::LinkForce { link: index })?,
+                page.history.column(Column::link_force(index))?,
             ),
         };
         let pairs = moved.iter().zip(&force);
@@ -82,7 +80,7 @@ impl Device<'_> {
 
 /// Shortening of a link at every instant \[m\].
 fn stroke(page: &Page, index: usize, link: &Link, floors: [Option<usize>; 2]) -> Option<Vec<f64>> {
-    if let Some(recorded) = page.history.column(Column::LinkStroke { link: index }) {
+    if let Some(recorded) = page.history.column(Column::link_stroke(index)) {
         return Some(recorded);
     }
     let mut moved = vec![0.0; page.history.len()];
@@ -112,18 +110,12 @@ pub(crate) fn side_column(
     if let Some(building) = model.buildings.get(index) {
         let floor = floor?;
         let on_ground = floor == 0 && building.base.isolation.is_none();
-        return Some((!on_ground).then_some(Column::Displacement {
-            building: index,
-            floor,
-        }));
+        return Some((!on_ground).then_some(Column::displacement(index, floor)));
     }
     let walls = &model.walls[..=index - model.buildings.len()];
     let moving = walls.iter().filter(|wall| !wall.is_rigid()).count();
     let rigid = walls.last().is_some_and(|wall| wall.is_rigid());
-    Some((!rigid).then(|| Column::Displacement {
-        building: model.buildings.len() + moving - 1,
-        floor: 0,
-    }))
+    Some((!rigid).then(|| Column::displacement(model.buildings.len() + moving - 1, 0)))
 }
 
 /// All of them: bearings first, then links by dissipated energy.

@@ -82,9 +82,9 @@ pub(crate) fn of_history(model: &Model, history: &History) -> Vec<Envelope> {
         .map(|(building, shape)| {
             let mut envelope = Envelope::default();
             // The mat, if there is one; floors of other buildings count from 1.
-            let mut below = history.column(Column::Displacement { building, floor: 0 });
+            let mut below = history.column(Column::displacement(building, 0));
             envelope.mat = below.as_ref().map(|u| {
-                let a = history.column(Column::TotalAcceleration { building, floor: 0 });
+                let a = history.column(Column::total_acceleration(building, 0));
                 let a = a.unwrap_or_default();
                 [
                     u.iter().copied().fold(0.0, f64::max),
@@ -94,7 +94,7 @@ pub(crate) fn of_history(model: &Model, history: &History) -> Vec<Envelope> {
             });
             for (storey, height) in shape.storey_heights().iter().enumerate() {
                 let floor = storey + 1;
-                let Some(u) = history.column(Column::Displacement { building, floor }) else {
+                let Some(u) = history.column(Column::displacement(building, floor)) else {
                     break;
                 };
                 envelope
@@ -110,7 +110,7 @@ pub(crate) fn of_history(model: &Model, history: &History) -> Vec<Envelope> {
                 let left = end(&u) - below.as_deref().map_or(0.0, end);
                 envelope.residual.push(left / height);
                 below = Some(u);
-                if let Some(a) = history.column(Column::TotalAcceleration { building, floor }) {
+                if let Some(a) = history.column(Column::total_acceleration(building, floor)) {
                     envelope
                         .acceleration
                         .push(a.iter().fold(0.0, |peak: f64, a| peak.max(a.abs())));

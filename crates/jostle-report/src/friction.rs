@@ -123,7 +123,7 @@ fn side_in_words(model: &Model, face: &Face, side: usize) -> String {
 
 /// Slip at the middle of a face since rest; strong while it is pressed.
 fn slip_over_time(page: &Page, face: &Face) -> Option<Plot> {
-    let times = page.history.column(Column::Time)?;
+    let times = page.history.column(Column::TIME)?;
     let [tx, ty] = [-face.plan.normal[1], face.plan.normal[0]];
     let ([ax, ay], [bx, by]) = (moved(page, face, 0)?, moved(page, face, 1)?);
     let slip = |row: usize| 1e3 * (tx * (ax[row] - bx[row]) + ty * (ay[row] - by[row]));

@@ -1,11 +1,12 @@
 //! Data of the page's scripts: geometry, impacts and thinned histories as one JSON text.
 
-use jostle::history::{Column, EnergyTerm, History};
+use jostle::history::{Column, EnergyTerm, History, Kind, Owner};
 use jostle::linear::sort_by;
 use jostle::model::{Building, Gap, LumpedFloor, Model, Structure};
 use jostle::motion::{GroundMotion, Wave};
 use jostle::results::summary::{ContactSummary, SpringSummary, Summary};
 use jostle::structure::SpringPlace;
+use jostle::system::Direction;
 use jostle::{Diagonal, DiagonalKind, SpaceFrame, SpaceMember, SpacePlace};
 use serde::Serialize;
 
@@ -308,7 +309,7 @@ pub(crate) fn frame(page: &Page) -> (String, Vec<f32>) {
 }
 
 fn text(page: &Page, budget: &Budget, pack: &mut Packer) -> String {
-    let time = page.history.column(Column::Time).unwrap_or_default();
+    let time = page.history.column(Column::TIME).unwrap_or_default();
     let force = forces(page);
     let places = hinges::places(page.model);
     let walls = walls::walls(page);
@@ -627,7 +628,7 @@ fn forces(page: &Page) -> Vec<Vec<f64>> {
     (0..contacts(page.summary).count())
         .map(|contact| {
             page.history
-                .column(Column::ContactForce { contact })
+                .column(Column::contact_force(contact))
                 .unwrap_or_default()
         })
         .collect()
@@ -677,7 +678,7 @@ fn indentation(
     contact: &ContactSummary,
     index: usize,
 ) -> Option<Vec<f64>> {
-    if let Some(closing) = history.column(Column::Closing { contact: index }) {
+    if let Some(closing) = history.column(Column::closing(index)) {
         return Some(closing.iter().map(|u| u - contact.width_m).collect());
     }
     if contact.in_plan.is_some() {
@@ -705,13 +706,13 @@ fn table(
     energies: bool,
     pack: &mut Packer,
 ) -> Table {
-    let time = history.column(Column::Time).unwrap_or_default();
+    let time = history.column(Column::TIME).unwrap_or_default();
     let mut columns: Vec<(String, Vec<f64>)> = wanted(page, history, energies)
         .into_iter()
         .filter_map(|(name, column)| Some((name, history.column(column)?)))
         .collect();
     columns.extend(face_closings(page, history));
-    if let Some(of_grounds) = history.column(Column::Energy(EnergyTerm::Ground)) {
+    if let Some(of_grounds) = history.column(Column::energy(EnergyTerm::Ground)) {
         // What the other energies add up to.
         for (_, input) in columns.iter_mut().filter(|(name, _)| name == "e:input") {
             input
@@ -771,33 +772,33 @@ fn wanted(page: &Page, history: &History, energies: bool) -> Vec<(String, Column
         for floor in 1..=shape.floors() {
             wanted.push((
                 format!("u:{building}:{floor}"),
-                Column::Displacement { building, floor },
+                Column::displacement(building, floor),
             ));
         }
     }
-    let turned = history.columns().iter().filter_map(|column| match column {
-        Column::DisplacementAcross { building, floor } => {
-            Some((format!("v:{building}:{floor}"), *column))
-        }
-        Column::Rotation { building, floor } => Some((format!("r:{building}:{floor}"), *column)),
-        _ => None,
-    });
-    wanted.extend(turned);
-    let feet = history.columns().iter().filter_map(|column| match column {
-        Column::Displacement { building, floor: 0 } => Some((format!("u:{building}:0"), *column)),
-        _ => None,
-    });
-    wanted.extend(feet);
-    let closings = history.columns().iter().filter_map(|column| {
-        let Column::Closing { contact } = column else {
-            return None;
-        };
-        Some((format!("c:{contact}"), *column))
-    });
-    wanted.extend(closings);
+    // Floors across and in rotation, then mats and walls, then closings.
+    let prefix = |column: &Column| match (column.owner, column.kind, column.direction) {
+        (Owner::Floor { .. }, Kind::Displacement, Direction::Across) => "v",
+        (Owner::Floor { .. }, Kind::Displacement, Direction::Turning) => "r",
+        (Owner::Floor { floor: 0, .. }, Kind::Displacement, Direction::Along) => "u",
+        (Owner::Contact(_), Kind::Closing, _) => "c",
+        _ => "",
+    };
+    for prefixes in [&["v", "r"][..], &["u"], &["c"]] {
+        let own = history.columns().iter();
+        let own = own.filter(|column| prefixes.contains(&prefix(column)));
+        wanted.extend(own.map(|column| {
+            let (prefix, [index, floor]) = (prefix(column), column.place());
+            let name = match column.owner {
+                Owner::Contact(_) => format!("{prefix}:{index}"),
+                _ => format!("{prefix}:{index}:{floor}"),
+            };
+            (name, *column)
+        }));
+    }
     if energies {
         wanted.extend(
-            EnergyTerm::ALL.map(|term| (format!("e:{}", energy_name(term)), Column::Energy(term))),
+            EnergyTerm::ALL.map(|term| (format!("e:{}", energy_name(term)), Column::energy(term))),
         );
     }
     wanted

@@ -20,9 +20,9 @@ pub(crate) fn point_motion(
         None => tiers.mat(own.base.isolation?.mat_mass).tier.centre,
     };
     let arm = [point[0] - centre[0], point[1] - centre[1]];
-    let turn = history.column(Column::Rotation { building, floor })?;
-    let mut x = history.column(Column::Displacement { building, floor })?;
-    let mut y = history.column(Column::DisplacementAcross { building, floor })?;
+    let turn = history.column(Column::displacement(building, floor).turning())?;
+    let mut x = history.column(Column::displacement(building, floor))?;
+    let mut y = history.column(Column::displacement(building, floor).across())?;
     for ((x, y), turn) in x.iter_mut().zip(&mut y).zip(&turn) {
         *x -= turn * arm[1];
         *y += turn * arm[0];

@@ -73,9 +73,9 @@ fn corner_paths(page: &Page, site: f64) -> Option<(CornerPaths, f64)> {
     for (building, _, tiers) in tiers(page.model) {
         let floor = tiers.floors.len();
         let column = |column| page.history.column(column);
-        let x = column(Column::Displacement { building, floor })?;
-        let y = column(Column::DisplacementAcross { building, floor })?;
-        let turn = column(Column::Rotation { building, floor })?;
+        let x = column(Column::displacement(building, floor))?;
+        let y = column(Column::displacement(building, floor).across())?;
+        let turn = column(Column::displacement(building, floor).turning())?;
         let roof = tiers.floors.last()?;
         let every = (x.len() / POINTS).max(1);
         for corner in &roof.plan {
@@ -226,7 +226,7 @@ fn peaks(page: &Page) -> Markup {
 fn histories(page: &Page) -> Markup {
     let lines = |of: fn(usize, usize) -> Column, factor: f64| -> Vec<Line> {
         let of_run = |history: &jostle::History, free: bool| -> Vec<Line> {
-            let Some(times) = history.column(Column::Time) else {
+            let Some(times) = history.column(Column::TIME) else {
                 return Vec::new();
             };
             let line = |(building, _, tiers): (usize, &jostle::Building, &Tiers)| {
@@ -268,10 +268,13 @@ fn histories(page: &Page) -> Markup {
         lines,
     };
     let across = lines(
-        |building, floor| Column::DisplacementAcross { building, floor },
+        |building, floor| Column::displacement(building, floor).across(),
         1e3,
     );
-    let turns = lines(|building, floor| Column::Rotation { building, floor }, 1e3);
+    let turns = lines(
+        |building, floor| Column::displacement(building, floor).turning(),
+        1e3,
+    );
     html! {
         div.static-plots {
             (plot(message::roof_displacement_across(), message::displacement_mm(), across).figure())

@@ -62,7 +62,7 @@ pub(crate) fn walls(page: &Page) -> Vec<SceneWall> {
                 let mut new = SceneWall {
                     name: wall.map_or_else(String::new, |wall| named(page.model, wall)),
                     column: match side_column(page.model, wall, Some(0)) {
-                        Some(Some(jostle::Column::Displacement { building, .. })) => Some(building),
+                        Some(Some(column)) => column.owner.building(),
                         _ => None,
                     },
                     beside: [None; 2],

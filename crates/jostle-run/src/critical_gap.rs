@@ -189,7 +189,7 @@ fn needed(tried: &Tried, contact: usize) -> f64 {
         .iter()
         .filter(|own| own.gap == contacts[contact].gap);
     let least = own.map(|own| own.width).fold(f64::INFINITY, f64::min);
-    tried.outcome.closing[contact].value - (contacts[contact].width - least)
+    tried.outcome.peaks.closing(contact).value - (contacts[contact].width - least)
 }
 
 /// The contact of a gap that comes nearest, and its closing, at least zero \[m\].

@@ -118,7 +118,7 @@ impl Results<'_> {
             })?;
         }
         staged.add(IMPACTS, |path| write_impacts_parquet(path, summary))?;
-        if !outcome.springs.is_empty() {
+        if !outcome.state.springs.is_empty() {
             let system = &self.prepared.system;
             staged.add(HINGES, |path| {
                 write_hinges_parquet(path, system, outcome, summary)

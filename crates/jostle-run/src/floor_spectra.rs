@@ -1,6 +1,6 @@
 //! Response spectra of floors, from the histories of a run.
 
-use jostle::history::FloorPeaks;
+use jostle::history::{Kind, Owner, Peak, Peaks};
 use jostle::results::floor_spectra::{
     FilterSummary, FloorCurve, FloorResponse, FloorSpectra, FloorSpectrum,
 };
@@ -81,7 +81,7 @@ impl Prepared {
         let request = self.input.floor_spectra.as_ref()?;
         let history = outcome.history.as_ref()?;
         let interval = row_interval(request, self.jumps());
-        let computed = compute(request, history, &outcome.floors, interval);
+        let computed = compute(request, history, &outcome.peaks, interval);
         Some(computed.map_err(|fault| fault.to_string()))
     }
 }
@@ -100,18 +100,22 @@ pub(crate) fn filter_floors(request: Option<&FloorSpectraRequest>, outcome: &mut
     let low_pass = low_pass(request);
     let order = request.map_or(USUAL_ORDER, |request| request.order);
     let column = |column| history.column(column).unwrap_or_default();
-    let (time, ground) = (column(Column::Time), column(Column::GroundAcceleration));
+    let (time, ground) = (column(Column::TIME), column(Column::GROUND_ACCELERATION));
+    let mut filtered = Vec::new();
     let one = |building: usize, floor: usize| -> Result<f64, MotionFault> {
-        let total = column(Column::TotalAcceleration { building, floor });
-        let velocity = column(Column::Velocity { building, floor });
+        let total = column(Column::total_acceleration(building, floor));
+        let velocity = column(Column::velocity(building, floor));
         let motion = UnevenMotion::with_velocity(time.clone(), total, &velocity, &ground)?;
         filtered_peak(&motion, low_pass, order)
     };
-    for (building, floors) in outcome.floors.iter_mut().enumerate() {
-        for (index, floor) in floors.iter_mut().enumerate() {
-            floor.filtered_acceleration = one(building, index + 1).ok();
+    for (building, floors) in outcome.peaks.buildings().enumerate() {
+        for floor in 1..=floors.len() {
+            let owner = Owner::Floor { building, floor };
+            let column = Column::along(owner, Kind::FilteredAcceleration);
+            filtered.extend(one(building, floor).map(|peak| (column, Peak::of_size(peak))));
         }
     }
+    outcome.peaks.extend(filtered);
 }
 
 /// Corner of the filter of filtered accelerations \[Hz\].
@@ -174,22 +178,22 @@ pub(crate) fn combine(
 fn compute(
     request: &FloorSpectraRequest,
     history: &History,
-    peaks: &[Vec<FloorPeaks>],
+    peaks: &Peaks,
     row_interval: f64,
 ) -> Result<RunFloorSpectra, MotionFault> {
     let column = |column| history.column(column).unwrap_or_default();
-    let (time, ground) = (column(Column::Time), column(Column::GroundAcceleration));
+    let (time, ground) = (column(Column::TIME), column(Column::GROUND_ACCELERATION));
     let mut resolution = 0.0_f64;
     let mut floors = Vec::with_capacity(request.floors.len());
     for &(building, floor) in &request.floors {
-        let total = column(Column::TotalAcceleration { building, floor });
-        let velocity = column(Column::Velocity { building, floor });
+        let total = column(Column::total_acceleration(building, floor));
+        let velocity = column(Column::velocity(building, floor));
         let motion = UnevenMotion::with_velocity(time.clone(), total, &velocity, &ground)?;
         let spectra = spectra(request, &motion)?;
         let coarse = self::spectra(request, &motion.every_second())?;
         resolution = resolution.max(difference(&spectra, &coarse) / 3.0);
         floors.push(FloorResponse {
-            peak_acceleration_m_s2: peaks[building][floor - 1].total_acceleration,
+            peak_acceleration_m_s2: peaks.floor(building, floor).total_acceleration(),
             filtered_peak_acceleration_m_s2: filtered_peak(
                 &motion,
                 request.low_pass,

@@ -154,15 +154,15 @@ fn delayed(source: &str, case: &Value) -> Vec<Row> {
         let outcome = run(&system, &motion, &analysis);
         let [mut moved, mut shaken, mut closed] = [(); 3].map(|()| Pairs::default());
         let mut number_of_floor = 0;
-        for (building, floors) in model.buildings.iter().zip(&outcome.floors) {
+        for (building, floors) in model.buildings.iter().zip(outcome.peaks.buildings()) {
             for (index, floor) in floors.iter().enumerate() {
                 let name = format!("{}{}", building.name, index + 1);
-                moved.add(peak(&name, "max"), floor.displacement_max.value);
-                moved.add(peak(&name, "min"), floor.displacement_min.value);
+                moved.add(peak(&name, "max"), floor.displacement_max().value);
+                moved.add(peak(&name, "min"), floor.displacement_min().value);
                 number_of_floor += 1;
                 let name = format!("total_acceleration_{number_of_floor}");
                 let greatest = peak(&name, "max").max(-peak(&name, "min"));
-                shaken.add(greatest, floor.total_acceleration);
+                shaken.add(greatest, floor.total_acceleration());
             }
         }
         let [mut counts, mut touches, mut forces, mut impulses] =
@@ -173,7 +173,7 @@ fn delayed(source: &str, case: &Value) -> Vec<Row> {
             let name = format!("{left}-{right} floor{floor}");
             closed.add(
                 peak(&format!("deformation:{name}"), "max"),
-                outcome.closing[index].value,
+                outcome.peaks.closing(index).value,
             );
             let stored = list(at(case, &format!("/contacts/{name}")), "/impacts");
             let own = outcome.impacts.iter().filter(|own| own.contact == index);
@@ -259,16 +259,16 @@ fn shaken_vertically(source: &str, case: &Value) -> Vec<Row> {
     ];
     for (steps, analysis, limit) in settings() {
         let outcome = run(&system, &motion, &analysis);
-        let floor = outcome.floors[0][0];
+        let floor = outcome.peaks.floor(0, 1);
         let [mut moved, mut energies, mut shaken] = [(); 3].map(|()| Pairs::default());
-        moved.add(peak("x", "max"), floor.displacement_max.value);
-        moved.add(peak("x", "min"), floor.displacement_min.value);
+        moved.add(peak("x", "max"), floor.displacement_max().value);
+        moved.add(peak("x", "min"), floor.displacement_min().value);
         let points = ["y_left", "y_right", "y_mid"].into_iter();
         let risen = points.flat_map(|name| [peak(name, "max"), -peak(name, "min")]);
-        moved.add(risen.fold(0.0, f64::max), floor.vertical_displacement);
+        moved.add(risen.fold(0.0, f64::max), floor.vertical_displacement());
         let name = "total_acceleration_1";
         let greatest = peak(name, "max").max(-peak(name, "min"));
-        shaken.add(greatest, floor.total_acceleration);
+        shaken.add(greatest, floor.total_acceleration());
         let energy = |key: &str| number(case, &format!("/energy_at_end/{key}"));
         energies.add(energy("input_j"), outcome.energy.input);
         energies.add(energy("damped_j"), outcome.energy.damped);

@@ -2,7 +2,6 @@
 
 use std::ops::ControlFlow;
 
-use jostle::history::FloorPeaks;
 use jostle::hysteresis::Hysteresis;
 use jostle::structure::{Discretization, Node, Spring, StickModel, Support};
 use jostle::system::BuildingSystem;
@@ -228,20 +227,20 @@ fn building_case(source: &str, case: &Value) -> Vec<Row> {
     for (steps, analysis, limit) in settings() {
         let outcome = run(&system, &motion, &analysis);
         let peak = |name: &str, which: &str| number(case, &format!("/peaks/{name}/{which}/value"));
-        let floors = &outcome.floors[0];
-        let mat = &outcome.supports[0];
+        let floors = &outcome.peaks.floors(0);
+        let mat = &outcome.peaks.floor(0, 0);
         let mut displacements = vec![
-            (peak("mat", "max"), mat.displacement_max.value),
-            (peak("mat", "min"), mat.displacement_min.value),
+            (peak("mat", "max"), mat.displacement_max().value),
+            (peak("mat", "min"), mat.displacement_min().value),
         ];
         let both = |name: &str| peak(name, "max").abs().max(peak(name, "min").abs());
-        let mut accelerations = vec![(both("total_acceleration_1"), mat.total_acceleration)];
+        let mut accelerations = vec![(both("total_acceleration_1"), mat.total_acceleration())];
         for (index, floor) in floors.iter().enumerate() {
             let name = format!("floor{}", index + 1);
-            displacements.push((peak(&name, "max"), floor.displacement_max.value));
-            displacements.push((peak(&name, "min"), floor.displacement_min.value));
+            displacements.push((peak(&name, "max"), floor.displacement_max().value));
+            displacements.push((peak(&name, "min"), floor.displacement_min().value));
             let name = format!("total_acceleration_{}", index + 2);
-            accelerations.push((both(&name), floor.total_acceleration));
+            accelerations.push((both(&name), floor.total_acceleration()));
         }
         let mut row = |what: &str, pairs: &[(f64, f64)], limit: f64| {
             rows.push(worst(source, format!("{steps}, {what}"), pairs, limit));
@@ -260,12 +259,12 @@ fn building_case(source: &str, case: &Value) -> Vec<Row> {
         if inputs.get("wall").is_none() {
             continue;
         }
-        let wall = &outcome.supports[1];
+        let wall = &outcome.peaks.floor(1, 0);
         row(
             "displacements of the wall [m]",
             &[
-                (peak("moat", "max"), wall.displacement_max.value),
-                (peak("moat", "min"), wall.displacement_min.value),
+                (peak("moat", "max"), wall.displacement_max().value),
+                (peak("moat", "min"), wall.displacement_min().value),
             ],
             limit,
         );
@@ -343,13 +342,13 @@ fn block_case(source: &str, case: &Value) -> Vec<Row> {
     for (steps, analysis, limit) in settings() {
         let outcome = run(&system, &motion, &analysis);
         let peak = |which: &str| number(case, &format!("/peaks/u/{which}/value"));
-        let floor: &FloorPeaks = &outcome.floors[0][0];
+        let floor = outcome.peaks.floor(0, 1);
         rows.push(worst(
             source,
             format!("{steps}, displacements [m]"),
             &[
-                (peak("max"), floor.displacement_max.value),
-                (peak("min"), floor.displacement_min.value),
+                (peak("max"), floor.displacement_max().value),
+                (peak("min"), floor.displacement_min().value),
             ],
             limit,
         ));
@@ -428,14 +427,14 @@ friction = {friction}
             ..Settings::default()
         };
         let (_, outcome) = run_model(&input, None, settings, duration);
-        let mat = &outcome.supports[0];
+        let mat = &outcome.peaks.floor(0, 0);
         let peak = |which: &str| number(case, &format!("/peaks/{name}/{which}/value"));
         rows.push(worst(
             source,
             format!("model file, {steps}, displacements of the mat [m]"),
             &[
-                (peak("max"), mat.displacement_max.value),
-                (peak("min"), mat.displacement_min.value),
+                (peak("max"), mat.displacement_max().value),
+                (peak("min"), mat.displacement_min().value),
             ],
             limit,
         ));

@@ -110,9 +110,9 @@ fn run(system: &System, frequency: f64, cycles: [usize; 2]) -> (jostle::Outcome,
     });
     let history = outcome.history.as_ref().expect("histories are recorded");
     let column = |column| history.column(column).expect("it is recorded");
-    let place = |building| Column::Displacement { building, floor: 1 };
-    let rate = |building| Column::Velocity { building, floor: 1 };
-    let lists = [Column::Time, place(0), rate(0), place(1), rate(1)].map(column);
+    let place = |building| Column::displacement(building, 1);
+    let rate = |building| Column::velocity(building, 1);
+    let lists = [Column::TIME, place(0), rate(0), place(1), rate(1)].map(column);
     let settled = cycles[0] as f64 * cycle * (1.0 - 1e-9);
     let rows = (0..history.len())
         .map(|k| lists.each_ref().map(|list| list[k]))

@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use jostle::history::{Kind, Owner};
 use jostle::{
     Analysis, Building, Column, ContactLaw, Damping, FloorPairs, Gap, GroundMotion, LawKind, Link,
     LinkLaw, Model, Outcome, Plan, RestitutionIs, Settings, Shear, Structure, System, simulate,
@@ -194,19 +195,18 @@ fn compare(source: &str, case: &Value, tolerance: f64) -> Vec<Row> {
         );
         rows.push(Row::worst_of(source, what, &expected, &got, tolerance));
     };
-    let floors = &outcome.floors;
     let mut displacements = Vec::new();
     let mut accelerations = Vec::new();
     let mut unknown = 0;
     for (index, building) in system.buildings.iter().enumerate() {
-        for (floor, peaks) in floors[index].iter().enumerate() {
+        for (floor, peaks) in outcome.peaks.floors(index).iter().enumerate() {
             let stored = at(case, &format!("/peaks/{}{}", building.name, floor + 1));
-            displacements.push((side(stored, "max"), peaks.displacement_max.value));
-            displacements.push((side(stored, "min"), peaks.displacement_min.value));
+            displacements.push((side(stored, "max"), peaks.displacement_max().value));
+            displacements.push((side(stored, "min"), peaks.displacement_min().value));
             unknown += 1;
             let stored = case["peaks"].get(format!("total_acceleration_{unknown}"));
             accelerations
-                .extend(stored.map(|stored| (magnitude(stored), peaks.total_acceleration)));
+                .extend(stored.map(|stored| (magnitude(stored), peaks.total_acceleration())));
         }
     }
     kind("displacements of floors [m]", displacements);
@@ -225,15 +225,20 @@ fn compare(source: &str, case: &Value, tolerance: f64) -> Vec<Row> {
         let links = system.links.iter().enumerate();
         links.filter_map(one).collect()
     };
-    let totals = &outcome.links;
+    let of_link = |kind, link| {
+        outcome
+            .peaks
+            .of(Column::along(Owner::Link(link), kind))
+            .size()
+    };
     kind(
         "forces of links [N]",
-        of_links("force", &|link| totals[link].peak_force.value.abs()),
+        of_links("force", &|link| of_link(Kind::Force, link)),
     );
     if case["peaks"].get("deformation:link3-3").is_some() {
         kind(
             "strokes of links [m]",
-            of_links("deformation", &|link| totals[link].peak_shortening),
+            of_links("deformation", &|link| of_link(Kind::Stroke, link)),
         );
     }
     if let Some(energy) = case.get("energy_at_end") {
@@ -242,7 +247,8 @@ fn compare(source: &str, case: &Value, tolerance: f64) -> Vec<Row> {
             let own = all.iter().filter(|(name, _)| name.starts_with(prefix));
             own.filter_map(|(_, work)| work.as_f64()).sum()
         };
-        let links: f64 = totals.iter().map(|link| link.work).sum();
+        let links = (0..system.links.len()).map(|link| outcome.peaks.work(Owner::Link(link)));
+        let links: f64 = links.sum();
         let own = outcome.energy;
         let dashpots = own.damped - own.links;
         kind(
@@ -306,14 +312,11 @@ fn compare(source: &str, case: &Value, tolerance: f64) -> Vec<Row> {
 /// Displacements at the instants stored.
 fn states(case: &Value, system: &System, outcome: &Outcome) -> Vec<(f64, f64)> {
     let history = outcome.history.as_ref().expect("it is recorded");
-    let times = history.column(Column::Time).expect("it has times");
+    let times = history.column(Column::TIME).expect("it has times");
     let mut columns = Vec::new();
     for (index, building) in system.buildings.iter().enumerate() {
         for floor in 1..=building.floors.len() {
-            let column = Column::Displacement {
-                building: index,
-                floor,
-            };
+            let column = Column::displacement(index, floor);
             columns.push(history.column(column).expect("it is recorded"));
         }
     }

@@ -55,7 +55,7 @@ fn against_a_stop() -> Vec<Row> {
         Some(state),
     );
     let (first, second) = (outcome.impacts[0], outcome.impacts[1]);
-    let peaks = outcome.floors[0][0];
+    let peaks = outcome.peaks.floor(0, 1);
     let values = [
         (
             "first contact [s]",
@@ -70,7 +70,7 @@ fn against_a_stop() -> Vec<Row> {
         (
             "peak displacement [m]",
             expected("u_max"),
-            peaks.displacement_max.value,
+            peaks.displacement_max().value,
         ),
         (
             "peak indentation [m]",
@@ -86,7 +86,7 @@ fn against_a_stop() -> Vec<Row> {
         (
             "least displacement [m]",
             expected("u_min"),
-            peaks.displacement_min.value,
+            peaks.displacement_min().value,
         ),
         (
             "from first to second contact [s]",
@@ -186,11 +186,11 @@ fn under_a_sine() -> Vec<Row> {
             ));
         }
     }
-    let floors = [outcome.floors[0][0], outcome.floors[1][0]];
+    let floors = [outcome.peaks.floor(0, 1), outcome.peaks.floor(1, 1)];
     for (side, floor) in floors.iter().enumerate() {
         for (key, got) in [
-            ("max", floor.displacement_max.value),
-            ("min", floor.displacement_min.value),
+            ("max", floor.displacement_max().value),
+            ("min", floor.displacement_min().value),
         ] {
             let name_of_peak = format!("u{}_{key}", side + 1);
             let expected = numbers(&case, &format!("/expected/peaks/{name_of_peak}"))[0];

@@ -176,7 +176,7 @@ fn buildings() -> Vec<Row> {
             SOURCE,
             quantity,
             expected,
-            outcome.closing[floor].value,
+            outcome.peaks.closing(floor).value,
             5e-5,
         ));
     }
@@ -405,17 +405,21 @@ fn summed_up(pga: f64, gap: f64, system: &System, outcome: &Outcome) -> Referenc
             forces_n: impacts().map(|impact| impact.peak_force).collect(),
             peak_force_n: impacts().fold(0.0, |peak, impact| peak.max(impact.peak_force)),
             impulse_n_s: impacts().fold(0.0, |sum, impact| sum + impact.impulse),
-            closing_m: outcome.closing[contact].value,
+            closing_m: outcome.peaks.closing(contact).value,
             first_start_s: impacts().map(|impact| impact.start).min_by(f64::total_cmp),
         }
     });
-    let peaks = || outcome.floors.iter().flatten();
+    let peaks = || outcome.peaks.buildings().flatten();
     ReferenceCase {
         pga_m_s2: pga,
         gap_m: gap,
         floors: floors.collect(),
-        displacement_max_m: peaks().map(|floor| floor.displacement_max.value).collect(),
-        displacement_min_m: peaks().map(|floor| floor.displacement_min.value).collect(),
+        displacement_max_m: peaks()
+            .map(|floor| floor.displacement_max().value)
+            .collect(),
+        displacement_min_m: peaks()
+            .map(|floor| floor.displacement_min().value)
+            .collect(),
         contact_j: outcome.energy.contact,
         imbalance: outcome.energy.worst_imbalance,
     }

@@ -1,6 +1,7 @@
 //! Buildings in space through model files, against OpenSees on the exported script.
 
-use jostle::history::FloorPeaks;
+use jostle::history::{Peak, PeaksOf};
+use jostle::system::Direction;
 use jostle::{Pounding, Settings};
 use jostle_io::Input;
 use serde_json::Value;
@@ -53,36 +54,22 @@ fn compare(case: &str, mut input: Input, expected: &Value, error: f64) -> Vec<Ro
     let tolerance = TOLERANCE + error;
     let mut rows = Vec::new();
     for (index, stored) in list(expected, "/buildings").iter().enumerate() {
-        let (name, plan) = (&system.buildings[index].name, &outcome.in_plan[index]);
+        let name = &system.buildings[index].name;
         // Of an isolated building the mat comes first.
-        let mat = outcome.supports.get(index);
-        let mat = mat.and_then(|own| Some((*own, own.in_plan?)));
-        let along = mat.map(|(own, _)| [own.displacement_max, own.displacement_min]);
-        let across = mat.map(|(_, own)| own.across);
-        let turning = mat.map(|(_, own)| own.rotation);
-        for (what, key, unit, of_mat, peaks) in [
-            (
-                "along x [m]",
-                "displacement",
-                "m",
-                along,
-                &outcome.floors[index],
-            ),
-            (
-                "across [m]",
-                "displacement_across",
-                "m",
-                across,
-                &plan.across,
-            ),
-            ("rotations [rad]", "rotation", "rad", turning, &plan.turning),
+        let mat = outcome.peaks.floor(index, 0);
+        let mat = mat.across().moves().then_some(mat);
+        let floors: Vec<PeaksOf> = mat.into_iter().chain(outcome.peaks.floors(index)).collect();
+        for (what, key, unit, direction) in [
+            ("along x [m]", "displacement", "m", Direction::Along),
+            ("across [m]", "displacement_across", "m", Direction::Across),
+            ("rotations [rad]", "rotation", "rad", Direction::Turning),
         ] {
-            type Side = (&'static str, usize, fn(&FloorPeaks) -> f64);
+            type Side = (&'static str, fn(Peak) -> f64);
             let sides: [Side; 2] = [
-                ("max", 0, |peaks| peaks.displacement_max.value),
-                ("min", 1, |peaks| peaks.displacement_min.value),
+                ("max", |peak| peak.greatest.value),
+                ("min", |peak| peak.least.value),
             ];
-            for (side, which, own) in sides {
+            for (side, own) in sides {
                 let wanted: Vec<f64> = list(stored, "/floors")
                     .iter()
                     .map(|floor| number(floor, &format!("/{key}_{side}_{unit}")))
@@ -91,8 +78,10 @@ fn compare(case: &str, mut input: Input, expected: &Value, error: f64) -> Vec<Ro
                 if wanted.iter().all(|value| value.abs() < 1e-9) {
                     continue;
                 }
-                let of_mat = of_mat.iter().map(|own| own[which].value);
-                let got: Vec<f64> = of_mat.chain(peaks.iter().map(own)).collect();
+                let moved = floors
+                    .iter()
+                    .map(|floor| floor.to(direction).displacement());
+                let got: Vec<f64> = moved.map(own).collect();
                 rows.push(Row::worst_of(
                     &source,
                     format!("{name}, {side}. {what}"),

@@ -114,15 +114,15 @@ fn derived(case: &Value, system: &System) -> Vec<Row> {
 }
 
 fn peaks(case: &Value, path: &str, run: &str, outcome: &Outcome) -> Vec<Row> {
-    let floors: Vec<_> = outcome.floors.iter().flatten().collect();
+    let floors: Vec<_> = outcome.peaks.buildings().flatten().collect();
     entries(case, path)
         .map(|(peak, expected)| {
             let (dof, side) = peak[1..].split_once('_').expect("a name such as u3_max");
             let floor = floors[dof.parse::<usize>().expect("a floor") - 1];
             let got = if side == "max" {
-                floor.displacement_max
+                floor.displacement_max()
             } else {
-                floor.displacement_min
+                floor.displacement_min()
             };
             Row::relative(
                 SOURCE,

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use jostle::history::Extreme;
+use jostle::history::{Owner, Peak, PeaksOf};
 use jostle::{
     Analysis, Base, Building, ContactLaw, Damping, Foundation, Gap, GroundMotion, HalfSpace,
     LawKind, Model, Outcome, Plan, RestitutionIs, RunEnd, Settings, Shear, Soil, SoilCoupling,
@@ -330,30 +330,26 @@ fn peaks(
         1 => name.to_owned(),
         _ => format!("{}.{name}", model.buildings[index].name),
     };
-    let floors = &outcome.floors[index];
+    let floors = &outcome.peaks.floors(index);
     let floor = |number: usize| match model.buildings.len() {
         1 => "u".to_owned(),
         _ => format!("{}{number}", model.buildings[index].name),
     };
     let peak = |name: &str, which: &str| number(case, &format!("/peaks/{name}/{which}/value"));
-    let both = |name: &str, [max, min]: [Extreme; 2]| {
+    let both = |name: &str, of: PeaksOf<'_>| {
+        let Peak { greatest, least } = of.displacement();
         [
-            (peak(name, "max"), max.value),
-            (peak(name, "min"), min.value),
+            (peak(name, "max"), greatest.value),
+            (peak(name, "min"), least.value),
         ]
     };
-    let own = &outcome.foundations[index];
-    take("sway [m]", &both(&prefix("u_f"), own.sway));
-    take("rocking [rad]", &both(&prefix("theta"), own.rocking));
+    let own = outcome.peaks.owned_by(Owner::Foundation(index));
+    take("sway [m]", &both(&prefix("u_f"), own));
+    take("rocking [rad]", &both(&prefix("theta"), own.turning()));
     let displacements: Vec<(f64, f64)> = floors
         .iter()
         .enumerate()
-        .flat_map(|(k, peaks)| {
-            both(
-                &floor(k + 1),
-                [peaks.displacement_max, peaks.displacement_min],
-            )
-        })
+        .flat_map(|(k, peaks)| both(&floor(k + 1), *peaks))
         .collect();
     take("displacements of floors [m]", &displacements);
     // Unknowns are u_f, θ and the floors of every building.
@@ -367,7 +363,7 @@ fn peaks(
         .map(|(k, peaks)| {
             let name = format!("total_acceleration_{}", before + 3 + k);
             let expected = peak(&name, "max").abs().max(peak(&name, "min").abs());
-            (expected, peaks.total_acceleration)
+            (expected, peaks.total_acceleration())
         })
         .collect();
     take("total accelerations of floors [m/s2]", &accelerations);
@@ -376,7 +372,7 @@ fn peaks(
         let height = model.buildings[0].storey_heights()[0];
         take(
             "deformation of the storey [m]",
-            &[(storey, floors[0].storey_drift * height)],
+            &[(storey, floors[0].storey_drift() * height)],
         );
     }
 }

@@ -3,7 +3,6 @@
 use std::ops::ControlFlow;
 
 use jostle::contact::ForceLaw;
-use jostle::stepping::PlanPeaks;
 use jostle::{
     Analysis, Bearing, Building, ContactLaw, Damping, Gap, GroundMotion, LawKind, Model, Outcome,
     Plan, PlanArea, PlanContact, PlanPoint, RestitutionIs, Settings, Solver, Structure, System,
@@ -342,27 +341,26 @@ fn compare(
         };
         floors.iter().map(one).collect()
     };
-    let plan: &[PlanPeaks] = &outcome.in_plan;
-    let along = |b: usize, f: usize| outcome.floors[b][f];
+    let along = |b: usize, f: usize| outcome.peaks.floor(b, f + 1);
     let mut displacements = of_floors("displacement_x_max_m", &|b, f| {
-        along(b, f).displacement_max.value
+        along(b, f).displacement_max().value
     });
     displacements.extend(of_floors("displacement_x_min_m", &|b, f| {
-        along(b, f).displacement_min.value
+        along(b, f).displacement_min().value
     }));
     kind("displacements along x [m]", displacements);
     let mut across = of_floors("displacement_y_max_m", &|b, f| {
-        plan[b].across[f].displacement_max.value
+        along(b, f).across().displacement_max().value
     });
     across.extend(of_floors("displacement_y_min_m", &|b, f| {
-        plan[b].across[f].displacement_min.value
+        along(b, f).across().displacement_min().value
     }));
     kind("displacements across [m]", across);
     let mut turns = of_floors("rotation_max_rad", &|b, f| {
-        plan[b].turning[f].displacement_max.value
+        along(b, f).turning().displacement_max().value
     });
     turns.extend(of_floors("rotation_min_rad", &|b, f| {
-        plan[b].turning[f].displacement_min.value
+        along(b, f).turning().displacement_min().value
     }));
     kind("rotations [rad]", turns);
     let bases = list(expected, "/bases");
@@ -372,15 +370,17 @@ fn compare(
     };
     kind(
         "base shear along x [N]",
-        of_bases("/shear_x_peak_n", &|b| outcome.base_shear[b]),
+        of_bases("/shear_x_peak_n", &|b| outcome.peaks.base_shear(b)),
     );
     kind(
         "base shear across [N]",
-        of_bases("/shear_y_peak_n", &|b| plan[b].across[0].storey_shear),
+        of_bases("/shear_y_peak_n", &|b| along(b, 0).across().storey_shear()),
     );
     kind(
         "base torque [N·m]",
-        of_bases("/torque_peak_n_m", &|b| plan[b].turning[0].storey_shear),
+        of_bases("/torque_peak_n_m", &|b| {
+            along(b, 0).turning().storey_shear()
+        }),
     );
     let contacts = list(inputs, "/contacts");
     // Contacts of both, matched by their places.
@@ -441,7 +441,7 @@ fn compare(
     }
     kind(
         "greatest closing of points [m]",
-        of_contacts("/closing_peak_m", &|own| outcome.closing[own].value),
+        of_contacts("/closing_peak_m", &|own| outcome.peaks.closing(own).value),
     );
     kind(
         "peak force of points [N]",

@@ -106,14 +106,14 @@ fn settings(pounding: Pounding) -> Settings {
 }
 
 fn peaks(case: &Value, key: &str, name: &dyn Fn(&str) -> String, outcome: &Outcome) -> Vec<Row> {
-    let floors = [outcome.floors[0][0], outcome.floors[1][0]];
+    let floors = [outcome.peaks.floor(0, 1), outcome.peaks.floor(1, 1)];
     entries(case, &format!("/expected/{key}/peaks"))
         .map(|(peak, expected)| {
             let floor = floors[usize::from(peak.starts_with("u2"))];
             let got = if peak.ends_with("max") {
-                floor.displacement_max
+                floor.displacement_max()
             } else {
-                floor.displacement_min
+                floor.displacement_min()
             };
             Row::relative(
                 SOURCE,

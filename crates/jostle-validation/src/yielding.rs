@@ -1,7 +1,8 @@
 //! Buildings in one plane through model files, against OpenSees on the exported script: yielding frames, bearings, walls, links,
 //! soil, ground that differs and vertical shaking.
 
-use jostle::{Pounding, Settings};
+use jostle::history::Owner;
+use jostle::{Column, Pounding, Settings};
 use jostle_io::Input;
 use serde_json::Value;
 
@@ -59,7 +60,7 @@ fn case(case: &str, mut input: Input, expected: &Value, error: f64) -> Vec<Row> 
     for ((building, floors), expected) in system
         .buildings
         .iter()
-        .zip(&outcome.floors)
+        .zip(outcome.peaks.buildings())
         .zip(list(expected, "/buildings"))
     {
         for (key, side) in [
@@ -73,8 +74,8 @@ fn case(case: &str, mut input: Input, expected: &Value, error: f64) -> Vec<Row> 
             let got: Vec<f64> = floors
                 .iter()
                 .map(|floor| match side {
-                    "right" => floor.displacement_max.value,
-                    _ => floor.displacement_min.value,
+                    "right" => floor.displacement_max().value,
+                    _ => floor.displacement_min().value,
                 })
                 .collect();
             rows.push(Row::worst_of(
@@ -89,7 +90,10 @@ fn case(case: &str, mut input: Input, expected: &Value, error: f64) -> Vec<Row> 
         let upwards = upwards.filter_map(|floor| floor.get("vertical_displacement_peak_m"));
         let wanted: Vec<f64> = upwards.filter_map(Value::as_f64).collect();
         if !wanted.is_empty() {
-            let got: Vec<f64> = floors.iter().map(|own| own.vertical_displacement).collect();
+            let got: Vec<f64> = floors
+                .iter()
+                .map(|own| own.vertical_displacement())
+                .collect();
             let quantity = format!("{}, peak vertical displacements [m]", building.name);
             rows.push(Row::worst_of(&source, quantity, &wanted, &got, tolerance));
         }
@@ -98,17 +102,20 @@ fn case(case: &str, mut input: Input, expected: &Value, error: f64) -> Vec<Row> 
         if expected.get("foundation").is_none() {
             continue;
         }
-        let (name, own) = (&system.buildings[index].name, outcome.foundations[index]);
+        let (name, own) = (
+            &system.buildings[index].name,
+            outcome.peaks.owned_by(Owner::Foundation(index)),
+        );
         for (what, [max, min], got) in [
-            ("sway [m]", ["sway_max_m", "sway_min_m"], own.sway),
+            ("sway [m]", ["sway_max_m", "sway_min_m"], own.displacement()),
             (
                 "rocking [rad]",
                 ["rocking_max_rad", "rocking_min_rad"],
-                own.rocking,
+                own.turning().displacement(),
             ),
         ] {
             let wanted = [max, min].map(|key| number(expected, &format!("/foundation/{key}")));
-            let got = got.map(|peak| peak.value);
+            let got = [got.greatest.value, got.least.value];
             let quantity = format!("{name}, foundation, {what}");
             rows.push(Row::worst_of(&source, quantity, &wanted, &got, tolerance));
         }
@@ -146,8 +153,8 @@ fn case(case: &str, mut input: Input, expected: &Value, error: f64) -> Vec<Row> 
             .iter()
             .map(|link| number(link, "/peak_force_n"))
             .collect();
-        let links = outcome.links[..system.model_links().len()].iter();
-        let got: Vec<f64> = links.map(|link| link.peak_force.value.abs()).collect();
+        let links = (0..system.model_links().len()).map(Column::link_force);
+        let got: Vec<f64> = links.map(|force| outcome.peaks.of(force).size()).collect();
         for (number, (wanted, got)) in wanted.iter().zip(&got).enumerate() {
             let law = system.links[number].law.name();
             let quantity = format!("{law} link, peak force [N]");

@@ -1,7 +1,8 @@
 //! Walls at points of a plan, and members of a space frame, that yield, through model files, against scripts of OpenSees that do not
 //! come from the exporter.
 
-use jostle::history::FloorPeaks;
+use jostle::history::{Kind, Owner, PeaksOf};
+use jostle::system::Direction;
 use jostle::{Pounding, Settings};
 use serde_json::Value;
 
@@ -66,17 +67,19 @@ fn compare(case: &Case) -> Vec<Row> {
         record_interval: None,
     };
     let (_, outcome) = run_model(&input, None, settings, case.duration);
-    let plan = &outcome.in_plan[0];
+    let floors = outcome.peaks.floors(0);
+    let moving =
+        |direction| -> Vec<PeaksOf> { floors.iter().map(|floor| floor.to(direction)).collect() };
     let mut rows = Vec::new();
     let directions = [
-        ("along x [m]", &outcome.floors[0]),
-        ("across [m]", &plan.across),
-        ("rotation [rad]", &plan.turning),
+        ("along x [m]", moving(Direction::Along)),
+        ("across [m]", moving(Direction::Across)),
+        ("rotation [rad]", moving(Direction::Turning)),
     ];
-    type Side = (&'static str, fn(&FloorPeaks) -> f64);
+    type Side = (&'static str, fn(&PeaksOf<'_>) -> f64);
     let sides: [Side; 2] = [
-        ("max", |peaks| peaks.displacement_max.value),
-        ("min", |peaks| peaks.displacement_min.value),
+        ("max", |peaks| peaks.displacement_max().value),
+        ("min", |peaks| peaks.displacement_min().value),
     ];
     for (component, (what, peaks)) in directions.into_iter().enumerate() {
         for (side, own) in sides {
@@ -102,21 +105,32 @@ fn compare(case: &Case) -> Vec<Row> {
             .map_or_else(|| numbers(own, ""), |own| vec![own])
     };
     let wanted: Vec<f64> = springs.flat_map(each).collect();
-    let got: Vec<f64> = outcome.springs.iter().map(|own| own.peak_force).collect();
+    let force = |spring| {
+        outcome
+            .peaks
+            .owned_by(Owner::Spring(spring))
+            .of(Kind::Force)
+    };
+    let count = outcome.state.springs.len();
+    let got: Vec<f64> = (0..count).map(|spring| force(spring).size()).collect();
     let what = what.to_owned();
     rows.push(Row::worst_of(case.source, what, &wanted, &got, of_forces));
     let base = numbers(at(&expected, "/base_shear_peak_n"), "");
     for (what, wanted, got) in [
-        ("base shear along x [N]", base[0], outcome.base_shear[0]),
+        (
+            "base shear along x [N]",
+            base[0],
+            outcome.peaks.base_shear(0),
+        ),
         (
             "base shear across [N]",
             base[1],
-            plan.across[0].storey_shear,
+            floors[0].across().storey_shear(),
         ),
         (
             "base torque [N·m]",
             number(&expected, "/base_torque_peak_n_m"),
-            plan.turning[0].storey_shear,
+            floors[0].turning().storey_shear(),
         ),
     ] {
         rows.push(Row::relative(

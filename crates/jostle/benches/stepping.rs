@@ -10,9 +10,9 @@ use divan::counter::ItemsCount;
 use jostle::structure::StepEquations;
 use jostle::system::BuildingSystem;
 use jostle::{
-    Analysis, Axial, Building, ContactLaw, Damping, Frame, Gap, GroundMotion, Joint, LawKind,
-    Model, Plan, Pounding, RestitutionIs, RiccatiFactor, RiccatiScratch, RiccatiSweep, Section,
-    Settings, Structure, System, simulate,
+    Analysis, Building, ContactLaw, Damping, Frame, Gap, GroundMotion, LawKind, Model, Plan,
+    Pounding, RestitutionIs, RiccatiFactor, RiccatiScratch, RiccatiSweep, Section, Settings,
+    Structure, System, simulate,
 };
 
 fn main() {

@@ -177,10 +177,7 @@ pub(crate) fn spin_of_points(depth: f64, turn: f64, points: usize) -> f64 {
         ControlFlow::Continue(())
     });
     let history = outcome.history.expect("histories are recorded");
-    let rate = history.column(Column::RotationRate {
-        building: 0,
-        floor: 1,
-    });
+    let rate = history.column(Column::velocity(0, 1).turning());
     let rate = rate.expect("the rotation is recorded");
     rate.last().copied().unwrap_or(f64::NAN)
 }

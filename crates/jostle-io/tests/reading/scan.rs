@@ -89,13 +89,13 @@ fn exercise(text: &str, steps: bool) -> Outcome {
                 ControlFlow::Continue(())
             }
         });
-        let floors = outcome.floors.iter().flatten();
+        let floors = outcome.peaks.buildings().flatten();
         let mut numbers: Vec<f64> = floors
             .flat_map(|floor| {
                 [
-                    floor.displacement_max.value,
-                    floor.total_acceleration,
-                    floor.storey_shear,
+                    floor.displacement_max().value,
+                    floor.total_acceleration(),
+                    floor.storey_shear(),
                 ]
             })
             .collect();

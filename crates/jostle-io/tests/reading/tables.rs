@@ -171,27 +171,18 @@ fn read(path: &PathBuf) -> Vec<Vec<(String, Field)>> {
 #[test]
 fn histories_have_named_columns() {
     let columns = vec![
-        Column::Time,
-        Column::GroundAcceleration,
-        Column::Displacement {
-            building: 0,
-            floor: 2,
-        },
-        Column::Velocity {
-            building: 1,
-            floor: 1,
-        },
-        Column::TotalAcceleration {
-            building: 1,
-            floor: 2,
-        },
-        Column::ContactForce { contact: 0 },
-        Column::ContactForce { contact: 1 },
-        Column::Closing { contact: 1 },
-        Column::LinkForce { link: 0 },
-        Column::LinkStroke { link: 0 },
-        Column::LinkSpeed { link: 0 },
-        Column::Energy(EnergyTerm::Input),
+        Column::TIME,
+        Column::GROUND_ACCELERATION,
+        Column::displacement(0, 2),
+        Column::velocity(1, 1),
+        Column::total_acceleration(1, 2),
+        Column::contact_force(0),
+        Column::contact_force(1),
+        Column::closing(1),
+        Column::link_force(0),
+        Column::link_stroke(0),
+        Column::link_speed(0),
+        Column::energy(EnergyTerm::Input),
     ];
     let values: Vec<f64> = (0..24).map(f64::from).collect();
     let history = History::from_rows(columns, values);

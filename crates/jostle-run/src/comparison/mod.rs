@@ -270,7 +270,7 @@ impl PreparedComparison<'_> {
             return Err(RunError::Analysis("the run recorded no histories".into()));
         };
         let names = history_names(&self.prepared.input.model, &summary, history.columns());
-        let instants = history.column(Column::Time).unwrap_or_default();
+        let instants = history.column(Column::TIME).unwrap_or_default();
         let mut columns = Vec::new();
         for wanted in &map.columns {
             let column = self.computed(&names, history.columns(), &wanted.computed)?;

@@ -75,7 +75,7 @@ fn histories() -> (Vec<f64>, HashMap<String, Vec<f64>>, Vec<f64>) {
         .as_ref()
         .unwrap_or_else(|| panic!("no history"));
     let names = history_names(&prepared.input.model, &summary, history.columns());
-    let instants = history.column(Column::Time).unwrap_or_default();
+    let instants = history.column(Column::TIME).unwrap_or_default();
     let count = (prepared.motion.duration / STEP).round() as usize + 1;
     let time: Vec<f64> = (0..count).map(|k| k as f64 * STEP).collect();
     let resampled = |values: &[f64]| -> Vec<f64> {

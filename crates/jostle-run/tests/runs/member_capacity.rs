@@ -68,11 +68,11 @@ fn histories_hold_the_closing_of_struck_columns() {
         let history = ran.outcome.history.as_ref().expect("recorded");
         let mut struck = 0;
         for (contact, one) in ran.prepared.system.contacts.iter().enumerate() {
-            let closing = history.column(Column::Closing { contact });
+            let closing = history.column(Column::closing(contact));
             assert_eq!(closing.is_some(), one.is_between_floors());
             let Some(closing) = closing else { continue };
             let force = history
-                .column(Column::ContactForce { contact })
+                .column(Column::contact_force(contact))
                 .expect("recorded");
             let most = force.iter().copied().fold(0.0, f64::max);
             struck += usize::from(most > 0.0);
@@ -86,7 +86,7 @@ fn histories_hold_the_closing_of_struck_columns() {
         }
         assert!(struck > 1, "{solver}: {struck} contacts were struck");
         // What comes behind is still the energies, and they balance.
-        let of = |term| history.column(Column::Energy(term)).expect("recorded");
+        let of = |term| history.column(Column::energy(term)).expect("recorded");
         let [input, parts @ ..] = EnergyTerm::ALL.map(of);
         let last = history.len() - 1;
         let sum: f64 = parts.iter().map(|part| part[last]).sum();

@@ -116,9 +116,9 @@ fn by_displacements(support: &[[f64; 3]], omega: f64, zeta: f64) -> f64 {
 /// Instants, displacements and velocities of a floor under a sine, ground included.
 fn support(history: &History, building: usize, amplitude: f64, omega: f64) -> Vec<[f64; 3]> {
     let column = |column| history.column(column).expect("recorded");
-    let time = column(Column::Time);
-    let u = column(Column::Displacement { building, floor: 1 });
-    let v = column(Column::Velocity { building, floor: 1 });
+    let time = column(Column::TIME);
+    let u = column(Column::displacement(building, 1));
+    let v = column(Column::velocity(building, 1));
     let ground = |t: f64| {
         let speed = amplitude / omega * (1.0 - (omega * t).cos());
         [amplitude / omega * (t - (omega * t).sin() / omega), speed]

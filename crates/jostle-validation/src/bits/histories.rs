@@ -59,7 +59,7 @@ pub(super) fn describe(outcome: &Outcome) -> Value {
     let time = history
         .columns()
         .iter()
-        .position(|own| *own == Column::Time);
+        .position(|own| *own == Column::TIME);
     let at = |row: usize| time.map_or(0.0, |time| history.row(row)[time]);
     let end = at(history.len() - 1);
     let mut spans: [Bits; SPANS] = Default::default();
@@ -105,7 +105,7 @@ fn name(column: Column) -> String {
 fn springs(outcome: &Outcome) -> Option<String> {
     let history = outcome.spring_history.as_ref()?;
     let mut bits = Bits::default();
-    for spring in 0..outcome.springs.len() {
+    for spring in 0..outcome.state.springs.len() {
         for [deformation, force] in history.of_spring(spring) {
             bits.number(deformation.into());
             bits.number(force.into());

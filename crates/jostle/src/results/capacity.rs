@@ -168,7 +168,7 @@ pub(super) fn axial_failure(
         .map(|section| extremes[section.forms[0]][1]);
     let compression_n = rating.compression(least.fold(f64::INFINITY, f64::min));
     let drift = line.at(compression_n);
-    let peak = run.outcome.floors[building][storey - 1].storey_drift;
+    let peak = run.outcome.peaks.floor(building, storey).storey_drift();
     Some(AxialFailureSummary {
         drift,
         compression_n,

@@ -1,6 +1,7 @@
 //! What a run does to foundations on soil.
 
 use super::summary::FoundationSummary;
+use crate::history::Owner;
 use crate::stepping::Outcome;
 use crate::system::{BuildingSystem, System};
 
@@ -15,11 +16,11 @@ pub(super) fn foundation_summary(
     outcome: &Outcome,
 ) -> Option<FoundationSummary> {
     let own = building.foundation?;
-    let peaks = outcome.foundations.get(index).copied().unwrap_or_default();
-    let greatest = |[max, min]: [crate::history::Extreme; 2]| max.value.max(-min.value);
+    let owner = Owner::Foundation(index);
+    let peaks = outcome.peaks.owned_by(owner);
     Some(FoundationSummary {
-        sway_peak_m: greatest(peaks.sway),
-        rocking_peak_rad: greatest(peaks.rocking),
+        sway_peak_m: peaks.displacement().size(),
+        rocking_peak_rad: peaks.turning().displacement().size(),
         period_s: own.period,
         period_ratio: own.period / own.fixed_period,
         damping_ratio: own.damping,
@@ -29,7 +30,7 @@ pub(super) fn foundation_summary(
         rocking_stiffness_n_m_rad: own.springs.rocking_stiffness,
         rocking_damping_n_m_s_rad: own.springs.rocking_damping,
         dimensionless_frequency: own.springs.frequency,
-        damped_j: peaks.damped,
+        damped_j: outcome.peaks.work(owner),
     })
 }
 
@@ -37,12 +38,15 @@ pub(super) fn foundation_summary(
 /// `None` without foundations \[J\].
 pub(super) fn soil_energy(system: &System, outcome: &Outcome) -> Option<[f64; 2]> {
     let founded = system.buildings.iter().any(|own| own.foundation.is_some());
-    let own: f64 = outcome.foundations.iter().map(|peaks| peaks.damped).sum();
-    let links = system.links.iter().zip(&outcome.links);
+    let buildings = 0..system.buildings.len();
+    let own = buildings.map(|building| outcome.peaks.work(Owner::Foundation(building)));
+    let own: f64 = own.sum();
+    let links = system.links.iter().enumerate();
     let displacement = &outcome.state.displacement;
-    let between = links
-        .skip(system.model_links().len())
-        .map(|(link, totals)| totals.work - link.strain(link.shortening(displacement)));
+    let between = links.skip(system.model_links().len()).map(|(index, link)| {
+        let work = outcome.peaks.work(Owner::Link(index));
+        work - link.strain(link.shortening(displacement))
+    });
     let between = between.sum::<f64>();
     founded.then_some([own + between, between])
 }

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::history::{FaceImpact, FloorPeaks, Impact, Sliding};
+use crate::history::{FaceImpact, Impact, Kind, Owner, Sliding};
 use crate::interface::{Contact, MOST_POINTS, PlanPart};
 use crate::linear::sort_by;
 use crate::quantity::{Quantity, Unit};
@@ -205,45 +205,50 @@ pub struct ImpactSliding {
     pub tangential_impulse_n_s: f64,
 }
 
-/// Of a floor of a building in a run; `None` in one plane.
+/// Of a floor of a building in a run, from 1, or of its mat as floor 0; `None` in one plane.
 pub(super) fn floor_in_plan(index: usize, floor: usize, outcome: &Outcome) -> Option<FloorInPlan> {
-    let peaks = outcome.in_plan.get(index)?;
-    let (across, turning): (&FloorPeaks, &FloorPeaks) =
-        (peaks.across.get(floor)?, peaks.turning.get(floor)?);
+    let peaks = outcome.peaks.floor(index, floor);
+    let (across, turning) = (peaks.across(), peaks.turning());
+    if !across.moves() {
+        return None;
+    }
+    let (moved, turned) = (across.displacement(), turning.displacement());
     Some(FloorInPlan {
-        displacement_across_max_m: across.displacement_max.value,
-        displacement_across_max_at_s: across.displacement_max.at,
-        displacement_across_min_m: across.displacement_min.value,
-        displacement_across_min_at_s: across.displacement_min.at,
-        rotation_max_rad: turning.displacement_max.value,
-        rotation_max_at_s: turning.displacement_max.at,
-        rotation_min_rad: turning.displacement_min.value,
-        rotation_min_at_s: turning.displacement_min.at,
-        corner_displacement_peak_m: peaks.corner_displacement.get(floor).copied().unwrap_or(0.0),
-        total_acceleration_across_peak_m_s2: across.total_acceleration,
-        storey_drift_across_peak: across.storey_drift,
-        storey_drift_corner_peak: peaks.corner_drift.get(floor).copied().unwrap_or(0.0),
-        storey_shear_across_peak_n: across.storey_shear,
-        storey_torque_peak_n_m: turning.storey_shear,
+        displacement_across_max_m: moved.greatest.value,
+        displacement_across_max_at_s: moved.greatest.at,
+        displacement_across_min_m: moved.least.value,
+        displacement_across_min_at_s: moved.least.at,
+        rotation_max_rad: turned.greatest.value,
+        rotation_max_at_s: turned.greatest.at,
+        rotation_min_rad: turned.least.value,
+        rotation_min_at_s: turned.least.at,
+        corner_displacement_peak_m: peaks.corner_displacement(),
+        total_acceleration_across_peak_m_s2: across.total_acceleration(),
+        storey_drift_across_peak: across.storey_drift(),
+        storey_drift_corner_peak: peaks.corner_drift(),
+        storey_shear_across_peak_n: across.storey_shear(),
+        storey_torque_peak_n_m: turning.storey_shear(),
     })
 }
 
 /// Of a building in a run; `None` in one plane.
 pub(super) fn building_in_plan(index: usize, outcome: &Outcome) -> Option<BuildingInPlan> {
-    let lowest = floor_in_plan(index, 0, outcome)?;
-    let floors = (0..).map_while(|floor| floor_in_plan(index, floor, outcome));
+    let lowest = floor_in_plan(index, 1, outcome)?;
+    let floors = (1..).map_while(|floor| floor_in_plan(index, floor, outcome));
     let floors: Vec<FloorInPlan> = floors.collect();
-    let mat = outcome.supports.get(index).and_then(|own| own.in_plan);
+    let base = outcome.peaks.owned_by(Owner::Building(index));
+    let of_base = |column| outcome.peaks.get(column).map(|peak| peak.size());
+    let [shear, torque] =
+        [base.across(), base.turning()].map(|own| of_base(own.column(Kind::Shear)));
     let greatest = |of: &dyn Fn(&FloorInPlan) -> f64| floors.iter().map(of).fold(0.0, f64::max);
     Some(BuildingInPlan {
         corner_displacement_peak_m: greatest(&|floor| floor.corner_displacement_peak_m),
         rotation_peak_rad: greatest(&|floor| floor.rotation_max_rad.max(-floor.rotation_min_rad)),
         drift_across_peak: greatest(&|floor| floor.storey_drift_across_peak),
         drift_corner_peak: greatest(&|floor| floor.storey_drift_corner_peak),
-        base_shear_across_peak_n: mat.map_or(lowest.storey_shear_across_peak_n, |own| {
-            own.base_shear_across
-        }),
-        base_torque_peak_n_m: mat.map_or(lowest.storey_torque_peak_n_m, |own| own.base_torque),
+        // Where there is no mat, those of the lowest storey.
+        base_shear_across_peak_n: shear.unwrap_or(lowest.storey_shear_across_peak_n),
+        base_torque_peak_n_m: torque.unwrap_or(lowest.storey_torque_peak_n_m),
     })
 }
 

@@ -2,9 +2,9 @@
 
 use super::response::FloorResponse;
 use super::summary::{FloorSummary, GapSummary, IsolationInPlan, IsolationSummary, WallSummary};
-use crate::history::SupportPeaks;
+use crate::history::{Column, Extreme, Kind, Owner};
 use crate::results::Run;
-use crate::results::in_plan::FloorInPlan;
+use crate::results::in_plan::{FloorInPlan, floor_in_plan};
 use crate::results::response::Amplification;
 use crate::stepping::Outcome;
 use crate::structure::SpringPlace;
@@ -18,27 +18,28 @@ pub(super) fn isolation_summary(
 ) -> Option<IsolationSummary> {
     let mat = building.discretization.mat?;
     let support = building.support?;
-    let peaks = outcome.supports.get(index).copied().unwrap_or_default();
+    let peaks = &outcome.peaks;
+    let (mat_moves, bearings) = (peaks.floor(index, 0).displacement(), Owner::Support(index));
     let springs = building.equations.springs.iter().enumerate();
     let (mut hysteretic, mut stop) = (0.0, None);
     for (spring, own) in springs {
         let global = building.spring_offset + spring;
-        let (Some(totals), Some(place)) = (
-            outcome.springs.get(global),
-            building.discretization.spring_places.get(spring),
-        ) else {
+        let Some(place) = building.discretization.spring_places.get(spring) else {
             continue;
         };
         match place {
             SpringPlace::Bearings | SpringPlace::BearingInPlan { .. } => {
                 let memory = &outcome.state.springs[global];
-                hysteretic += totals.work - own.hysteresis.recoverable_energy(memory);
+                let work = peaks.work(Owner::Spring(global));
+                hysteretic += work - own.hysteresis.recoverable_energy(memory);
             }
             SpringPlace::Stop { .. } => {
-                stop = Some(totals.peak_force.max(stop.unwrap_or(0.0)));
+                let force = peaks.owned_by(Owner::Spring(global)).of(Kind::Force);
+                stop = Some(force.size().max(stop.unwrap_or(0.0)));
             }
             SpringPlace::Ring { .. } => {
-                stop = peaks.in_plan.map(|own| own.ring_force);
+                let ring = Column::along(bearings, Kind::RingForce);
+                stop = peaks.get(ring).map(|peak| peak.size());
             }
             SpringPlace::Column { .. }
             | SpringPlace::Beam { .. }
@@ -53,95 +54,91 @@ pub(super) fn isolation_summary(
             | SpringPlace::Diagonal { .. } => {}
         }
     }
-    let (max, min) = (peaks.displacement_max.value, peaks.displacement_min.value);
+    let (max, min) = (mat_moves.greatest.value, mat_moves.least.value);
+    let in_plan = isolation_in_plan(index, building, outcome);
     Some(IsolationSummary {
         kind: mat.isolation.isolator.name(),
         weight_n: mat.weight,
         displacement_max_m: max,
         displacement_min_m: min,
-        force_peak_n: peaks.force,
+        force_peak_n: peaks.owned_by(bearings).of(Kind::Force).size(),
         residual_m: outcome.state.displacement[support.dof],
         hysteretic_j: hysteretic,
-        damped_j: peaks.damped,
+        damped_j: peaks.work(bearings),
         stop_force_peak_n: stop,
         limit_exceeded: mat.isolation.limit.is_some_and(|limit| {
-            let stroke = peaks.in_plan.map(|own| own.stroke.value);
+            let stroke = in_plan.as_ref().map(|own| own.stroke_peak_m);
             stroke.unwrap_or(max.max(-min)) > limit
         }),
         limit_m: mat.isolation.limit,
-        in_plan: isolation_in_plan(building, &peaks, outcome),
+        in_plan,
     })
 }
 
 /// Of bearings in plan; `None` in one plane.
 fn isolation_in_plan(
+    index: usize,
     building: &BuildingSystem,
-    peaks: &SupportPeaks,
     outcome: &Outcome,
 ) -> Option<IsolationInPlan> {
-    let (mat, own) = (building.mat_in_plan.as_ref()?, peaks.in_plan?);
+    let mat = building.mat_in_plan.as_ref()?;
+    let across = outcome.peaks.floor(index, 0).across();
+    if !across.moves() {
+        return None;
+    }
     let u = &outcome.state.displacement;
     let residual = mat.bearings.iter().map(|at| {
         let [x, y] = [[1.0, 0.0], [0.0, 1.0]].map(|axis| mat.row_at(*at, axis).value(u));
         libm::hypot(x, y)
     });
+    let stroke = |bearing| {
+        let owner = Owner::Bearing {
+            building: index,
+            bearing,
+        };
+        outcome.peaks.owned_by(owner).of(Kind::Stroke).greatest
+    };
+    // The first of those that go as far.
+    let strokes = (0..mat.bearings.len()).map(|bearing| (bearing, stroke(bearing)));
+    let further = |a: &(usize, Extreme), b: &(usize, Extreme)| {
+        let earlier = b.1.at.total_cmp(&a.1.at);
+        a.1.value
+            .total_cmp(&b.1.value)
+            .then(earlier)
+            .then(b.0.cmp(&a.0))
+    };
+    let (bearing, stroke) = strokes.max_by(further)?;
+    let forces = outcome.peaks.owned_by(Owner::Support(index)).across();
     Some(IsolationInPlan {
         bearings: mat.bearings.len(),
-        stroke_peak_m: own.stroke.value,
-        stroke_peak_at_s: own.stroke.at,
-        stroke_bearing: own.bearing + 1,
+        stroke_peak_m: stroke.value,
+        stroke_peak_at_s: stroke.at,
+        stroke_bearing: bearing + 1,
         residual_stroke_m: residual.fold(0.0, f64::max),
-        displacement_across_max_m: own.across[0].value,
-        displacement_across_min_m: own.across[1].value,
+        displacement_across_max_m: across.displacement_max().value,
+        displacement_across_min_m: across.displacement_min().value,
         residual_across_m: u[mat.dofs[1]],
-        force_across_peak_n: own.force_across,
+        force_across_peak_n: forces.of(Kind::Force).size(),
     })
 }
 
 /// The mat of an isolated building in plan as its floor 0.
 fn mat_in_plan(index: usize, outcome: &Outcome) -> Option<FloorInPlan> {
-    let own = outcome.supports.get(index)?.in_plan?;
-    let ([across, back], [turned, other]) = (own.across, own.rotation);
+    let base = outcome.peaks.owned_by(Owner::Building(index));
     Some(FloorInPlan {
-        displacement_across_max_m: across.value,
-        displacement_across_max_at_s: across.at,
-        displacement_across_min_m: back.value,
-        displacement_across_min_at_s: back.at,
-        rotation_max_rad: turned.value,
-        rotation_max_at_s: turned.at,
-        rotation_min_rad: other.value,
-        rotation_min_at_s: other.at,
-        corner_displacement_peak_m: own.corner,
-        total_acceleration_across_peak_m_s2: own.total_acceleration_across,
-        storey_drift_across_peak: 0.0,
-        storey_drift_corner_peak: 0.0,
-        storey_shear_across_peak_n: own.base_shear_across,
-        storey_torque_peak_n_m: own.base_torque,
+        storey_shear_across_peak_n: base.across().storey_shear(),
+        storey_torque_peak_n_m: base.turning().storey_shear(),
+        ..floor_in_plan(index, 0, outcome)?
     })
 }
 
 /// The mat as floor 0. No storey is below it: its shear is the base shear, and the moment about the ground that of the lowest
 /// storey.
 fn mat_response(index: usize, outcome: &Outcome, lowest: &FloorResponse) -> FloorResponse {
-    let SupportPeaks {
-        displacement_max: max,
-        displacement_min: min,
-        total_acceleration,
-        ..
-    } = outcome.supports.get(index).copied().unwrap_or_default();
     FloorResponse {
-        displacement_max_m: max.value,
-        displacement_max_at_s: max.at,
-        displacement_min_m: min.value,
-        displacement_min_at_s: min.at,
-        total_acceleration_peak_m_s2: total_acceleration,
-        filtered_acceleration_peak_m_s2: None,
-        storey_drift_peak: 0.0,
-        storey_shear_peak_n: outcome.base_shear[index],
+        storey_shear_peak_n: outcome.peaks.base_shear(index),
         overturning_moment_peak_n_m: lowest.overturning_moment_peak_n_m,
-        residual_drift: 0.0,
-        stability_coefficient: None,
-        vertical_displacement_peak_m: None,
+        ..FloorResponse::of_peaks(outcome.peaks.floor(index, 0))
     }
 }
 
@@ -178,18 +175,14 @@ pub(super) fn wall_summaries(run: &Run, gaps: &[GapSummary]) -> Vec<WallSummary>
             let own = run.model.gaps.iter().zip(gaps);
             let own = own.filter(|(gap, _)| gap.between.contains(&Some(first + index)));
             let force = own.map(|(_, summary)| summary.total_force_peak_n);
-            let peaks = wall
-                .building
-                .and_then(|building| run.outcome.supports.get(building).copied())
-                .unwrap_or_default();
+            let peaks = &run.outcome.peaks;
+            let sway = |building| peaks.sway(building, Some(0));
+            let damped = |building| peaks.work(Owner::Support(building));
             WallSummary {
                 name: wall.name.clone(),
-                displacement_peak_m: peaks
-                    .displacement_max
-                    .value
-                    .max(-peaks.displacement_min.value),
+                displacement_peak_m: wall.building.map_or(0.0, sway),
                 force_peak_n: force.fold(0.0, f64::max),
-                dissipated_j: peaks.damped,
+                dissipated_j: wall.building.map_or(0.0, damped),
             }
         })
         .collect()

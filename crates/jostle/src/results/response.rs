@@ -4,7 +4,7 @@
 use serde::{Serialize, Serializer};
 
 use super::summary::HingeSummary;
-use crate::history::FloorPeaks;
+use crate::history::PeaksOf;
 use crate::quantity::{Quantity, Unit};
 use crate::stepping::Outcome;
 use crate::system::BuildingSystem;
@@ -108,28 +108,41 @@ impl FloorResponse {
     ];
 }
 
+impl FloorResponse {
+    /// Its peaks alone.
+    pub(super) fn of_peaks(peaks: PeaksOf<'_>) -> Self {
+        let displacement = peaks.displacement();
+        Self {
+            displacement_max_m: displacement.greatest.value,
+            displacement_max_at_s: displacement.greatest.at,
+            displacement_min_m: displacement.least.value,
+            displacement_min_at_s: displacement.least.at,
+            total_acceleration_peak_m_s2: peaks.total_acceleration(),
+            filtered_acceleration_peak_m_s2: peaks.filtered_acceleration(),
+            storey_drift_peak: peaks.storey_drift(),
+            storey_shear_peak_n: peaks.storey_shear(),
+            overturning_moment_peak_n_m: peaks.overturning_moment(),
+            ..Self::default()
+        }
+    }
+}
+
 /// Of the floors of a building in a run.
 pub(super) fn floor_responses(
     index: usize,
     building: &BuildingSystem,
     outcome: &Outcome,
 ) -> Vec<FloorResponse> {
-    let floors = outcome.floors[index].iter();
-    let response = |((peaks, residual_drift), weight): ((&FloorPeaks, f64), f64)| FloorResponse {
-        displacement_max_m: peaks.displacement_max.value,
-        displacement_max_at_s: peaks.displacement_max.at,
-        displacement_min_m: peaks.displacement_min.value,
-        displacement_min_at_s: peaks.displacement_min.at,
-        total_acceleration_peak_m_s2: peaks.total_acceleration,
-        filtered_acceleration_peak_m_s2: peaks.filtered_acceleration,
-        storey_drift_peak: peaks.storey_drift,
-        storey_shear_peak_n: peaks.storey_shear,
-        overturning_moment_peak_n_m: peaks.overturning_moment,
-        residual_drift,
-        stability_coefficient: (peaks.storey_shear > 0.0)
-            .then(|| weight * peaks.storey_drift / peaks.storey_shear),
-        vertical_displacement_peak_m: (peaks.vertical_displacement > 0.0)
-            .then_some(peaks.vertical_displacement),
+    let floors = (1..=building.floors.len()).map(|floor| outcome.peaks.floor(index, floor));
+    let response = |((peaks, residual_drift), weight): ((PeaksOf<'_>, f64), f64)| {
+        let (drift, shear) = (peaks.storey_drift(), peaks.storey_shear());
+        let vertical = peaks.vertical_displacement();
+        FloorResponse {
+            residual_drift,
+            stability_coefficient: (shear > 0.0).then(|| weight * drift / shear),
+            vertical_displacement_peak_m: (vertical > 0.0).then_some(vertical),
+            ..FloorResponse::of_peaks(peaks)
+        }
     };
     let residual = residual_drifts(building, outcome);
     let weights = building.weights_above();
@@ -153,7 +166,7 @@ pub(super) fn building_response(
             .filter_map(|floor| floor.filtered_acceleration_peak_m_s2)
             .max_by(f64::total_cmp),
         residual_drift_peak: greatest(|floor| floor.residual_drift.abs()),
-        base_shear_peak_n: outcome.base_shear[index],
+        base_shear_peak_n: outcome.peaks.base_shear(index),
         residual_roof_displacement_m: roof_displacement(building, outcome),
         hinges_cracked: hinges.cracked,
         hinges_yielded: hinges.yielded,

@@ -5,7 +5,7 @@ use super::in_plan::{
     impacts_of, place_of_face, points_of,
 };
 use crate::contact::LawKind;
-use crate::history::{Extreme, Impact};
+use crate::history::{Extreme, Impact, Kind, Owner};
 use crate::hysteresis::{Side, Stage};
 use crate::interface::LinkElement;
 use crate::linear::sort_by;
@@ -165,7 +165,7 @@ fn building_summary(index: usize, run: &Run) -> BuildingSummary {
             floor: k + 1,
             height_m: floor.height,
             response,
-            in_plan: floor_in_plan(index, k, run.outcome),
+            in_plan: floor_in_plan(index, k + 1, run.outcome),
             without_contact,
             amplification: without_contact
                 .map(|without| Amplification::new(FloorResponse::QUANTITIES, &response, &without)),
@@ -251,7 +251,10 @@ pub fn springs_of(building: &BuildingSystem, outcome: &Outcome) -> Vec<SpringSum
     let summary = |(index, spring): (usize, &crate::structure::YieldingSpring)| {
         let global = building.spring_offset + index;
         let (memory, rule) = (&outcome.state.springs[global], &spring.hysteresis);
-        let totals = &outcome.springs[global];
+        let force = outcome
+            .peaks
+            .owned_by(Owner::Spring(global))
+            .of(Kind::Force);
         let place = building.discretization.spring_places.get(index);
         SpringSummary {
             place: place.map_or_else(
@@ -280,8 +283,9 @@ pub fn springs_of(building: &BuildingSystem, outcome: &Outcome) -> Vec<SpringSum
                 })
                 .into_iter()
                 .fold(0.0, f64::max),
-            peak_force: totals.peak_force,
-            dissipated_j: totals.work - rule.recoverable_energy(memory),
+            peak_force: force.size(),
+            dissipated_j: outcome.peaks.work(Owner::Spring(global))
+                - rule.recoverable_energy(memory),
         }
     };
     // The row between two directions has no force.
@@ -319,16 +323,16 @@ fn gap_summary(index: usize, gap: &Gap, run: &Run) -> GapSummary {
         .map(|(&contact, impacts)| contact_summary(contact, impacts, run))
         .collect();
     let impacts = contacts.iter().flat_map(|contact| &contact.impacts);
-    let total = outcome.gap_forces.get(index);
+    let total = outcome.peaks.gap_force(index);
     // Contact that is no impact has a force as well.
-    let total =
-        total.filter(|total| total.value > 0.0 && counted.iter().any(|own| !own.is_empty()));
+    let struck = total.value > 0.0 && counted.iter().any(|own| !own.is_empty());
+    let total = struck.then_some(total);
     GapSummary {
         between: names(gap.between, system),
         width_m: gap.width(),
         clearance_m: points
             .iter()
-            .map(|&point| system.contacts[point].width - outcome.closing[point].value)
+            .map(|&point| system.contacts[point].width - outcome.peaks.closing(point).value)
             .fold(f64::INFINITY, f64::min),
         law: gap.law.kind.full_name(),
         free_restitution: gap.law.free_restitution(),
@@ -347,7 +351,7 @@ fn gap_summary(index: usize, gap: &Gap, run: &Run) -> GapSummary {
         closing_without_contact_m: run.without_contact.map(|outcome| {
             let needed = |&contact: &usize| {
                 let wider = system.contacts[contact].width - gap.width();
-                outcome.closing[contact].value - wider
+                outcome.peaks.closing(contact).value - wider
             };
             points.iter().map(needed).fold(0.0, f64::max)
         }),
@@ -372,20 +376,23 @@ fn floors_of(element: &LinkElement) -> [Option<usize>; 2] {
 
 fn link_summary(index: usize, run: &Run) -> LinkSummary {
     let (system, outcome, link) = (run.system, run.outcome, &run.model.links[index]);
-    let own = system.links.iter().zip(&outcome.links);
+    let own = system.links.iter().enumerate();
     let floors: Vec<LinkFloorSummary> = own
         .zip(outcome.state.link_memories())
-        .filter(|((element, _), _)| element.link == index)
-        .map(|((element, totals), memory)| {
+        .filter(|((_, element), _)| element.link == index)
+        .map(|((place, element), memory)| {
+            let peaks = outcome.peaks.owned_by(Owner::Link(place));
+            let force = peaks.of(Kind::Force).furthest();
+            let work = outcome.peaks.work(Owner::Link(place));
             let shortening = element.shortening(&outcome.state.displacement);
             LinkFloorSummary {
                 floors: floors_of(element),
                 height_m: element.height,
-                peak_force_n: totals.peak_force.value,
-                peak_force_at_s: totals.peak_force.at,
-                peak_stroke_m: totals.peak_shortening,
-                peak_speed_m_s: totals.peak_rate,
-                dissipated_j: totals.work - element.recoverable(shortening, &memory),
+                peak_force_n: force.value,
+                peak_force_at_s: force.at,
+                peak_stroke_m: peaks.of(Kind::Stroke).size(),
+                peak_speed_m_s: peaks.of(Kind::Speed).size(),
+                dissipated_j: work - element.recoverable(shortening, &memory),
             }
         })
         .collect();
@@ -447,7 +454,7 @@ fn contact_summary(index: usize, impacts: &[CountedImpact], run: &Run) -> Contac
     // Faces that are not parallel close from their nearest points on: those further apart close by more and do not touch.
     let closing = points.iter().map(|&point| {
         let further = system.contacts[point].width - width;
-        let own = outcome.closing[point];
+        let own = outcome.peaks.closing(point);
         Extreme {
             value: own.value - further,
             ..own

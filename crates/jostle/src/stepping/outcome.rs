@@ -5,12 +5,10 @@ use std::ops::ControlFlow;
 
 use super::member_ratios::MemberRatios;
 use super::plan::Plan;
-use super::plan_drifts::PlanDrifts;
 use super::refined::Refined;
 use crate::history::{
-    Energy, Extreme, FaceImpact, FloorPeaks, FoundationPeaks, History, Impact, LinkTotals,
-    MemberHistory, SectionRatio, SpringEvent, SpringHistory, SpringTotals, SupportPeaks, Work,
-    WorstInstant,
+    Energy, FaceImpact, History, Impact, MemberHistory, Peaks, SectionRatio, SpringEvent,
+    SpringHistory, Work, WorstInstant,
 };
 use crate::linear::NotPositive;
 use crate::model::ROW_INTERVAL;
@@ -80,7 +78,7 @@ pub struct Progress {
 
 /// Is called now and then, and may stop a run. A trait object keeps stepping out of generic code, which every crate that
 /// runs a simulation would compile again, without inlining the functions of this one.
-pub(super) type Observer<'a> = dyn FnMut(Progress) -> ControlFlow<()> + 'a;
+pub(super) type OnProgress<'a> = dyn FnMut(Progress) -> ControlFlow<()> + 'a;
 
 /// Results of a run.
 ///
@@ -98,7 +96,7 @@ pub(super) type Observer<'a> = dyn FnMut(Progress) -> ControlFlow<()> + 'a;
 /// let outcome: Outcome = simulate(&system, &motion, &plan, Settings::default(), |_| ControlFlow::Continue(()));
 /// assert_eq!(outcome.end, RunEnd::Completed);
 /// let strongest = outcome.impacts.iter().map(|impact| impact.peak_force).fold(0.0, f64::max);
-/// assert!(outcome.gap_forces[0].value >= strongest); // of all contacts of the gap together
+/// assert!(outcome.peaks.gap_force(0).value >= strongest); // of all contacts of the gap together
 /// # Ok::<(), jostle::ModelFault>(())
 /// ```
 ///
@@ -109,30 +107,14 @@ pub struct Outcome {
     pub history: Option<History>,
     /// Impacts in the order in which they ended.
     pub impacts: Vec<Impact>,
-    /// Peaks of every floor of every building.
-    pub floors: Vec<Vec<FloorPeaks>>,
-    /// Further peaks of buildings in space, building by building; empty lists in one plane.
-    pub in_plan: Vec<PlanPeaks>,
-    /// Peaks of the bearings of every building and of the springs of walls; zero where there are none.
-    pub supports: Vec<SupportPeaks>,
-    /// Peaks of the foundation of every building; zero where there is none.
-    pub foundations: Vec<FoundationPeaks>,
-    /// Greatest closing u_left − u_right of every contact \[m\].
-    pub closing: Vec<Extreme>,
-    /// Greatest sum of the contact forces of a gap at one instant, for each gap up to the last one with a contact \[N\].
-    pub gap_forces: Vec<Extreme>,
+    /// Peaks of all that the run follows, with energies that dashpots, links and springs have taken.
+    pub peaks: Peaks,
     /// Impacts of the faces of buildings in space, in the order in which they began.
     pub face_impacts: Vec<FaceImpact>,
-    /// Greatest elastic base shear of every building \[N\].
-    pub base_shear: Vec<f64>,
     /// Peak accelerations in parts of a direct run.
     pub(crate) acceleration_parts: AccelerationParts,
     /// Cracks and first yields, in order of time.
     pub spring_events: Vec<SpringEvent>,
-    /// Every spring that yields, from the left building to the right.
-    pub springs: Vec<SpringTotals>,
-    /// Links, in the order of the system.
-    pub links: Vec<LinkTotals>,
     /// Loops of springs that yield, if histories were requested.
     pub spring_history: Option<SpringHistory>,
     /// Greatest and least value of every force of columns and beams, building by building, in the order of
@@ -161,41 +143,6 @@ pub struct Outcome {
     pub(crate) refined: Refined,
     /// Reason for the end.
     pub end: RunEnd,
-}
-
-/// Peaks of the floors of a building in space that one plane does not have, from the ground up.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct PlanPeaks {
-    /// Across the row: as along it, with y in place of x.
-    pub across: Vec<FloorPeaks>,
-    /// Rotations \[rad\], their drifts per height \[rad/m\], angular accelerations \[rad/s²\], and as shears the torques
-    /// about the vertical axis through the centre of mass of the lowest floor \[N·m\].
-    pub turning: Vec<FloorPeaks>,
-    /// Greatest horizontal displacement of a corner \[m\].
-    pub corner_displacement: Vec<f64>,
-    /// Greatest drift ratio of a vertical line through a corner of the smaller of both plans of a storey, along x and across together
-    /// \[–\].
-    pub corner_drift: Vec<f64>,
-}
-
-impl PlanPeaks {
-    /// Splits peaks along x, across and in rotation, each from the ground up; those along x remain. Without the last two, as in one
-    /// plane, all is empty.
-    pub(super) fn split_off(
-        peaks: &mut Vec<FloorPeaks>,
-        floors: usize,
-        corner_displacement: Vec<f64>,
-        drifts: &PlanDrifts,
-    ) -> Self {
-        let mut across = peaks.split_off(floors.min(peaks.len()));
-        let turning = across.split_off(across.len() / 2);
-        Self {
-            across,
-            turning,
-            corner_displacement,
-            corner_drift: drifts.corners().collect(),
-        }
-    }
 }
 
 /// An a-posteriori estimate of the errors of reported peaks.
@@ -338,17 +285,9 @@ pub enum StepError {
 impl Outcome {
     /// Results of a run that could not start.
     pub(crate) fn not_begun(system: &System, error: StepError) -> Self {
-        let floors = |building: &BuildingSystem| vec![FloorPeaks::default(); building.floors.len()];
         let ratios = MemberRatios::new(system);
         let unknown = |building: &BuildingSystem| vec![[0.0; 2]; building.members.forms.len()];
         Self {
-            floors: system.buildings.iter().map(floors).collect(),
-            in_plan: vec![PlanPeaks::default(); system.buildings.len()],
-            supports: vec![SupportPeaks::default(); system.buildings.len()],
-            foundations: vec![FoundationPeaks::default(); system.buildings.len()],
-            closing: vec![Extreme::default(); system.contacts.len()],
-            base_shear: vec![0.0; system.buildings.len()],
-            links: vec![LinkTotals::default(); system.links.len()],
             members: system.buildings.iter().map(unknown).collect(),
             member_ratios: ratios.greatest,
             worst_instants: ratios.worst,

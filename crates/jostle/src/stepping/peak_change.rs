@@ -1,10 +1,12 @@
 //! Difference of the reported peaks of two runs of one system.
 
-use super::outcome::{Outcome, PlanPeaks};
+use std::collections::BTreeMap;
+
+use super::outcome::Outcome;
 use super::sensitivity::closing_scale;
-use crate::history::{Extreme, FloorPeaks, FoundationPeaks, Impact, LinkTotals};
+use crate::history::{Column, Impact, Kind, Owner, Peak};
 use crate::structure::MemberSection;
-use crate::system::System;
+use crate::system::{Direction, System};
 
 /// Weight of differences between parts of runs, which are usually larger than those of the peaks.
 const IN_PARTS: f64 = 0.25;
@@ -17,78 +19,36 @@ const MEMBER_FORCES: usize = 3;
 
 /// Greatest difference of peaks, relative to the greatest of its kind in the building or gap \[–\].
 pub(super) fn change_of_peaks(system: &System, [a, b]: [&Outcome; 2]) -> f64 {
-    let kinds: [fn(&FloorPeaks) -> f64; 7] = [
-        |floor| floor.displacement_max.value,
-        |floor| floor.displacement_min.value,
-        |floor| floor.storey_drift,
-        |floor| floor.total_acceleration,
-        |floor| floor.storey_shear,
-        |floor| floor.overturning_moment,
-        |floor| floor.vertical_displacement,
-    ];
+    let alike = alike(system, [a, b]);
     let mut worst = 0.0_f64;
+    for (pool, change) in &alike {
+        let least = least_scale(system, *pool, &alike, b);
+        worst = worst.max(change.relative_to(least));
+    }
     let mut floors_before = 0;
-    for (index, (a_floors, b_floors)) in a.floors.iter().zip(&b.floors).enumerate() {
-        let shears = [a.base_shear[index], b.base_shear[index]];
-        worst = worst.max(relative([shears].into_iter()));
-        let bearings = [a, b].map(|run| run.supports[index]);
-        worst = worst.max(relative([bearings.map(|own| own.force)].into_iter()));
-        // Along x and, in space, across.
-        let in_plan = [a, b].map(|run| &run.in_plan[index]);
-        let mats = mats(system, [a, b], index);
-        let lateral = || {
-            let along = a_floors.iter().zip(b_floors);
-            let across = in_plan[0].across.iter().zip(&in_plan[1].across);
-            let mats = mats.iter().map(|[a, b]| (a, b));
-            along.chain(across).chain(mats)
-        };
-        let turning = || in_plan[0].turning.iter().zip(&in_plan[1].turning);
-        let radius = system.buildings[index].radius_of_gyration();
-        for (number, kind) in kinds.into_iter().enumerate() {
-            let values = |(a, b): (&FloorPeaks, &FloorPeaks)| [kind(a), kind(b)];
-            worst = worst.max(relative(lateral().map(values)));
-            // Of displacements per radius, of forces times radius.
-            let unit = if number < 4 { 1.0 / radius } else { radius };
-            let least = LEAST_ROTATION * unit * greatest_of(lateral().map(values));
-            worst = worst.max(relative_to(least, turning().map(values)));
-        }
-        let of_corners: [fn(&PlanPeaks) -> &Vec<f64>; 2] =
-            [|own| &own.corner_displacement, |own| &own.corner_drift];
-        for of in of_corners {
-            let [a, b] = in_plan.map(|own| of(own).iter());
-            worst = worst.max(relative(a.zip(b).map(|(a, b)| [*a, *b])));
-        }
-        let greatest = greatest_of(lateral().map(|(a, b)| [a, b].map(|f| f.total_acceleration)));
-        let count = a_floors.len() + in_plan[0].across.len();
+    for (index, building) in system.buildings.iter().enumerate() {
+        let tracks = building.tracks.iter();
+        let lateral = tracks.filter(|track| track.direction != Direction::Turning);
+        let count = lateral.count();
+        let accelerations = Pool::greatest(floors_of(index, Kind::Acceleration));
+        let greatest = alike
+            .get(&accelerations)
+            .map_or(0.0, |change| change.greatest);
         if greatest > 0.0 {
             let parts = [&a.acceleration_parts, &b.acceleration_parts];
             let change = parts[0].change(parts[1], floors_before, count);
             worst = worst.max(IN_PARTS * change / greatest);
         }
-        floors_before += count + turning().count();
-        let [one, other] = [a, b].map(|run| run.foundations[index]);
-        let both = |of: fn(&FoundationPeaks) -> [Extreme; 2]| {
-            let pairs = of(&one).into_iter().zip(of(&other));
-            relative(pairs.map(|(a, b)| [a.value, b.value]))
-        };
-        worst = worst
-            .max(both(|peaks| peaks.sway))
-            .max(both(|peaks| peaks.rocking));
+        floors_before += building.tracks.len();
         for kind in 0..MEMBER_FORCES {
-            let members = system.buildings[index].members.members.iter();
+            let members = building.members.members.iter();
             let forms = members.flat_map(|m| m.sections.iter().flat_map(MemberSection::by_kind));
             let forms = forms.filter(|(own, _)| *own == kind).map(|(_, form)| form);
             let pairs = forms.flat_map(|form| {
                 let [a, b] = [a, b].map(|run| run.members[index][form]);
                 [0, 1].map(|side| [a[side], b[side]])
             });
-            worst = worst.max(relative(pairs));
-        }
-    }
-    if system.links.iter().any(|link| !link.is_linear()) {
-        let models = system.links.iter().map(|link| link.link + 1).max();
-        for model in 0..models.unwrap_or(0) {
-            worst = worst.max(change_of_link(system, [a, b], model));
+            worst = worst.max(Change::of(pairs).relative_to(0.0));
         }
     }
     let gaps = system.contacts.last().map_or(0, |contact| contact.gap + 1);
@@ -96,83 +56,160 @@ pub(super) fn change_of_peaks(system: &System, [a, b]: [&Outcome; 2]) -> f64 {
         let contacts = 0..system.contacts.len();
         let own = contacts.filter(|contact| system.contacts[*contact].gap == gap);
         let own: Vec<usize> = own.collect();
-        let both = |of: fn(&Outcome, usize) -> f64| own.iter().map(move |c| [of(a, *c), of(b, *c)]);
-        worst = worst.max(relative(both(peak_force)));
-        worst = worst.max(relative(both(impulse)));
-        let together = [a, b].map(|run| run.gap_forces.get(gap).map_or(0.0, |own| own.value));
-        worst = worst.max(relative([together].into_iter()));
-        for contact in own {
-            let least = closing_scale(&system.contacts[contact], 0.0, &b.floors, &b.supports);
-            let closings = [a, b].map(|run| run.closing[contact].value);
-            worst = worst.max(relative_to(least, [closings].into_iter()));
+        for of in [peak_force, impulse] {
+            let pairs = own.iter().map(|contact| [of(a, *contact), of(b, *contact)]);
+            worst = worst.max(Change::of(pairs).relative_to(0.0));
         }
     }
     worst
 }
 
-/// The mat of an isolated building, or a wall, along x and across, as a floor; none on the ground.
-fn mats(system: &System, runs: [&Outcome; 2], index: usize) -> Vec<[FloorPeaks; 2]> {
-    if system.buildings[index].support.is_none() {
-        return Vec::new();
+/// Peaks that are measured by the greatest of them: those of the floors of a building, of the links of a model.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Pool {
+    /// For all of them. Along the row stands for across as well.
+    column: Column,
+    /// Whether these are the least values.
+    least: bool,
+}
+
+impl Pool {
+    fn greatest(column: Column) -> Self {
+        let least = false;
+        Self { column, least }
     }
-    let supports = runs.map(|run| run.supports[index]);
-    let along = supports.map(|own| FloorPeaks {
-        displacement_max: own.displacement_max,
-        displacement_min: own.displacement_min,
-        total_acceleration: own.total_acceleration,
-        ..FloorPeaks::default()
-    });
-    let across = supports.map(|own| {
-        let own = own.in_plan.unwrap_or_default();
-        FloorPeaks {
-            displacement_max: own.across[0],
-            displacement_min: own.across[1],
-            total_acceleration: own.total_acceleration_across,
-            ..FloorPeaks::default()
+}
+
+/// Greatest magnitude of peaks of two runs, and their greatest difference.
+#[derive(Clone, Copy, Default)]
+struct Change {
+    greatest: f64,
+    change: f64,
+}
+
+impl Change {
+    fn of(pairs: impl Iterator<Item = [f64; 2]>) -> Self {
+        pairs.fold(Self::default(), Self::and)
+    }
+
+    fn and(self, [a, b]: [f64; 2]) -> Self {
+        Self {
+            greatest: self.greatest.max(a.abs()).max(b.abs()),
+            change: self.change.max((a - b).abs()),
         }
-    });
-    vec![along, across]
-}
-
-/// Greatest difference of the peaks of a link of the model.
-fn change_of_link(system: &System, [a, b]: [&Outcome; 2], model: usize) -> f64 {
-    let kinds: [fn(&LinkTotals) -> f64; 3] = [
-        |link| link.peak_force.value.abs(),
-        |link| link.peak_shortening,
-        |link| link.peak_rate,
-    ];
-    let pairs = |kind: fn(&LinkTotals) -> f64| {
-        let both = a.links.iter().zip(&b.links).zip(&system.links);
-        let own = both.filter(move |(_, link)| link.link == model);
-        own.map(move |((a, b), _)| [kind(a), kind(b)])
-    };
-    kinds
-        .into_iter()
-        .map(|kind| relative(pairs(kind)))
-        .fold(0.0, f64::max)
-}
-
-fn greatest_of(pairs: impl Iterator<Item = [f64; 2]>) -> f64 {
-    pairs
-        .flatten()
-        .fold(0.0, |most, value| most.max(value.abs()))
-}
-
-fn relative(pairs: impl Iterator<Item = [f64; 2]>) -> f64 {
-    relative_to(0.0, pairs)
-}
-
-/// Greatest difference of pairs over the greatest of their magnitudes, which counts as at least `least`.
-fn relative_to(least: f64, pairs: impl Iterator<Item = [f64; 2]>) -> f64 {
-    let (mut greatest, mut change) = (least, 0.0_f64);
-    for [a, b] in pairs {
-        greatest = greatest.max(a.abs()).max(b.abs());
-        change = change.max((a - b).abs());
     }
-    if greatest > 0.0 {
-        change / greatest
-    } else {
-        0.0
+
+    /// The difference over the magnitude, which counts as at least `least`.
+    fn relative_to(self, least: f64) -> f64 {
+        let scale = self.greatest.max(least);
+        if scale > 0.0 {
+            self.change / scale
+        } else {
+            0.0
+        }
+    }
+}
+
+/// Changes of all peaks that are compared, each with those that are measured alike.
+fn alike(system: &System, [a, b]: [&Outcome; 2]) -> BTreeMap<Pool, Change> {
+    let mut all: BTreeMap<Pool, Change> = BTreeMap::new();
+    let linear = system.links.iter().all(|link| link.is_linear());
+    for (column, own) in a.peaks.iter() {
+        let other = b.peaks.of(column);
+        let Some(of_all) = measured_with(system, column, linear) else {
+            continue;
+        };
+        let mut add = |pool, of: fn(&Peak) -> f64| {
+            let change = all.entry(pool).or_default();
+            *change = change.and([of(&own), of(&other)]);
+        };
+        let pool = Pool::greatest(of_all);
+        match (column.kind, column.owner) {
+            (Kind::Displacement, Owner::Foundation(_)) => {
+                add(pool, |peak| peak.greatest.value);
+                add(pool, |peak| peak.least.value);
+            }
+            (Kind::Displacement, _) => {
+                add(pool, |peak| peak.greatest.value);
+                let pool = Pool {
+                    least: true,
+                    ..pool
+                };
+                add(pool, |peak| peak.least.value);
+            }
+            _ => add(pool, Peak::size),
+        }
+    }
+    all
+}
+
+/// The column that stands for all peaks with which one is measured; `None` if it is not compared. Energies are not, nor are rotations
+/// and corners of mats, strokes of single bearings and forces in plan.
+fn measured_with(system: &System, column: Column, linear: bool) -> Option<Column> {
+    let Column {
+        owner,
+        kind,
+        direction,
+    } = column;
+    let along = direction == Direction::Along;
+    match owner {
+        Owner::Floor { building, floor } => match (kind, direction) {
+            (Kind::FilteredAcceleration, _) => None,
+            (_, Direction::Along | Direction::Across)
+                if floor > 0 || kind != Kind::CornerDisplacement =>
+            {
+                Some(floors_of(building, kind))
+            }
+            (_, Direction::Turning) if floor > 0 => Some(floors_of(building, kind).turning()),
+            (_, Direction::Up) => Some(floors_of(building, kind).up()),
+            _ => None,
+        },
+        Owner::Link(link) if !linear && kind != Kind::Work => {
+            Some(Column::along(Owner::Link(system.links[link].link), kind))
+        }
+        Owner::Foundation(_) | Owner::Contact(_) | Owner::Gap(_) if kind != Kind::Work => {
+            Some(column)
+        }
+        Owner::Building(_) if along => Some(column),
+        Owner::Support(_) if along && kind == Kind::Force => Some(column),
+        _ => None,
+    }
+}
+
+/// The column that stands for all floors of a building along and across.
+fn floors_of(building: usize, kind: Kind) -> Column {
+    Column::along(Owner::Floor { building, floor: 0 }, kind)
+}
+
+/// What differences of peaks are at least relative to: for rotations, lengths over the radius of gyration and forces times it; for
+/// closings, what their floors move.
+fn least_scale(
+    system: &System,
+    pool: Pool,
+    alike: &BTreeMap<Pool, Change>,
+    outcome: &Outcome,
+) -> f64 {
+    let column = pool.column;
+    match (column.owner, column.direction) {
+        (Owner::Floor { building, .. }, Direction::Turning) => {
+            let radius = system.buildings[building].radius_of_gyration();
+            let unit = match column.kind {
+                Kind::Shear | Kind::Moment => radius,
+                _ => 1.0 / radius,
+            };
+            let lateral = Pool {
+                column: floors_of(building, column.kind),
+                ..pool
+            };
+            let lateral = alike.get(&lateral).map_or(0.0, |change| change.greatest);
+            LEAST_ROTATION * unit * lateral
+        }
+        (Owner::Contact(contact), _) => {
+            closing_scale(&system.contacts[contact], 0.0, |building, floor| {
+                outcome.peaks.sway(building, floor)
+            })
+        }
+        _ => 0.0,
     }
 }
 

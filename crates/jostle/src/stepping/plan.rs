@@ -688,7 +688,7 @@ fn share_in_space(building: &BuildingSystem, mode: &Mode) -> f64 {
         let value = mode.shape[track.dof - building.offset].abs();
         match track.direction {
             Direction::Turning => radius * value,
-            Direction::Along | Direction::Across => value,
+            Direction::Along | Direction::Across | Direction::Up => value,
         }
     });
     mode.participation.abs().max(across.abs()) * moved.fold(0.0, f64::max)

@@ -1,7 +1,6 @@
 //! Greatest drifts of the storeys of a building in plan, step by step.
 
-use super::recorder::{BEYOND, greatest_in_step};
-use crate::history::FloorPeaks;
+use super::extremes::{BEYOND, greatest_in_step};
 use crate::system::{BuildingSystem, PlanStorey};
 
 /// Motion and its rate.
@@ -60,13 +59,13 @@ impl PlanDrifts {
         }
     }
 
-    /// Sets the drifts of the lines through centres of mass that do not lie above each other in peaks along x and then across.
-    pub(super) fn give_to(&self, floors: &mut [FloorPeaks]) {
+    /// Calls `give` with the places of tracks and the drift ratios of lines through centres of mass that do not lie above each other.
+    pub(super) fn give_to(&self, mut give: impl FnMut(usize, f64)) {
         let n = self.storeys.len();
         let storeys = self.storeys.iter().enumerate();
         for (index, own) in storeys.filter(|(_, own)| !own.storey.is_in_line()) {
             for (block, most) in own.centre.iter().enumerate() {
-                floors[block * n + index].storey_drift = most / own.storey.height;
+                give(block * n + index, most / own.storey.height);
             }
         }
     }

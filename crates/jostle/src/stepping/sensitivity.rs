@@ -4,11 +4,10 @@
 use std::ops::ControlFlow;
 
 use super::modal::Reduction;
-use super::outcome::{Observer, Outcome, Progress, RunEnd};
+use super::outcome::{OnProgress, Outcome, Progress, RunEnd};
 use super::peak_change::{change_of_peaks, impacts};
 use super::plan::Plan;
 use super::simulate::simulate_like;
-use crate::history::{Extreme, FloorPeaks, SupportPeaks};
 use crate::interface::Contact;
 use crate::model::Solver;
 use crate::motion::GroundMotion;
@@ -65,7 +64,7 @@ fn sensitive_from(
     plan: &Plan,
     shapes: Option<&Reduction>,
     outcome: &Outcome,
-    observer: &mut Observer<'_>,
+    observer: &mut OnProgress<'_>,
 ) -> Option<f64> {
     let tolerance = plan.tolerance();
     let doubtful = outcome.accuracy.and_then(|accuracy| accuracy.doubtful_from);
@@ -92,10 +91,13 @@ fn sensitive_from(
         return unresolved;
     }
     let mut changed = system.clone();
-    let contacts = changed.contacts.iter_mut().zip(&outcome.closing);
-    for ((contact, closing), near_miss) in contacts.zip(&near_misses) {
+    let contacts = changed.contacts.iter_mut().zip(&near_misses).enumerate();
+    for (index, (contact, near_miss)) in contacts {
         let change = if *near_miss { -narrower } else { wider };
-        let scale = closing_scale(contact, closing.value, &outcome.floors, &outcome.supports);
+        let closing = outcome.peaks.closing(index).value;
+        let scale = closing_scale(contact, closing, |building, floor| {
+            outcome.peaks.sway(building, floor)
+        });
         contact.width += change * contact.width.max(scale);
     }
     let other = simulate_like(outcome, &changed, motion, plan, shapes, observer);
@@ -113,47 +115,24 @@ fn sensitive_from(
 }
 
 /// What errors of the closing of a contact are relative to: its greatest closing, or a tenth of the displacement of its
-/// floors if that is more \[m\]. `floors` and `supports`: peaks of every building.
+/// floors if that is more \[m\]. `sway`: greatest displacement of a floor of a building, of its mat as floor 0, or of all its floors, for
+/// a contact between them \[m\].
 pub(super) fn closing_scale(
     contact: &Contact,
     closing: f64,
-    floors: &[Vec<FloorPeaks>],
-    supports: &[SupportPeaks],
+    sway: impl Fn(usize, Option<usize>) -> f64,
 ) -> f64 {
-    closing.max(SWAY * greatest_displacement(contact, floors, supports))
-}
-
-/// Greatest displacement of the floors of a contact, of its mats, or of its buildings if it lies between floors \[m\].
-fn greatest_displacement(
-    contact: &Contact,
-    floors: &[Vec<FloorPeaks>],
-    supports: &[SupportPeaks],
-) -> f64 {
-    let size = |[most, least]: [Extreme; 2]| most.value.max(-least.value);
-    let of_floor = |own: &FloorPeaks| size([own.displacement_max, own.displacement_min]);
     let sides = contact.ports.buildings().into_iter();
     let sides = sides.zip(contact.ports.floors());
-    sides
-        .filter_map(|(building, floor)| {
-            let building = building?;
-            let floors = &floors[building];
-            Some(match floor {
-                Some(0) => {
-                    let mat = &supports[building];
-                    size([mat.displacement_max, mat.displacement_min])
-                }
-                Some(floor) => of_floor(&floors[floor - 1]),
-                None => floors.iter().map(of_floor).fold(0.0, f64::max),
-            })
-        })
-        .fold(0.0, f64::max)
+    let sways = sides.filter_map(|(building, floor)| Some(sway(building?, floor)));
+    closing.max(SWAY * sways.fold(0.0, f64::max))
 }
 
 /// Whether a contact without impact comes within the tolerance of one.
 fn nearly_touches(system: &System, outcome: &Outcome, contact: usize, tolerance: f64) -> bool {
     let (width, closing) = (
         system.contacts[contact].width,
-        outcome.closing[contact].value,
+        outcome.peaks.closing(contact).value,
     );
     impacts(outcome, contact).next().is_none()
         && (width - closing).abs() < tolerance * width.max(closing)

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::direct::{run_directly, within_tolerance};
-use super::outcome::{Observer, Outcome, Progress, Settings, StepError};
+use super::outcome::{OnProgress, Outcome, Progress, Settings, StepError};
 use super::plan::Plan;
 use super::{modal, series};
 use crate::model::Solver;
@@ -69,7 +69,7 @@ fn step_through(
     plan: &Plan,
     settings: Settings,
     state: State,
-    observer: &mut Observer<'_>,
+    observer: &mut OnProgress<'_>,
 ) -> Outcome {
     if plan.vertical != motion.is_vertical() {
         let reason = "the steps were chosen for another motion".to_owned();
@@ -109,7 +109,7 @@ pub(super) fn simulate_like(
     motion: &GroundMotion,
     plan: &Plan,
     shapes: Option<&modal::Reduction>,
-    observer: &mut Observer<'_>,
+    observer: &mut OnProgress<'_>,
 ) -> Outcome {
     let plan = &plan.with_step(outcome.free_step);
     // Power series take shorter steps where a history wants its rows.

@@ -95,14 +95,16 @@ pub struct Floor {
 }
 
 /// Direction of a displacement.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Direction {
     /// Along the row: x.
     Along,
     /// Across the row: y.
     Across,
-    /// Rotation about a vertical axis.
+    /// Rotation about a vertical axis; of a foundation, about the horizontal one across the row.
     Turning,
+    /// Upwards, of buildings in one plane.
+    Up,
 }
 
 impl Direction {
@@ -112,7 +114,7 @@ impl Direction {
     pub fn of_ground(self, ground: Ground) -> f64 {
         match self {
             Self::Along => ground[0],
-            Self::Across => ground[1],
+            Self::Across | Self::Up => ground[1],
             Self::Turning => 0.0,
         }
     }

@@ -100,14 +100,13 @@ impl MatInPlan {
 }
 
 impl BuildingSystem {
-    /// What stands below its lowest floor moves so much in a direction; zero on the ground \[m, rad\].
-    pub(crate) fn below_lowest(&self, direction: Direction, displacement: &[f64]) -> f64 {
-        let dof = match (direction, &self.mat_in_plan) {
+    /// Degree of freedom of what stands below its lowest floor in a direction, in the vectors of a [`crate::State`]; `None` on the ground.
+    pub(crate) fn dof_below_lowest(&self, direction: Direction) -> Option<usize> {
+        match (direction, &self.mat_in_plan) {
             (Direction::Along, _) => self.foot,
-            (_, None) => None,
+            (_, None) | (Direction::Up, _) => None,
             (Direction::Across, Some(mat)) => Some(mat.dofs[1]),
             (Direction::Turning, Some(mat)) => Some(mat.dofs[2]),
-        };
-        dof.map_or(0.0, |dof| displacement[dof])
+        }
     }
 }

@@ -8,6 +8,7 @@ mod member_cost;
 mod member_forces;
 mod member_ratios;
 mod modal;
+mod peaks;
 mod rows;
 mod statics;
 mod stepping_allocates_nothing;

@@ -519,7 +519,7 @@ fn shears_of_columns_make_up_the_shear_of_their_storey() {
             sum
         });
         let peak = sums.fold(0.0_f64, |most, sum: f64| most.max(sum.abs()));
-        let known = outcome.floors[0][1].storey_shear;
+        let known = outcome.peaks.floor(0, 2).storey_shear();
         assert!(
             (peak / known - 1.0).abs() < tolerance,
             "{solver:?}: {peak} against {known}"

@@ -2,7 +2,7 @@
 
 use super::{Direct, moved_by_grounds};
 use crate::contact::ForceLaw;
-use crate::history::{Extreme, LinkTotals};
+use crate::history::Extreme;
 use crate::interface::{LinkElement, LinkMemory};
 use crate::linear::envelope::Envelope;
 use crate::model::LinkLaw;
@@ -11,6 +11,7 @@ use crate::stepping::coupling::{Closed, scaled_compliance};
 use crate::stepping::events::{Crossing, Cubic};
 use crate::stepping::runner::{LinkTouch, RunState};
 use crate::stepping::step_link::StepLink;
+use crate::stepping::totals::LinkTotals;
 use crate::system::System;
 
 /// The factorised equations of all links at one step size, while no contact is closed.

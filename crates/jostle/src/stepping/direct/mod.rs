@@ -30,11 +30,14 @@ use crate::stepping::control::{Observed, half_cycle, next_division};
 use crate::stepping::energy::EnergyAudit;
 use crate::stepping::events::Cubic;
 use crate::stepping::gap_forces::StepForce;
-use crate::stepping::outcome::{Accuracy, Observer, Outcome, RunEnd, Settings, StepError};
+use crate::stepping::member_peaks::MemberPeaks;
+use crate::stepping::observe::{Observer, Reached};
+use crate::stepping::outcome::{Accuracy, OnProgress, Outcome, RunEnd, Settings, StepError};
 use crate::stepping::plan::Plan;
 use crate::stepping::recorder::{Instant, Recorder};
 use crate::stepping::runner::{ContactTrial, Jump, LinkTouch, RunState, Runner, Stepper};
 use crate::stepping::step_friction::FrictionPath;
+use crate::stepping::totals::{columns_of_links, columns_of_springs};
 use crate::system::System;
 use crate::transfer::riccati::RiccatiScratch;
 use factors::StepFactors;
@@ -52,13 +55,13 @@ pub(super) fn run_directly(
     plan: &Plan,
     settings: Settings,
     state: State,
-    observer: &mut Observer<'_>,
+    on_progress: &mut OnProgress<'_>,
 ) -> Outcome {
     let mut run = RunState::new(system, motion, plan, settings);
     (run.time, run.phases) = (state.time, state.contacts.clone());
     let stepper = Direct::new(&run, settings, state);
     let mut runner = Runner { run, stepper };
-    let end = runner.run_to_end(observer);
+    let end = runner.run_to_end(on_progress);
     runner.report_unfinished_impacts();
     let Runner { run, stepper } = runner;
     stepper.into_outcome(run, end)
@@ -87,6 +90,8 @@ pub(super) struct Direct {
     jump: JumpScratch,
     audit: EnergyAudit,
     recorder: Recorder,
+    members: MemberPeaks,
+    observer: Observer,
     /// Short steps left after a jump of velocities.
     struck_steps: u32,
     /// How far corners are inside of the ends of edges at the end of the tried step, and its rate \[m, m/s\].
@@ -107,19 +112,14 @@ impl Direct {
         let joints = Joints::new(system);
         let links = Links::starting_from(system, &state);
         let steps = motion.duration / plan.step;
-        let mut recorder = Recorder::new(
-            system,
-            &run.grounds,
-            motion.duration,
-            settings.record_interval,
-        );
-        if plan.vertical {
-            recorder.follow_vertical(system, &state);
-        }
+        let mut recorder = Recorder::new(system, &run.grounds, settings.record_interval);
+        let mut members = MemberPeaks::new(system, settings.record_interval.is_some());
         let rows = settings
             .record_interval
             .map_or(0.0, |interval| motion.duration / plan.step.max(interval));
-        recorder.reserve((1.2 * rows.min(steps) + 100.0).min(1e6) as usize);
+        let rows = (1.2 * rows.min(steps) + 100.0).min(1e6) as usize;
+        recorder.reserve(rows);
+        members.reserve(rows);
         let buildings = system.buildings.iter();
         Self {
             equations: buildings
@@ -138,6 +138,8 @@ impl Direct {
             audit: EnergyAudit::starting_from(system, &state, &run.grounds),
             yielding: YieldingSprings::starting_from(system, &state),
             recorder,
+            members,
+            observer: Observer::new(system, motion.duration, plan.vertical.then_some(&state)),
             state,
             struck_steps: 0,
             edge_ends: vec![[0.0; 2]; system.edge_ends.len()],
@@ -158,52 +160,47 @@ impl Direct {
             doubtful_from: None,
             sensitive_from: None,
         });
-        (self.state.time, self.state.contacts) = (run.time, run.phases);
+        self.state.time = run.time;
+        self.state.contacts = std::mem::take(&mut run.phases);
         run.work.coupling_operations = run.coupling.operations;
-        let (floors, in_plan) = self.recorder.take_floors(run.system);
+        let acceleration_parts = std::mem::take(&mut self.observer.parts);
+        let mut peaks = self.observer.finish();
+        peaks.extend(columns_of_links(&self.links.totals));
+        peaks.extend(columns_of_springs(&self.yielding.totals));
+        let free_step = Some(run.plan.step);
         Outcome {
-            impacts: run.impacts,
-            floors,
-            closing: std::mem::take(&mut self.recorder.closing),
-            gap_forces: run.gap_forces.peaks,
-            face_impacts: run.face_forces.impacts,
-            in_plan,
-            supports: self.recorder.take_supports(),
-            foundations: std::mem::take(&mut self.recorder.foundations),
-            base_shear: std::mem::take(&mut self.recorder.base_shear),
-            acceleration_parts: std::mem::take(&mut self.recorder.parts),
+            acceleration_parts,
             spring_history: self.recorder.springs.take(),
-            members: std::mem::take(&mut self.recorder.members.extremes),
-            member_history: self.recorder.members.history.take(),
-            member_ratios: std::mem::take(&mut self.recorder.members.ratios.greatest),
-            worst_instants: std::mem::take(&mut self.recorder.members.ratios.worst),
+            members: self.members.extremes,
+            member_history: self.members.history,
+            member_ratios: self.members.ratios.greatest,
+            worst_instants: self.members.ratios.worst,
             history: self.recorder.into_history(),
             spring_events: self.yielding.events,
-            springs: self.yielding.totals,
-            links: self.links.totals,
             energy,
-            work: run.work,
-            free_step: Some(run.plan.step),
+            free_step,
             contact_step,
             state: self.state,
             accuracy,
-            end,
-            ..Outcome::default()
+            ..run.into_outcome(peaks, end)
         }
     }
 
     /// Forces of columns and beams now, where they are asked for.
     fn follow_members(&mut self, run: &RunState<'_>) {
-        if self.recorder.members.is_asked() {
+        if self.members.is_asked() {
             self.state.contacts.clone_from(&run.phases);
             let (links, ground) = (&self.links.forces, run.grounds_at(0));
-            let members = &mut self.recorder.members;
-            members.take(run.system, &self.state, links, ground);
+            let state = &self.state;
+            self.members.take(run.system, state, links, ground);
         }
     }
 
     /// A row of the history, where one is due.
     fn record(&mut self, run: &RunState<'_>, wanted: bool) {
+        if self.recorder.is_due(run.time, wanted) {
+            self.members.record(run.system, self.state.time);
+        }
         let instant = Instant {
             state: &self.state,
             contacts: &run.phases,
@@ -436,7 +433,7 @@ impl Stepper for Direct {
     }
 
     fn before_step(&mut self, run: &mut RunState<'_>, _: f64) {
-        self.recorder
+        self.observer
             .before_step(run.system, &self.state, &run.grounds);
     }
 
@@ -528,17 +525,16 @@ impl Stepper for Direct {
         was_closed: bool,
     ) -> Result<(), StepError> {
         self.struck_steps = self.struck_steps.saturating_sub(1);
-        let instant = Instant {
+        let reached = Reached {
             state: &self.state,
-            contacts: &run.phases,
             links: &self.links.forces,
             grounds: &run.grounds,
             ground: run.grounds_at(0),
         };
-        self.recorder.after_step(run.system, &instant, step);
+        self.observer.after_step(run.system, &reached, step);
         self.follow_members(run);
         self.record(run, was_closed);
-        check_collapse(run, &self.recorder.floors, &self.recorder.drifts)
+        check_collapse(run, |building| self.observer.drifts(building))
     }
 
     fn slip(&self, run: &RunState<'_>, contact: usize) -> [f64; 2] {
@@ -582,7 +578,7 @@ impl Stepper for Direct {
 
     fn after_event(&mut self, run: &RunState<'_>) {
         let ground = run.grounds_at(0);
-        self.recorder.after_jump(run.system, &self.state, ground);
+        self.observer.after_jump(&self.state, ground);
     }
 
     /// Buildings stay behind: M Δa = −M r Δa_g.

@@ -7,12 +7,13 @@
 //! tangent at the start of the step.
 
 use super::{Direct, plan_forces};
-use crate::history::{SpringEvent, SpringTotals};
+use crate::history::SpringEvent;
 use crate::hysteresis::{HysteresisMemory, Rates, Stage};
 use crate::linear::NotPositive;
 use crate::state::State;
 use crate::stepping::outcome::StepError;
 use crate::stepping::runner::RunState;
+use crate::stepping::totals::SpringTotals;
 use crate::structure::YieldingSpring;
 use crate::system::{BuildingSystem, System};
 

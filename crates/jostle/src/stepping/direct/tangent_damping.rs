@@ -76,7 +76,7 @@ impl Direct {
         }
         if jumped {
             let ground = run.grounds_at(0);
-            self.recorder.after_jump(run.system, &self.state, ground);
+            self.observer.after_jump(&self.state, ground);
         }
     }
 }

@@ -4,7 +4,7 @@ use super::run_directly;
 use crate::interface::LinkElement;
 use crate::motion::GroundMotion;
 use crate::state::State;
-use crate::stepping::outcome::{Accuracy, Observer, Outcome, RunEnd, Settings};
+use crate::stepping::outcome::{Accuracy, OnProgress, Outcome, RunEnd, Settings};
 use crate::stepping::peak_change::change_of_peaks;
 use crate::stepping::plan::Plan;
 use crate::stepping::sensitivity::first_parted;
@@ -115,7 +115,7 @@ pub(in crate::stepping) fn within_tolerance(
     plan: &Plan,
     settings: Settings,
     state: State,
-    observer: &mut Observer<'_>,
+    observer: &mut OnProgress<'_>,
 ) -> Outcome {
     let mut run =
         |plan: &Plan| run_directly(system, motion, plan, settings, state.clone(), observer);

@@ -7,7 +7,7 @@ use super::plan_rows::{PlanRow, RowTable, slot_of};
 use super::reduced::ReducedBuilding;
 use crate::history::Extreme;
 use crate::linear::Row;
-use crate::stepping::recorder::greatest_in_step;
+use crate::stepping::extremes::greatest_in_step;
 use crate::system::BuildingSystem;
 
 /// The greatest distance that a corner of every floor has moved.

@@ -4,7 +4,7 @@ use super::mode_kernels::{ROWS, Show};
 use super::peaks::{Peaks, Watched};
 use super::reduced::{Reduced, ReducedBuilding};
 use super::turning::NEAR_GREATEST;
-use crate::history::FloorPeaks;
+use crate::stepping::floor_peaks::FloorPeaks;
 use crate::stepping::peak_change::LEAST_ROTATION;
 use crate::system::{BuildingSystem, Direction, GroundsAt, System};
 
@@ -322,7 +322,7 @@ fn scales_in_space(
 fn scales(floors: &[FloorPeaks], shear: f64) -> [f64; KINDS] {
     let most = |of: fn(&FloorPeaks) -> f64| floors.iter().map(of).fold(f64::MIN_POSITIVE, f64::max);
     [
-        most(|f| f.displacement_max.value.max(-f.displacement_min.value)),
+        most(FloorPeaks::sway),
         most(|f| f.storey_drift),
         most(|f| f.total_acceleration),
         shear.max(f64::MIN_POSITIVE),

@@ -2,11 +2,11 @@
 
 use super::estimate::Estimate;
 use super::stepper::ModalStepper;
-use crate::history::{FoundationPeaks, SupportPeaks};
 use crate::state::State;
 use crate::stepping::member_ratios::MemberRatios;
-use crate::stepping::outcome::{Observer, Outcome, RunEnd};
+use crate::stepping::outcome::{OnProgress, Outcome, RunEnd};
 use crate::stepping::runner::{RunState, Runner};
+use crate::stepping::totals::columns_of_links;
 
 /// Share of the tolerance below which an error of shapes needs no further shapes.
 const LEAST_SHARE: f64 = 0.3;
@@ -23,7 +23,7 @@ pub(super) struct Verdict {
 /// Runs to the end of the motion; with how far peaks may be off.
 pub(super) fn finish(
     mut runner: Runner<'_, ModalStepper<'_>>,
-    observer: &mut Observer<'_>,
+    observer: &mut OnProgress<'_>,
 ) -> (Outcome, Verdict) {
     let end = runner.run_to_end(observer);
     runner.stepper.peaks.complete(runner.stepper.reduced);
@@ -73,30 +73,20 @@ impl ModalStepper<'_> {
             },
             |members| members.finish(run.system, self.reduced),
         );
-        let (floors, in_plan) = self.peaks.take_floors(run.system);
+        let mut peaks = self.peaks.take(run.system);
+        peaks.extend(columns_of_links(&self.links.totals));
+        let free_step = Some(step_of(self.least_division));
         Outcome {
-            impacts: run.impacts,
-            floors,
-            in_plan,
-            supports: vec![SupportPeaks::default(); run.system.buildings.len()],
-            foundations: vec![FoundationPeaks::default(); run.system.buildings.len()],
-            closing: std::mem::take(&mut self.peaks.closing),
-            gap_forces: run.gap_forces.peaks,
-            face_impacts: run.face_forces.impacts,
-            base_shear: std::mem::take(&mut self.peaks.base_shear),
             members,
             member_history,
             member_ratios: ratios.greatest,
             worst_instants: ratios.worst,
             history: self.peaks.into_history(),
-            links: self.links.totals,
             energy,
-            work: run.work,
-            free_step: Some(step_of(self.least_division)),
+            free_step,
             contact_step,
             state,
-            end,
-            ..Outcome::default()
+            ..run.into_outcome(peaks, end)
         }
     }
 

@@ -12,12 +12,13 @@ use super::reduced::{Reduced, Shown};
 use super::step_table::StepTable;
 use super::stepper::ModalStepper;
 use super::unit_force::UnitForce;
-use crate::history::{Extreme, LinkTotals};
+use crate::history::Extreme;
 use crate::interface::LinkElement;
 use crate::linear::SparseSymmetric;
 use crate::linear::full_matrix::PivotedLu;
 use crate::simd;
-use crate::stepping::recorder::greatest_in_step;
+use crate::stepping::extremes::greatest_in_step;
+use crate::stepping::totals::LinkTotals;
 use crate::system::{BuildingSystem, OverStep, RunGrounds, System};
 
 /// A spring and dashpot between two monitored points, or a point and the ground.

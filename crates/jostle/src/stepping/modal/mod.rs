@@ -48,7 +48,7 @@ use std::f64::consts::PI;
 use std::ops::ControlFlow;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::outcome::{Accuracy, Observer, Outcome, Progress, RunEnd, Settings, StepError};
+use super::outcome::{Accuracy, OnProgress, Outcome, Progress, RunEnd, Settings, StepError};
 use super::plan::{Plan, USUAL_TOLERANCE};
 use super::refined::{MoreShapes, Refined};
 use crate::history::Work;
@@ -234,7 +234,7 @@ pub(super) fn simulate_from(
     plan: &Plan,
     settings: Settings,
     start: &State,
-    observer: &mut Observer<'_>,
+    observer: &mut OnProgress<'_>,
 ) -> Outcome {
     if let Some(reason) = start::refusal(system, start) {
         return Outcome::not_begun(system, StepError::Unsuited { reason });
@@ -261,7 +261,7 @@ pub(super) fn simulate_with(
     settings: Settings,
     reduction: &Reduction,
     start: Option<&State>,
-    observer: &mut Observer<'_>,
+    observer: &mut OnProgress<'_>,
 ) -> Outcome {
     let tolerance = plan.tolerance();
     let mut refinement = Refinement {
@@ -336,7 +336,7 @@ pub(super) fn simulate_as(
     motion: &GroundMotion,
     plan: &Plan,
     reduction: &Reduction,
-    observer: &mut Observer<'_>,
+    observer: &mut OnProgress<'_>,
 ) -> Outcome {
     let mut reduced = Arc::clone(&reduction.reduced);
     for added in &refined.shapes {

@@ -9,13 +9,14 @@ use super::mode_kernels::{Exceeds, Limits, ROWS};
 use super::plan_near::PlanNear;
 use super::reduced::Reduced;
 use super::turning::{NEAR_GREATEST, StepMotion};
-use crate::history::{Energy, Extreme, FloorPeaks, History};
+use crate::history::{self, Column, Energy, Extreme, History, Kind, Owner, Peak};
 use crate::motion::Ground;
 use crate::stepping::events::Cubic;
-use crate::stepping::outcome::PlanPeaks;
+pub(super) use crate::stepping::extremes::BEYOND;
+use crate::stepping::extremes::greatest_in_step;
+use crate::stepping::floor_peaks::{FloorPeaks, columns_of, columns_of_corners};
 use crate::stepping::plan_drifts::PlanDrifts;
-pub(super) use crate::stepping::recorder::BEYOND;
-use crate::stepping::recorder::{columns, forces_of_faces, greatest_in_step, has_closing};
+use crate::stepping::recorder::{columns, forces_of_faces, has_closing};
 use crate::system::{Direction, GroundsAt, RunGrounds, System};
 
 /// Recorder of histories and peaks.
@@ -167,26 +168,24 @@ impl Peaks {
         }
     }
 
-    /// Peaks of the floors along x, and further ones of buildings in space.
-    pub(super) fn take_floors(
-        &mut self,
-        system: &System,
-    ) -> (Vec<Vec<FloorPeaks>>, Vec<PlanPeaks>) {
-        let mut floors = std::mem::take(&mut self.floors);
-        let corners = std::mem::take(&mut self.corners);
-        let followed = corners.into_iter().zip(&self.drifts);
-        let mut in_plan = Vec::with_capacity(floors.len());
-        for ((own, building), (corners, drifts)) in
-            floors.iter_mut().zip(&system.buildings).zip(followed)
-        {
-            let corners = match building.is_in_space() {
-                true => corners.finish(),
-                false => Vec::new(),
-            };
-            let peaks = PlanPeaks::split_off(own, building.floors.len(), corners, drifts);
-            in_plan.push(peaks);
+    /// The list of peaks of the run, without links.
+    pub(super) fn take(&mut self, system: &System) -> history::Peaks {
+        let mut all: Vec<(Column, Peak)> = Vec::new();
+        let corners = std::mem::take(&mut self.corners).into_iter();
+        for (index, (building, corners)) in system.buildings.iter().zip(corners).enumerate() {
+            all.extend(columns_of(index, building, &self.floors[index]));
+            let base = Column::along(Owner::Building(index), Kind::Shear);
+            all.push((base, Peak::of_size(self.base_shear[index])));
+            if building.is_in_space() {
+                let drifts = self.drifts[index].corners();
+                all.extend(columns_of_corners(index, Kind::CornerDrift, drifts));
+                let moved = corners.finish().into_iter();
+                all.extend(columns_of_corners(index, Kind::CornerDisplacement, moved));
+            }
         }
-        (floors, in_plan)
+        let closings = self.closing.iter().enumerate();
+        all.extend(closings.map(|(contact, own)| (Column::closing(contact), (*own).into())));
+        all.into_iter().collect()
     }
 
     pub(super) fn into_history(self) -> Option<History> {
@@ -250,7 +249,7 @@ impl Peaks {
         for (drifts, floors) in self.drifts.iter_mut().zip(&mut self.floors) {
             drifts.before_step(taken.then.u, taken.then.rate);
             drifts.after_step(taken.now.u, taken.now.rate, taken.step);
-            drifts.give_to(floors);
+            drifts.give_to(|place, drift| floors[place].storey_drift = drift);
         }
     }
 

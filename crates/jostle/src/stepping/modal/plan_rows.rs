@@ -170,7 +170,8 @@ impl PlanRow {
 pub(super) fn slot_of(direction: Direction) -> usize {
     match direction {
         Direction::Along => 0,
-        Direction::Across => 1,
+        // In one plane, upwards takes the place of across.
+        Direction::Across | Direction::Up => 1,
         Direction::Turning => 2,
     }
 }

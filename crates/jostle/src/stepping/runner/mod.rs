@@ -15,7 +15,7 @@ pub(super) use run_state::RunState;
 pub(super) use stepper::{Jump, Stepper};
 
 use super::clock::{Clock, NextStep};
-use super::outcome::{Observer, Progress, RunEnd, StepError};
+use super::outcome::{OnProgress, Progress, RunEnd, StepError};
 use crate::state::ContactPhase;
 
 /// Most steps between calls of the observer, and most expected work.
@@ -36,7 +36,7 @@ pub(super) struct Runner<'a, S> {
 
 impl<S: Stepper> Runner<'_, S> {
     /// To the end of the motion.
-    pub(super) fn run_to_end(&mut self, observer: &mut Observer<'_>) -> RunEnd {
+    pub(super) fn run_to_end(&mut self, observer: &mut OnProgress<'_>) -> RunEnd {
         let duration = self.run.motion.duration;
         self.stepper.record_start(&mut self.run);
         let mut next_call = 0;

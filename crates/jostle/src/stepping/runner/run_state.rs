@@ -1,7 +1,7 @@
 //! Data of a run that do not depend on the stepper.
 
 use super::contact_events::{ContactTrial, impact_of};
-use crate::history::{Impact, Work};
+use crate::history::{Column, Impact, Kind, Owner, Peaks, Work};
 use crate::model::Solver;
 use crate::motion::{Ground, GroundMotion};
 use crate::state::{ContactPhase, Episode};
@@ -9,7 +9,7 @@ use crate::stepping::clock::Clock;
 use crate::stepping::coupling::ContactEquations;
 use crate::stepping::face_forces::FaceForces;
 use crate::stepping::gap_forces::GapForces;
-use crate::stepping::outcome::{Pounding, Settings};
+use crate::stepping::outcome::{Outcome, Pounding, RunEnd, Settings};
 use crate::stepping::plan::Plan;
 use crate::system::{GroundsAt, RunGrounds, System};
 
@@ -94,6 +94,23 @@ impl<'a> RunState<'a> {
             at_corner: false,
             impacts: Vec::new(),
             work: Work::default(),
+        }
+    }
+
+    /// What no stepper finds itself: impacts, forces of gaps and faces, and work.
+    pub(in crate::stepping) fn into_outcome(self, mut peaks: Peaks, end: RunEnd) -> Outcome {
+        let gaps = self.gap_forces.peaks.into_iter().enumerate();
+        peaks.extend(gaps.map(|(gap, force)| {
+            let column = Column::along(Owner::Gap(gap), Kind::Force);
+            (column, force.into())
+        }));
+        Outcome {
+            peaks,
+            impacts: self.impacts,
+            face_impacts: self.face_forces.impacts,
+            work: self.work,
+            end,
+            ..Outcome::default()
         }
     }
 

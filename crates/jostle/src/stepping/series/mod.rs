@@ -20,7 +20,7 @@ pub(super) use stepper::run;
 use crate::model::Integrator;
 use crate::motion::GroundMotion;
 use crate::state::State;
-use crate::stepping::outcome::{Observer, Outcome, RunEnd, Settings, StepError};
+use crate::stepping::outcome::{OnProgress, Outcome, RunEnd, Settings, StepError};
 use crate::stepping::plan::Plan;
 use crate::system::System;
 use operators::Operators;
@@ -99,7 +99,7 @@ pub(super) fn simulate(
     plan: &Plan,
     settings: Settings,
     state: State,
-    observer: &mut Observer<'_>,
+    observer: &mut OnProgress<'_>,
 ) -> Outcome {
     if let Some(reason) = refusals(system, plan.integrator).into_iter().next() {
         return Outcome::not_begun(system, StepError::Unsuited { reason });

@@ -2,10 +2,12 @@
 
 use super::building_motion::Segment;
 use super::power_series::Powers;
-use crate::history::{Extreme, FloorPeaks, SpringTotals, SupportPeaks};
+use crate::history::{Column, Extreme, Kind, Owner, Peak, Peaks};
 use crate::linear::Row;
 use crate::stepping::acceleration_parts::AccelerationParts;
 use crate::stepping::events::Cubic;
+use crate::stepping::floor_peaks::{FloorPeaks, columns_of};
+use crate::stepping::totals::{SpringTotals, columns_of_springs};
 use crate::structure::StoreyForce;
 use crate::system::{BuildingSystem, System};
 
@@ -28,6 +30,39 @@ pub(super) struct SeriesPeaks {
     /// Storey forces at the start and at the end of a segment, and their rates there.
     storeys: [Vec<StoreyForce>; 2],
     storey_rates: [Vec<StoreyForce>; 2],
+}
+
+/// Peak response of a mat on bearings, or of a wall on its spring and dashpot.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct SupportPeaks {
+    displacement: Peak,
+    total_acceleration: f64,
+    /// Greatest force of springs, friction and dashpot together, without stops, either sign \[N\].
+    force: f64,
+    /// Energy dissipated in the dashpot \[J\].
+    pub(super) damped: f64,
+}
+
+impl SupportPeaks {
+    fn columns(&self, building: usize) -> [(Column, Peak); 4] {
+        let (mat, support) = (
+            Owner::Floor { building, floor: 0 },
+            Owner::Support(building),
+        );
+        let total = Peak::of_size(self.total_acceleration);
+        [
+            (Column::along(mat, Kind::Displacement), self.displacement),
+            (Column::along(mat, Kind::Acceleration), total),
+            (
+                Column::along(support, Kind::Force),
+                Peak::of_size(self.force),
+            ),
+            (
+                Column::along(support, Kind::Work),
+                Peak::of_size(self.damped),
+            ),
+        ]
+    }
 }
 
 /// A quantity and its rate at the start and at the end of a segment.
@@ -132,6 +167,34 @@ impl SeriesPeaks {
         }
     }
 
+    /// The list of peaks of the run.
+    pub(super) fn finish(&self, system: &System) -> Peaks {
+        let buildings = system.buildings.iter().enumerate();
+        let mut all: Vec<(Column, Peak)> = Vec::new();
+        for (index, building) in buildings {
+            all.extend(columns_of(index, building, &self.floors[index]));
+            let base = Column::along(Owner::Building(index), Kind::Shear);
+            all.push((base, Peak::of_size(self.base_shear[index])));
+            if building.support.is_some() {
+                all.extend(self.supports[index].columns(index));
+            }
+        }
+        let closings = self.closing.iter().enumerate();
+        all.extend(closings.map(|(contact, own)| (Column::closing(contact), (*own).into())));
+        all.extend(columns_of_springs(&self.springs));
+        all.into_iter().collect()
+    }
+
+    /// Greatest displacement of a floor of a building, of its mat as floor 0, or of all its floors \[m\].
+    pub(super) fn sway(&self, building: usize, floor: Option<usize>) -> f64 {
+        let floors = &self.floors[building];
+        match floor {
+            Some(0) => self.supports[building].displacement.size(),
+            Some(floor) => floors[floor - 1].sway(),
+            None => floors.iter().map(FloorPeaks::sway).fold(0.0, f64::max),
+        }
+    }
+
     /// Adds a segment of a building that begins at `start` \[s\]; `ground`: acceleration there and its slope.
     pub(super) fn after_segment(
         &mut self,
@@ -202,7 +265,10 @@ impl SeriesPeaks {
         if let Some(support) = &building.support {
             let (dof, peaks) = (support.dof - offset, &mut self.supports[index]);
             follow_extremes(
-                [&mut peaks.displacement_max, &mut peaks.displacement_min],
+                [
+                    &mut peaks.displacement.greatest,
+                    &mut peaks.displacement.least,
+                ],
                 moves(dof),
                 [start, step],
                 || motion(dof),

@@ -4,7 +4,7 @@ use super::building_motion::{BuildingMotion, GAUSS, GroundLine};
 use super::peaks::SeriesPeaks;
 use super::push::Push;
 use crate::contact::momentum;
-use crate::history::{FoundationPeaks, SpringEvent, SpringTotals};
+use crate::history::SpringEvent;
 use crate::hysteresis::Stage;
 use crate::interface::InterfaceGraph;
 use crate::motion::{Ground, GroundMotion};
@@ -15,17 +15,17 @@ use crate::stepping::collapse::check_collapse;
 use crate::stepping::contact_parabola;
 use crate::stepping::energy::EnergyAudit;
 use crate::stepping::events::Cubic;
+use crate::stepping::extremes::greatest_in_step;
 use crate::stepping::force_equations::ForceEquations;
 use crate::stepping::member_ratios::MemberRatios;
 use crate::stepping::near_contacts::{self, NearContacts, Touch};
-use crate::stepping::outcome::{
-    Accuracy, Observer, Outcome, PlanPeaks, RunEnd, Settings, StepError,
-};
+use crate::stepping::outcome::{Accuracy, OnProgress, Outcome, RunEnd, Settings, StepError};
 use crate::stepping::plan::Plan;
 use crate::stepping::predicted_force::{AHEAD, PredictedForce};
-use crate::stepping::recorder::{Instant, Recorder, greatest_in_step};
+use crate::stepping::recorder::{Instant, Recorder};
 use crate::stepping::runner::{ContactTrial, Jump, RunState, Runner, Stepper};
 use crate::stepping::sensitivity::closing_scale;
+use crate::stepping::totals::SpringTotals;
 use crate::system::System;
 
 /// Displacements of all buildings, and their motion over the tried step.
@@ -70,7 +70,7 @@ pub(in crate::stepping) fn run(
     plan: &Plan,
     settings: Settings,
     state: State,
-    observer: &mut Observer<'_>,
+    observer: &mut OnProgress<'_>,
 ) -> Outcome {
     let mut run = RunState::new(system, motion, plan, settings);
     (run.time, run.phases) = (state.time, state.contacts.clone());
@@ -96,12 +96,7 @@ impl SeriesStepper {
             work: spring.hysteresis.recoverable_energy(memory),
         });
         let contacts = system.contacts.iter().map(|contact| &contact.ports);
-        let mut recorder = Recorder::new(
-            system,
-            &run.grounds,
-            motion.duration,
-            settings.record_interval,
-        );
+        let mut recorder = Recorder::new(system, &run.grounds, settings.record_interval);
         let rows = settings
             .record_interval
             .map_or(0.0, |interval| motion.duration / plan.step.max(interval));
@@ -142,12 +137,9 @@ impl SeriesStepper {
         let closings = self.closing_error.iter().zip(&self.peaks.closing);
         let closings = closings.zip(&run.system.contacts);
         let relative = closings.map(|((error, closing), contact)| {
-            let scale = closing_scale(
-                contact,
-                closing.value,
-                &self.peaks.floors,
-                &self.peaks.supports,
-            );
+            let scale = closing_scale(contact, closing.value, |building, floor| {
+                self.peaks.sway(building, floor)
+            });
             error / scale.max(f64::MIN_POSITIVE)
         });
         let forces = self.force_error.iter().zip(&run.strongest);
@@ -167,19 +159,12 @@ impl SeriesStepper {
         let contact_step = Some(run.finest_in_contact)
             .filter(|d| *d > 0)
             .map(|d| step_of(d.max(self.least_division)));
-        (self.state.time, self.state.contacts) = (run.time, run.phases);
+        self.state.time = run.time;
+        self.state.contacts = std::mem::take(&mut run.phases);
         run.work.coupling_operations = run.coupling.operations + self.equations.operations;
         let ratios = MemberRatios::new(system);
+        let peaks = self.peaks.finish(system);
         Outcome {
-            impacts: run.impacts,
-            floors: self.peaks.floors,
-            closing: self.peaks.closing,
-            gap_forces: run.gap_forces.peaks,
-            face_impacts: run.face_forces.impacts,
-            in_plan: vec![PlanPeaks::default(); system.buildings.len()],
-            foundations: vec![FoundationPeaks::default(); self.peaks.supports.len()],
-            supports: self.peaks.supports,
-            base_shear: self.peaks.base_shear,
             acceleration_parts: self.peaks.parts,
             spring_history: self.recorder.springs.take(),
             members: vec![Vec::new(); system.buildings.len()],
@@ -187,9 +172,7 @@ impl SeriesStepper {
             worst_instants: ratios.worst,
             history: self.recorder.into_history(),
             spring_events: self.events,
-            springs: self.peaks.springs,
             energy,
-            work: run.work,
             free_step: Some(step_of(self.least_division)),
             contact_step,
             state: self.state,
@@ -199,8 +182,7 @@ impl SeriesStepper {
                 doubtful_from: self.near.doubtful_from,
                 sensitive_from: None,
             }),
-            end,
-            ..Outcome::default()
+            ..run.into_outcome(peaks, end)
         }
     }
 
@@ -577,7 +559,10 @@ impl Stepper for SeriesStepper {
         }
         self.audit.look(kinetic, strain);
         self.record(run, was_closed);
-        check_collapse(run, &self.peaks.floors, &[])
+        check_collapse(run, |building| {
+            let floors = self.peaks.floors[building].iter();
+            floors.map(|own| own.storey_drift).enumerate()
+        })
     }
 
     fn before_touch(&mut self, run: &RunState<'_>, contact: usize, rate: f64) {

@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 
+use jostle::history::PeaksOf;
 use jostle::model::{CapacityLine, MemberCapacity};
 use jostle::results::summary::{ImpactPlace, MemberSummary, RatioPlace};
 use jostle::structure::{MemberPlace, SectionAt};
@@ -256,7 +257,7 @@ fn check(model: &Model) -> Seen {
                     worst = (value, member.name.clone(), kind);
                 }
             }
-            check_axial_failure(member, own, recorded, &outcome.floors[index]);
+            check_axial_failure(member, own, recorded, &outcome.peaks.floors(index));
         }
         let capacity = building.capacity.as_ref().expect("rated");
         assert_eq!(capacity.exceeded, exceeded);
@@ -301,7 +302,7 @@ fn check_axial_failure(
     member: &MemberSummary,
     own: &MemberCapacity,
     recorded: &Recorded,
-    floors: &[jostle::history::FloorPeaks],
+    floors: &[PeaksOf<'_>],
 ) {
     let Some(failure) = &member.axial_failure else {
         assert!(member.name.contains("beam"), "{}", member.name);
@@ -326,7 +327,7 @@ fn check_axial_failure(
         .expect("a storey")
         .parse()
         .expect("a number");
-    let due = floors[storey - 1].storey_drift / drift;
+    let due = floors[storey - 1].storey_drift() / drift;
     assert!((failure.ratio / due - 1.0).abs() < 1e-12, "{}", member.name);
 }
 

@@ -200,7 +200,7 @@ fn model() -> Model {
 /// Greatest recorded force of every contact.
 fn recorded_peaks(outcome: &Outcome, contacts: usize) -> Vec<f64> {
     (0..contacts)
-        .map(|contact| largest(&column(outcome, Column::ContactForce { contact })))
+        .map(|contact| largest(&column(outcome, Column::contact_force(contact))))
         .collect()
 }
 
@@ -215,7 +215,7 @@ fn a_row_of_three_buildings_equals_one_system_of_full_matrices() {
         let system = assembled(&model);
         let motion = shaking(1.5);
         let outcome = run(&system, &motion, &steps(1e-3, 4));
-        let times = column(&outcome, Column::Time);
+        let times = column(&outcome, Column::TIME);
         let (peaks, displacement, on_both_sides) = stepped(&monolith(&model), &motion, &times, 3);
         assert!(
             on_both_sides > 20,

@@ -165,13 +165,7 @@ fn runs_agree_with_the_textbook_form() {
             let mut plan = steps(step, 1);
             plan.integrator = integrator;
             let outcome = run(&system, &motion, &plan);
-            let got = column(
-                &outcome,
-                Column::Displacement {
-                    building: 0,
-                    floor: 1,
-                },
-            );
+            let got = column(&outcome, Column::displacement(0, 1));
             let largest = expected.iter().fold(0.0_f64, |most, u| most.max(u.abs()));
             let apart = got
                 .iter()

@@ -136,8 +136,8 @@ fn an_impact_cut_off_by_the_end_has_not_separated() {
 
 fn worst_difference(a: &Outcome, b: &Outcome) -> f64 {
     let peaks = |o: &Outcome| -> Vec<f64> {
-        let all = o.floors.iter().flatten();
-        all.flat_map(|f| [f.displacement_max.value, f.displacement_min.value])
+        let all = o.peaks.buildings().flatten();
+        all.flat_map(|f| [f.displacement_max().value, f.displacement_min().value])
             .collect()
     };
     crate::verification::support::difference(&peaks(a), &peaks(b))

@@ -9,7 +9,7 @@ use jostle::{
     ProportionalDamping, Solver, Structure, System,
 };
 
-use crate::verification::support::{assembled, law, row, run, shaking, tower};
+use crate::verification::support::{assembled, base_shears, law, row, run, shaking, tower};
 
 /// The tower with bilinear storeys that yield at a deformation \[m\].
 fn yielding(mut building: Building, deformation: f64, post_yield: f64) -> Building {
@@ -58,11 +58,9 @@ fn storeys_that_never_yield_are_damped_like_elastic_ones() {
         row(towers.to_vec(), 0.02, law(LawKind::HertzDamp, 0.65))
     };
     let peaks = |outcome: &Outcome| -> Vec<f64> {
-        let floors = outcome.floors.iter().flatten();
-        let of_floors = floors.flat_map(|floor| [floor.total_acceleration, floor.storey_drift]);
-        of_floors
-            .chain(outcome.base_shear.iter().copied())
-            .collect()
+        let floors = outcome.peaks.buildings().flatten();
+        let of_floors = floors.flat_map(|floor| [floor.total_acceleration(), floor.storey_drift()]);
+        of_floors.chain(base_shears(outcome)).collect()
     };
     let tolerance = 1e-3;
     let elastic = outcome(&pair(None), None, tolerance).1;
@@ -153,12 +151,12 @@ fn damping_acts_on_what_has_yielded_as_stated() {
         assert!(known[0] > 3.0 * limit, "it yields");
         for (solver, allowed) in [(None, 2e-5), (Some(Solver::Riccati), 2e-5)] {
             let own = outcome(&model, solver, 1e-5).1;
-            let floor = &own.floors[0][0];
+            let floor = &own.peaks.floor(0, 1);
             let moved = floor
-                .displacement_max
+                .displacement_max()
                 .value
-                .max(-floor.displacement_min.value);
-            for (own, known) in [moved, floor.total_acceleration].iter().zip(known) {
+                .max(-floor.displacement_min().value);
+            for (own, known) in [moved, floor.total_acceleration()].iter().zip(known) {
                 let off = (own / known - 1.0).abs();
                 assert!(
                     off < allowed,
@@ -190,10 +188,10 @@ fn direct_steps_end_where_damping_jumps() {
     let mut model = row(vec![building], 0.0, law(LawKind::Linear, 1.0));
     model.gaps.clear();
     let peaks = |outcome: &Outcome| -> [Vec<f64>; 2] {
-        let floors = &outcome.floors[0];
+        let floors = &outcome.peaks.floors(0);
         [
-            floors.iter().map(|f| f.total_acceleration).collect(),
-            floors.iter().map(|f| f.storey_drift).collect(),
+            floors.iter().map(|f| f.total_acceleration()).collect(),
+            floors.iter().map(|f| f.storey_drift()).collect(),
         ]
     };
     let known = peaks(&outcome(&model, None, 1e-6).1);

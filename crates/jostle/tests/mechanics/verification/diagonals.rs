@@ -185,7 +185,10 @@ fn base_shear_is_that_of_the_lowest_storey() {
                 coupling: SoilCoupling::None,
             });
             let (_, outcome) = shaken(&model);
-            let (base, storey) = (outcome.base_shear[0], outcome.floors[0][0].storey_shear);
+            let (base, storey) = (
+                outcome.peaks.base_shear(0),
+                outcome.peaks.floor(0, 1).storey_shear(),
+            );
             // Below a mat there is its inertia as well.
             if model.buildings[0].base.isolation.is_none() {
                 close(base, storey, storey, 1e-9, "base shear");
@@ -249,21 +252,21 @@ fn frames_in_a_plan_have_the_same_diagonals() {
             model.analysis.solver = Some(Solver::Riccati);
             shaken(&model).1
         });
-        for (a, b) in space.floors[0].iter().zip(&plane.floors[0]) {
-            let most = b.displacement_max.value;
-            close(a.displacement_max.value, most, most, 1e-6, "displacement");
+        for (a, b) in space.peaks.floors(0).iter().zip(plane.peaks.floors(0)) {
+            let most = b.displacement_max().value;
+            close(a.displacement_max().value, most, most, 1e-6, "displacement");
             close(
-                a.storey_shear,
-                2.0 * b.storey_shear,
-                a.storey_shear,
+                a.storey_shear(),
+                2.0 * b.storey_shear(),
+                a.storey_shear(),
                 1e-6,
                 "shear",
             );
         }
         close(
-            space.base_shear[0],
-            2.0 * plane.base_shear[0],
-            space.base_shear[0],
+            space.peaks.base_shear(0),
+            2.0 * plane.peaks.base_shear(0),
+            space.peaks.base_shear(0),
             1e-6,
             "base",
         );

@@ -1,5 +1,8 @@
 //! Buildings in space by direct steps: the same peaks as by their modes, and the same steps by two eliminations.
 
+use crate::verification::support::base_shears;
+use jostle::history::PeaksOf;
+use jostle::system::Direction;
 use jostle::{
     Analysis, Bearing, ContactLaw, Gap, GroundMotion, LawKind, Model, Outcome, Plan, Solver, System,
 };
@@ -53,18 +56,19 @@ pub(crate) fn run(model: &Model, motion: &GroundMotion, analysis: Analysis) -> (
 /// Peaks of every kind of every building, and forces of faces.
 fn peaks(outcome: &Outcome) -> Vec<Vec<f64>> {
     let mut kinds = Vec::new();
-    for (along, plan) in outcome.floors.iter().zip(&outcome.in_plan) {
-        for floors in [&along[..], &plan.across, &plan.turning] {
-            kinds.push(floors.iter().map(|f| f.displacement_max.value).collect());
-            kinds.push(floors.iter().map(|f| f.displacement_min.value).collect());
-            kinds.push(floors.iter().map(|f| f.storey_drift).collect());
-            kinds.push(floors.iter().map(|f| f.total_acceleration).collect());
-            kinds.push(floors.iter().map(|f| f.storey_shear).collect());
-            kinds.push(floors.iter().map(|f| f.overturning_moment).collect());
+    for along in outcome.peaks.buildings() {
+        for direction in [Direction::Along, Direction::Across, Direction::Turning] {
+            let floors = || along.iter().map(|floor| floor.to(direction));
+            kinds.push(floors().map(|f| f.displacement_max().value).collect());
+            kinds.push(floors().map(|f| f.displacement_min().value).collect());
+            kinds.push(floors().map(|f| f.storey_drift()).collect());
+            kinds.push(floors().map(|f| f.total_acceleration()).collect());
+            kinds.push(floors().map(|f| f.storey_shear()).collect());
+            kinds.push(floors().map(|f| f.overturning_moment()).collect());
         }
-        kinds.push(plan.corner_displacement.clone());
+        kinds.push(along.iter().map(PeaksOf::corner_displacement).collect());
     }
-    kinds.push(outcome.base_shear.clone());
+    kinds.push(base_shears(outcome));
     let faces = outcome.face_impacts.iter();
     kinds.push(faces.map(|impact| impact.peak_force.value).collect());
     kinds

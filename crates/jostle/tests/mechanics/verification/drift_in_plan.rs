@@ -55,13 +55,13 @@ fn floors_that_turn_together_have_no_drift() {
     let motion = shaking("along", 5.0);
     for solver in [Solver::Modal, Solver::Riccati] {
         let (_, outcome) = run(&stepped([1.0, 1e6, 1.0]), solver, &motion);
-        let (along, plan) = (&outcome.floors[0], &outcome.in_plan[0]);
-        let turned = plan.turning[0].displacement_max.value;
+        let floors = [1, 2].map(|floor| outcome.peaks.floor(0, floor));
+        let turned = floors[0].turning().displacement_max().value;
         assert!(turned > 1e-3, "the floors turn by {turned} rad");
         for drifts in [
-            [0, 1].map(|floor| along[floor].storey_drift),
-            [0, 1].map(|floor| plan.across[floor].storey_drift),
-            [0, 1].map(|floor| plan.corner_drift[floor]),
+            floors.map(|floor| floor.storey_drift()),
+            floors.map(|floor| floor.across().storey_drift()),
+            floors.map(|floor| floor.corner_drift()),
         ] {
             let [flexible, rigid] = drifts;
             assert!(flexible > 1e-3, "{solver:?}: {drifts:?}");
@@ -87,9 +87,9 @@ fn drifts_are_those_of_recorded_motions() {
         for storey in 0..3 {
             let motion_of = |floor: usize| {
                 [
-                    column(Column::Displacement { building, floor }),
-                    column(Column::DisplacementAcross { building, floor }),
-                    column(Column::Rotation { building, floor }),
+                    column(Column::displacement(building, floor)),
+                    column(Column::displacement(building, floor).across()),
+                    column(Column::displacement(building, floor).turning()),
                 ]
             };
             let (above, below) = (
@@ -120,11 +120,11 @@ fn drifts_are_those_of_recorded_motions() {
                     corner = corner.max(x.hypot(y));
                 }
             }
-            let plan = &outcome.in_plan[0];
+            let peaks = outcome.peaks.floor(0, storey + 1);
             for (own, known, name) in [
-                (outcome.floors[0][storey].storey_drift, along, "along"),
-                (plan.across[storey].storey_drift, across, "across"),
-                (plan.corner_drift[storey], corner, "corner"),
+                (peaks.storey_drift(), along, "along"),
+                (peaks.across().storey_drift(), across, "across"),
+                (peaks.corner_drift(), corner, "corner"),
             ] {
                 // Between rows it may be a little more.
                 let off = own / known - 1.0;

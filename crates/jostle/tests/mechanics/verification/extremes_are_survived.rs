@@ -430,7 +430,7 @@ fn no_step_is_too_short_to_be_taken() {
         let system = assembled(&row(towers, 0.0, law));
         let division = random.whole(1, 8) as u32;
         let outcome = run(&system, &shaking(2.0), &steps(1e-3, division));
-        let shortest = column(&outcome, Column::Time)
+        let shortest = column(&outcome, Column::TIME)
             .windows(2)
             .fold(f64::INFINITY, |shortest: f64, pair| {
                 shortest.min(pair[1] - pair[0])

@@ -24,7 +24,7 @@ fn forces_never_pull_except_under_the_kelvin_law() {
             let outcome = run(&system, &shaking(3.0), &steps(2e-3, 4));
             assert!(!outcome.impacts.is_empty(), "{kind:?}: no impacts");
             let forces: Vec<f64> = (0..system.contacts.len())
-                .flat_map(|contact| column(&outcome, Column::ContactForce { contact }))
+                .flat_map(|contact| column(&outcome, Column::contact_force(contact)))
                 .collect();
             let least = forces
                 .iter()

@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use jostle::history::Owner;
 use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
 use jostle::linear::StepMatrix;
 use jostle::stiffness::DirectStiffness;
@@ -149,7 +150,7 @@ fn a_shear_building_on_soil_is_the_same_as_by_its_matrices() {
         };
         let [expected, found] = [&given, &system].map(|system| run(system, &motion, &plan));
         for floor in 1..=3 {
-            let of = |outcome| column(outcome, Column::Displacement { building: 0, floor });
+            let of = |outcome| column(outcome, Column::displacement(0, floor));
             assert!(difference(&of(&found), &of(&expected)) < 1e-9);
         }
         let place = system.buildings[0].foundation.expect("it stands on one");
@@ -160,21 +161,27 @@ fn a_shear_building_on_soil_is_the_same_as_by_its_matrices() {
         assert!(found.energy.worst_imbalance < 1e-9);
         // Storey forces do not know of the foundation; drifts are deformations.
         let [a, b] = [&found, &expected].map(|outcome| {
-            outcome.floors[0]
+            outcome
+                .peaks
+                .floors(0)
                 .iter()
-                .map(|floor| floor.storey_shear)
+                .map(|floor| floor.storey_shear())
                 .collect::<Vec<_>>()
         });
         assert!(difference(&a, &b) < 1e-9);
-        let lowest = found.floors[0][0];
-        let deformation = lowest.storey_drift * 4.0;
-        assert!((lowest.storey_shear / (90e6 * deformation) - 1.0).abs() < 1e-9);
-        assert!((found.base_shear[0] / lowest.storey_shear - 1.0).abs() < 1e-9);
-        let peaks = found.foundations[0];
-        assert!(peaks.sway[0].value > 0.0 && peaks.rocking[0].value > 0.0);
-        assert!(peaks.damped > 0.0 && peaks.damped < found.energy.damped);
+        let lowest = found.peaks.floor(0, 1);
+        let deformation = lowest.storey_drift() * 4.0;
+        assert!((lowest.storey_shear() / (90e6 * deformation) - 1.0).abs() < 1e-9);
+        assert!((found.peaks.base_shear(0) / lowest.storey_shear() - 1.0).abs() < 1e-9);
+        let owner = Owner::Foundation(0);
+        let peaks = found.peaks.owned_by(owner);
+        let swayed = peaks.displacement();
+        let rocked = peaks.turning().displacement();
+        assert!(swayed.greatest.value > 0.0 && rocked.greatest.value > 0.0);
+        let damped = found.peaks.work(owner);
+        assert!(damped > 0.0 && damped < found.energy.damped);
         let sway = found.state.displacement[place.dofs[0]];
-        assert!(sway <= peaks.sway[0].value && sway >= peaks.sway[1].value);
+        assert!(sway <= swayed.greatest.value && sway >= swayed.least.value);
     }
 }
 
@@ -402,15 +409,23 @@ fn equal_neighbours_see_the_sum_of_a_row() {
     });
     for building in 0..2 {
         for floor in 1..=2 {
-            let expected = column(&one, Column::Displacement { building: 0, floor });
-            let found = column(&pair, Column::Displacement { building, floor });
+            let expected = column(&one, Column::displacement(0, floor));
+            let found = column(&pair, Column::displacement(building, floor));
             assert!(difference(&found, &expected) < 1e-9);
         }
-        let peaks = [pair.foundations[building], one.foundations[0]];
-        let [a, b] = peaks.map(|own| own.rocking.map(|extreme| extreme.value));
+        let [a, b] = [(&pair, building), (&one, 0)].map(|(run, building)| {
+            let own = run.peaks.owned_by(Owner::Foundation(building)).turning();
+            [own.displacement_max().value, own.displacement_min().value]
+        });
         assert!(difference(&a, &b) < 1e-9);
     }
-    assert!(largest(&[one.foundations[0].sway[0].value]) > 0.0);
+    assert!(
+        one.peaks
+            .owned_by(Owner::Foundation(0))
+            .displacement()
+            .size()
+            > 0.0
+    );
 }
 
 /// Storeys that yield on soil that couples their foundations, with impacts, against all displacements at once in full
@@ -462,11 +477,11 @@ fn condensed_equals_monolithic_on_soil() {
             };
             let outcome = run(&system, &motion, &plan);
             assert!(!outcome.impacts.is_empty());
-            let times = column(&outcome, Column::Time);
+            let times = column(&outcome, Column::TIME);
             let (peaks, displacement) = monolith(&system, &motion, &times);
             let contacts = 0..system.contacts.len();
             let got: Vec<f64> = contacts
-                .map(|contact| largest(&column(&outcome, Column::ContactForce { contact })))
+                .map(|contact| largest(&column(&outcome, Column::contact_force(contact))))
                 .collect();
             let forces = difference(&got, &peaks[..got.len()]);
             let displacements = difference(&outcome.state.displacement, &displacement);
@@ -530,10 +545,13 @@ fn links_between_floors_on_soil_are_part_of_their_storeys() {
     let (motion, plan) = (shaking(4.0), steps(1e-3, 1));
     let [expected, found] = [&stiff, &linked].map(|model| run(&assembled(model), &motion, &plan));
     for floor in 1..=3 {
-        let of = |outcome| column(outcome, Column::Displacement { building: 0, floor });
+        let of = |outcome| column(outcome, Column::displacement(0, floor));
         assert!(difference(&of(&found), &of(&expected)) < 1e-9);
     }
-    let rocking = [&found, &expected].map(|outcome| outcome.foundations[0].rocking[0].value);
+    let rocking = [&found, &expected].map(|outcome| {
+        let own = outcome.peaks.owned_by(Owner::Foundation(0)).turning();
+        own.displacement_max().value
+    });
     assert!((rocking[0] / rocking[1] - 1.0).abs() < 1e-9 && rocking[1] > 1e-4);
 }
 

@@ -45,10 +45,7 @@ fn shaken(system: &System, frequency: f64, plan: &Plan) -> Steady {
         .iter()
         .filter(|impact| impact.start >= SETTLED);
     let displacement = [0, 1].map(|building| {
-        let all = column(
-            &outcome,
-            jostle::Column::Displacement { building, floor: 1 },
-        );
+        let all = column(&outcome, jostle::Column::displacement(building, 1));
         let from = (all.len() as f64 * SETTLED / DURATION) as usize;
         largest(&all[from..])
     });

@@ -3,6 +3,7 @@
 
 use std::f64::consts::PI;
 
+use jostle::history::Owner;
 use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
 use jostle::linear::StepMatrix;
 use jostle::structure::{MemberPlace, SectionAt, solve_once};
@@ -19,7 +20,7 @@ use jostle_testkit::models::{self, concrete, rectangle};
 use jostle_testkit::motions::fading;
 use jostle_testkit::runs::{self, assembled};
 
-use crate::verification::support::{column, difference, largest};
+use crate::verification::support::{column, difference, largest, spring_forces};
 
 fn shaking(name: &str, rate: f64, scale: f64) -> GroundMotion {
     fading(name, rate, [scale, 2.5], 200)
@@ -111,7 +112,7 @@ fn run(model: &Model, motion: &GroundMotion) -> (System, Outcome) {
 }
 
 fn along(outcome: &Outcome, floors: usize) -> Vec<f64> {
-    let of = |floor| column(outcome, Column::Displacement { building: 0, floor });
+    let of = |floor| column(outcome, Column::displacement(0, floor));
     (0..=floors).flat_map(of).collect()
 }
 
@@ -255,10 +256,11 @@ fn four_equal_frames_on_a_mat_are_twice_an_isolated_plane_frame() {
                 let apart = difference(&along(&deep, storeys), &expected);
                 println!("{kind} {yields} {solver:?}: {apart:e}");
                 assert!(apart < 1e-9, "{kind} {yields} {solver:?}: {apart:e}");
-                let shear = deep.base_shear[0] / flat.base_shear[0];
+                let shear = deep.peaks.base_shear(0) / flat.peaks.base_shear(0);
                 assert!((shear - 2.0).abs() < 1e-8, "{kind}: {shear}");
-                let damped = deep.supports[0].damped / flat.supports[0].damped.max(1e-300);
-                let has_dashpot = flat.supports[0].damped > 0.0;
+                let damped = deep.peaks.work(Owner::Support(0))
+                    / flat.peaks.work(Owner::Support(0)).max(1e-300);
+                let has_dashpot = flat.peaks.work(Owner::Support(0)) > 0.0;
                 assert!(!has_dashpot || (damped - 2.0).abs() < 1e-8, "{damped}");
                 for (a, b) in [
                     (deep.energy.damped, flat.energy.damped),
@@ -274,8 +276,7 @@ fn four_equal_frames_on_a_mat_are_twice_an_isolated_plane_frame() {
                     assert!(apart < 1e-8, "{kind} {yields}: members {apart:e}");
                 }
                 if yields {
-                    let peaks = flat.springs.iter().map(|own| own.peak_force);
-                    let most = peaks.fold(0.0, f64::max);
+                    let most = largest(&spring_forces(&flat));
                     assert!(most > 120e3, "{most}");
                 }
             }

@@ -1,5 +1,6 @@
 //! Bearings and stops against closed forms, and together with everything else that a building can have.
 
+use jostle::history::{Kind, Owner};
 use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule, Side};
 use jostle::model::Hinges;
 use jostle::structure::{Discretization, Node, Spring, StickModel, Support};
@@ -107,10 +108,19 @@ fn a_mass_between_elastic_stops_moves_by_the_closed_form() {
         let start = moving(&system, &[0.0], &[speed]);
         let outcome = run_from(&system, &still(end), &steps(step, 1), start);
         let state = &outcome.state;
-        let most = outcome.floors[0][0].displacement_max.value;
-        let force = outcome.springs[1]
-            .peak_force
-            .max(outcome.springs[0].peak_force);
+        let most = outcome.peaks.floor(0, 1).displacement_max().value;
+        let force = outcome
+            .peaks
+            .owned_by(Owner::Spring(1))
+            .of(Kind::Force)
+            .size()
+            .max(
+                outcome
+                    .peaks
+                    .owned_by(Owner::Spring(0))
+                    .of(Kind::Force)
+                    .size(),
+            );
         let expected = stop.stiffness * (peak - stop.at);
         assert!(
             outcome.energy.worst_imbalance < 1e-8,
@@ -203,20 +213,8 @@ fn a_frame_with_rigid_beams_on_bearings_is_a_shear_building_on_them() {
             building.base.isolation = Some(own);
             let system = assembled(&alone(building));
             let outcome = run(&system, &shaking(4.0), &steps(1e-3, 1));
-            let u = column(
-                &outcome,
-                Column::Displacement {
-                    building: 0,
-                    floor: 0,
-                },
-            );
-            let roof = column(
-                &outcome,
-                Column::Displacement {
-                    building: 0,
-                    floor: 3,
-                },
-            );
+            let u = column(&outcome, Column::displacement(0, 0));
+            let roof = column(&outcome, Column::displacement(0, 3));
             assert!(
                 outcome.energy.worst_imbalance < 1e-8,
                 "{:e}",
@@ -356,11 +354,9 @@ fn links_of_all_laws_work_beside_yielding_buildings_and_bearings() {
         let direct = with(1e-3, Solver::Stiffness);
         assert!(riccati.energy.hysteretic > 1e3);
         assert_eq!(riccati.impacts.len(), direct.impacts.len());
-        for (index, link) in riccati.links.iter().enumerate() {
-            assert!(
-                link.peak_force.value.abs() > 1e3,
-                "link {index} does nothing"
-            );
+        let is_force = |own: Column| own.owner.name() == "link" && own.kind == Kind::Force;
+        for (link, force) in riccati.peaks.sizes(is_force).iter().enumerate() {
+            assert!(*force > 1e3, "link {link} does nothing");
         }
         let apart = difference(&riccati.state.displacement, &direct.state.displacement);
         println!(
@@ -376,8 +372,10 @@ fn links_of_all_laws_work_beside_yielding_buildings_and_bearings() {
         );
         let finest = with(1.25e-4, Solver::Riccati);
         let peaks = |outcome: &jostle::Outcome| {
-            let floors = outcome.floors.iter().flatten();
-            floors.map(|f| f.displacement_max.value).collect::<Vec<_>>()
+            let floors = outcome.peaks.buildings().flatten();
+            floors
+                .map(|f| f.displacement_max().value)
+                .collect::<Vec<_>>()
         };
         let all = riccati.impacts.len();
         assert!(all > 2, "{all}");
@@ -429,15 +427,7 @@ fn very_stiff_bearings_are_a_fixed_base() {
         let system = assembled(&alone(building));
         run(&system, &shaking(4.0), &steps(1e-3, 1))
     });
-    let roof = |outcome: &jostle::Outcome| {
-        column(
-            outcome,
-            Column::Displacement {
-                building: 0,
-                floor: 4,
-            },
-        )
-    };
+    let roof = |outcome: &jostle::Outcome| column(outcome, Column::displacement(0, 4));
     let apart = difference(&roof(&a), &roof(&b));
     println!("{apart:e}");
     assert!(apart < 1e-5, "{apart:e}");

@@ -1,6 +1,7 @@
 //! What summaries say of bearings: energy stored and dissipated, against loops of force and displacement in one plane and against
 //! the rate equation in plan; residual strokes, limits and the mat as floor 0, against the motion of the mat.
 
+use jostle::history::Owner;
 use jostle::results::summary::{BuildingSummary, IsolationInPlan};
 use jostle::{
     Column, GroundMotion, Isolation, Isolator, Model, Outcome, Plan, Stop, Structure, Summary,
@@ -41,14 +42,8 @@ fn isolated(isolator: Isolator, stops: [Option<Stop>; 2]) -> Model {
 
 /// Area of the loops of the bearings, as a sum of trapezia over all steps.
 fn loops(outcome: &Outcome) -> f64 {
-    let force = column(outcome, Column::SupportForce { building: 0 });
-    let moved = column(
-        outcome,
-        Column::Displacement {
-            building: 0,
-            floor: 0,
-        },
-    );
+    let force = column(outcome, Column::support_force(0));
+    let moved = column(outcome, Column::displacement(0, 0));
     let pairs = force.windows(2).zip(moved.windows(2));
     pairs
         .map(|(f, u)| 0.5 * (f[0] + f[1]) * (u[1] - u[0]))
@@ -60,7 +55,7 @@ fn in_storeys(model: &Model, outcome: &Outcome) -> f64 {
     let Structure::Shear(shear) = &model.buildings[0].structure else {
         panic!("it is one");
     };
-    let floors = (0..=3).map(|floor| column(outcome, Column::Displacement { building: 0, floor }));
+    let floors = (0..=3).map(|floor| column(outcome, Column::displacement(0, floor)));
     let ends: Vec<f64> = floors.map(|own| *own.last().expect("recorded")).collect();
     let storeys = ends.windows(2).zip(&shear.stiffness);
     storeys.map(|(u, k)| 0.5 * k * (u[1] - u[0]).powi(2)).sum()
@@ -98,11 +93,8 @@ fn bearings_in_one_plane_dissipate_the_area_of_their_loops() {
             .isolation
             .expect("isolated");
         let end = |of| *column(&outcome, of).last().expect("recorded");
-        let force = end(Column::SupportForce { building: 0 });
-        let moved = end(Column::Displacement {
-            building: 0,
-            floor: 0,
-        });
+        let force = end(Column::support_force(0));
+        let moved = end(Column::displacement(0, 0));
         let stored = match isolator {
             Isolator::LeadRubber { stiffness, .. } => 0.5 * force * force / stiffness,
             Isolator::Pendulum {
@@ -213,9 +205,9 @@ fn bearings_in_plan_dissipate_and_store_what_the_rate_equation_says() {
 fn mat(outcome: &Outcome) -> Vec<[f64; 3]> {
     let (building, floor) = (0, 0);
     let [u, v, turn] = [
-        Column::Displacement { building, floor },
-        Column::DisplacementAcross { building, floor },
-        Column::Rotation { building, floor },
+        Column::displacement(building, floor),
+        Column::displacement(building, floor).across(),
+        Column::displacement(building, floor).turning(),
     ]
     .map(|own| column(outcome, own));
     let rows = u.iter().zip(&v).zip(&turn);
@@ -273,7 +265,7 @@ fn strokes_are_those_of_the_worst_bearing() {
     });
     assert_eq!(in_plan.stroke_bearing, bearing + 1);
     assert!((in_plan.stroke_peak_m / stroke - 1.0).abs() < 1e-4);
-    let time = column(&outcome, Column::Time)[at];
+    let time = column(&outcome, Column::TIME)[at];
     assert!((in_plan.stroke_peak_at_s - time).abs() < 2e-3, "{time}");
     let extreme = |axis: usize, sign: f64| {
         let values = rows.iter().map(|row| sign * row[axis]);
@@ -287,7 +279,7 @@ fn strokes_are_those_of_the_worst_bearing() {
     ] {
         assert!((found / due - 1.0).abs() < 1e-3, "{found} instead of {due}");
     }
-    let force = column(&outcome, Column::SupportForceAcross { building: 0 });
+    let force = column(&outcome, Column::support_force(0).across());
     let due = force.iter().fold(0.0_f64, |most, own| most.max(own.abs()));
     assert!((in_plan.force_across_peak_n / due - 1.0).abs() < 1e-9);
     assert!(
@@ -322,8 +314,8 @@ fn strokes_are_those_of_the_worst_bearing() {
         floor.displacement_across_max_m,
         in_plan.displacement_across_max_m
     );
-    let peaks = outcome.supports[0].in_plan.expect("in plan");
-    assert_eq!(floor.storey_shear_across_peak_n, peaks.base_shear_across);
+    let base = outcome.peaks.owned_by(Owner::Building(0)).across();
+    assert_eq!(floor.storey_shear_across_peak_n, base.storey_shear());
 }
 
 /// The same in one plane: either side counts.
@@ -343,13 +335,7 @@ fn limits_in_one_plane_hold_on_both_sides() {
         let own = summary(&model, &system, &motion, &outcome)
             .isolation
             .expect("isolated");
-        let moved = column(
-            &outcome,
-            Column::Displacement {
-                building: 0,
-                floor: 0,
-            },
-        );
+        let moved = column(&outcome, Column::displacement(0, 0));
         assert_eq!(
             own.residual_stroke_m(),
             moved.last().expect("recorded").abs()

@@ -1,6 +1,7 @@
 //! Linked buildings, bases with mass and P-Delta by modal stepping, against the matrix exponential of the full equations and
 //! against Riccati's recursion.
 
+use jostle::history::{Kind, Owner, PeaksOf};
 use jostle::{
     Base, Building, Column, Damping, FloorPairs, GroundMotion, LawKind, Link, Model, Outcome, Plan,
     Shear, Solver, Structure,
@@ -218,7 +219,7 @@ fn links_bases_and_leaning_columns_are_those_of_the_full_matrices() {
         let floors = [(0, 0, 3), (1, 4, 2), (2, 6, 4)];
         for (building, first, floors) in floors {
             for floor in 1..=floors {
-                let found = column(&outcome, Column::Displacement { building, floor });
+                let found = column(&outcome, Column::displacement(building, floor));
                 let found: Vec<f64> = found.into_iter().step_by(every).collect();
                 let expected: Vec<f64> = expected.iter().map(|u| u[first + floor - 1]).collect();
                 worst = worst.max(difference(&found, &expected));
@@ -251,31 +252,31 @@ fn compare(model: &Model, motion: &GroundMotion, tolerance: f64, expected_within
     assert_eq!(found.impacts.len(), fine.impacts.len());
     let mut pairs = Vec::new();
     let most = |of: &dyn Fn(usize) -> f64, count: usize| (0..count).map(of).fold(0.0, f64::max);
-    for (own, other) in found.floors.iter().zip(&fine.floors) {
+    for (own, other) in found.peaks.buildings().zip(fine.peaks.buildings()) {
         for kind in 0..5 {
-            let of = |floors: &[jostle::history::FloorPeaks], at: usize| {
+            let of = |floors: &[PeaksOf], at: usize| {
                 let floor = floors[at];
-                let right = floor.displacement_max.value;
                 [
-                    right.max(-floor.displacement_min.value),
-                    floor.storey_drift,
-                    floor.total_acceleration,
-                    floor.storey_shear,
-                    floor.overturning_moment,
+                    floor.displacement().size(),
+                    floor.storey_drift(),
+                    floor.total_acceleration(),
+                    floor.storey_shear(),
+                    floor.overturning_moment(),
                 ][kind]
             };
-            let scale = most(&|at| of(other, at), other.len());
-            let off = most(&|at| (of(own, at) - of(other, at)).abs(), other.len());
+            let scale = most(&|at| of(&other, at), other.len());
+            let off = most(&|at| (of(&own, at) - of(&other, at)).abs(), other.len());
             pairs.push((["u", "drift", "a", "shear", "moment"][kind], off / scale));
         }
     }
-    for (own, other) in found.links.iter().zip(&fine.links) {
-        let off = (own.peak_force.value / other.peak_force.value - 1.0).abs();
-        pairs.push(("link", off));
-        pairs.push((
-            "shortening",
-            (own.peak_shortening / other.peak_shortening - 1.0).abs(),
-        ));
+    for kind in [Kind::Force, Kind::Stroke] {
+        let of = |run: &Outcome| {
+            let is_link = |own: Column| matches!(own.owner, Owner::Link(_)) && own.kind == kind;
+            run.peaks.sizes(is_link)
+        };
+        for (own, other) in of(&found).into_iter().zip(of(&fine)) {
+            pairs.push(("link", (own / other - 1.0).abs()));
+        }
     }
     // Impacts that end together may come in either order.
     let touches = |outcome: &Outcome| {
@@ -328,7 +329,13 @@ fn links_to_walls_and_across_a_row_agree_with_riccati() {
     model.links.push(walled);
     let outcome = compare(&model, &shaking(3.0), 1e-3, 1e-3);
     assert!(outcome.impacts.len() > 3, "{}", outcome.impacts.len());
-    assert!(outcome.links.iter().all(|link| link.work > 0.0));
+    assert!(
+        outcome
+            .peaks
+            .sizes(|own| own.kind == Kind::Work)
+            .iter()
+            .all(|work| *work > 0.0)
+    );
 }
 
 /// A link so stiff that modes would take tiny steps is left to Riccati's recursion, unless modes are asked for.

@@ -209,10 +209,20 @@ fn a_link_to_the_wall_is_a_spring_and_a_dashpot_to_the_ground() {
         let left = 0.5 * (mass * v * v + (own + stiffness) * u * u);
         let lost = 0.5 * (own + stiffness) * 0.03_f64.powi(2) - left;
         assert!((outcome.energy.links / lost - 1.0).abs() < 1e-9);
-        let force = column(&outcome, Column::LinkForce { link: 0 });
+        let force = column(&outcome, Column::link_force(0));
         let sign = if side == 0 { 1.0 } else { -1.0 };
         assert!((force[0] - sign * stiffness * 0.03).abs() < 1e-6);
-        assert!((outcome.links[0].peak_force.value.abs() - largest(&force)).abs() < 1e-6);
+        assert!(
+            (outcome
+                .peaks
+                .of(Column::link_force(0))
+                .furthest()
+                .value
+                .abs()
+                - largest(&force))
+            .abs()
+                < 1e-6
+        );
     }
 }
 
@@ -412,7 +422,10 @@ fn a_stopper_and_a_cable_are_contacts_without_tension() {
         let start = moving(&system, &[0.0], &[speed]);
         let own = run_from(&system, &still(0.1), &steps(step, 1), start);
         let apart = (own.state.velocity[0] / fine.state.velocity[0] - 1.0).abs();
-        let force = (own.links[0].peak_force.value / fine.impacts[0].peak_force - 1.0).abs();
+        let force = (own.peaks.of(Column::link_force(0)).furthest().value
+            / fine.impacts[0].peak_force
+            - 1.0)
+            .abs();
         assert!(own.energy.worst_imbalance < 1e-9);
         assert!(force < 1e-3, "{force:e}");
         errors.push(apart);
@@ -427,7 +440,7 @@ fn a_stopper_and_a_cable_are_contacts_without_tension() {
     let own = run_from(&system, &still(0.1), &steps(1e-4, 1), start);
     assert!((own.state.velocity[0] / speed - 1.0).abs() < 1e-5);
     let greatest = -speed * (k * mass).sqrt();
-    assert!((own.links[0].peak_force.value / greatest - 1.0).abs() < 1e-4);
+    assert!((own.peaks.of(Column::link_force(0)).furthest().value / greatest - 1.0).abs() < 1e-4);
 }
 
 /// Friction takes the work F_s times the way that is slipped.
@@ -443,7 +456,7 @@ fn a_friction_link_stops_a_mass_over_its_way() {
     let start = moving(&system, &[0.0], &[speed]);
     let outcome = run_from(&system, &still(1.0), &steps(2e-4, 1), start);
     let way = 0.5 * mass * speed * speed / slip + 0.5 * slip / stick;
-    let stroke = outcome.links[0].peak_shortening;
+    let stroke = outcome.peaks.of(Column::link_stroke(0)).size();
     assert!((stroke / way - 1.0).abs() < 1e-5, "{stroke} against {way}");
     assert!(outcome.energy.hysteretic > 0.0 && outcome.energy.links == 0.0);
     // Rounding of a mass that nothing else holds: 16 times as much with every halving of the step.

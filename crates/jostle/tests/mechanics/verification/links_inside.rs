@@ -348,7 +348,7 @@ fn storey_shears_balance_the_inertia_above() {
             panic!("a tower is a shear building")
         };
         let accelerations: Vec<Vec<f64>> = (1..=4)
-            .map(|floor| column(&outcome, Column::TotalAcceleration { building: 0, floor }))
+            .map(|floor| column(&outcome, Column::total_acceleration(0, floor)))
             .collect();
         let rows = accelerations[0].len();
         for storey in 0..4 {
@@ -359,15 +359,15 @@ fn storey_shears_balance_the_inertia_above() {
             };
             let inertia: Vec<f64> = (0..rows).map(above).collect();
             let inertia = largest(&inertia);
-            let found = outcome.floors[0][storey].storey_shear;
+            let found = outcome.peaks.floors(0)[storey].storey_shear();
             // Rows are as close as steps, and peaks are also looked for between them.
             assert!(
                 (found / inertia - 1.0).abs() < 4e-3,
                 "{solver:?}, storey {storey}: {found} and {inertia}"
             );
         }
-        let base = outcome.base_shear[0];
-        let lowest = outcome.floors[0][0].storey_shear;
+        let base = outcome.peaks.base_shear(0);
+        let lowest = outcome.peaks.floor(0, 1).storey_shear();
         assert!(
             (base / lowest - 1.0).abs() < 1e-6,
             "{solver:?}: {base} and {lowest}"

@@ -124,8 +124,8 @@ fn accelerations_of_struck_floors_agree_with_riccati() {
         let motion = shaking(1.0);
         let peaks = |plan: &Plan| {
             let outcome = run(&system, &motion, plan);
-            let floors = outcome.floors.iter().flatten();
-            floors.map(|f| f.total_acceleration).collect::<Vec<_>>()
+            let floors = outcome.peaks.buildings().flatten();
+            floors.map(|f| f.total_acceleration()).collect::<Vec<_>>()
         };
         let fine = peaks(&planned(&system, &motion, Solver::Riccati, 1e-6));
         let got = peaks(&modal(&steps(0.01, 2)));
@@ -163,18 +163,18 @@ fn compare(what: &str, model: &Model, duration: f64) -> bool {
         (force - expected).abs() <= TOLERANCE * expected,
         "{what}: greatest force {force} against {expected}"
     );
-    for (building, (floors, wanted)) in got.floors.iter().zip(&fine.floors).enumerate() {
-        let largest = |floors: &[jostle::history::FloorPeaks]| {
-            let both = floors
-                .iter()
-                .flat_map(|f| [f.displacement_max.value, -f.displacement_min.value]);
-            both.fold(0.0, f64::max)
-        };
-        let scale = largest(wanted);
+    for (building, (floors, wanted)) in got
+        .peaks
+        .buildings()
+        .zip(fine.peaks.buildings())
+        .enumerate()
+    {
+        let sways = wanted.iter().map(|floor| floor.displacement().size());
+        let scale = sways.fold(0.0, f64::max);
         for (floor, (got, wanted)) in floors.iter().zip(wanted).enumerate() {
             for (got, wanted) in [
-                (got.displacement_max, wanted.displacement_max),
-                (got.displacement_min, wanted.displacement_min),
+                (got.displacement_max(), wanted.displacement_max()),
+                (got.displacement_min(), wanted.displacement_min()),
             ] {
                 assert!(
                     (got.value - wanted.value).abs() <= TOLERANCE * scale,
@@ -471,7 +471,7 @@ fn a_start_in_motion_decays_as_in_closed_form() {
     let greatest = (0..70_000)
         .map(|k| at(1e-5 * f64::from(k)))
         .fold(0.0, f64::max);
-    let peak = outcome.floors[0][0].displacement_max.value;
+    let peak = outcome.peaks.floor(0, 1).displacement_max().value;
     assert!(
         (peak / greatest - 1.0).abs() < 1e-4,
         "{peak} against {greatest}"

@@ -56,9 +56,9 @@ fn impacts_start_before_they_end_and_follow_each_other() {
 fn forces_act_during_impacts_only() {
     let system = assembled(&two_frames(0.01, law(LawKind::HertzDamp, 0.65)));
     let outcome = run(&system, &shaking(4.0), &steps(2e-3, 8));
-    let time = column(&outcome, Column::Time);
+    let time = column(&outcome, Column::TIME);
     for contact in 0..system.contacts.len() {
-        let force = column(&outcome, Column::ContactForce { contact });
+        let force = column(&outcome, Column::contact_force(contact));
         let own: Vec<_> = outcome
             .impacts
             .iter()
@@ -87,7 +87,7 @@ fn forces_act_during_impacts_only() {
 fn a_step_ends_on_every_touch() {
     let system = assembled(&two_frames(0.01, law(LawKind::HertzDamp, 0.65)));
     let outcome = run(&system, &shaking(4.0), &steps(5e-3, 8));
-    let time = column(&outcome, Column::Time);
+    let time = column(&outcome, Column::TIME);
     for impact in &outcome.impacts {
         let row = time
             .iter()
@@ -97,7 +97,7 @@ fn a_step_ends_on_every_touch() {
         let [left, right] = [0, 1].map(|side| {
             let face = contact.ports.0[side].as_ref().expect("no wall");
             let (floor, building) = (face.floor.expect("floors meet"), face.building);
-            column(&outcome, Column::Displacement { building, floor })[row]
+            column(&outcome, Column::displacement(building, floor))[row]
         });
         let indentation = left - right - contact.width;
         assert!(
@@ -268,19 +268,13 @@ fn a_short_touch_between_two_steps_is_found() {
             ..steps(step, 1)
         };
         let outcome = run_from(&system, &still(0.45), &plan, state);
-        let times = column(&outcome, Column::Time);
-        let on_the_grid: Vec<f64> = column(
-            &outcome,
-            Column::Displacement {
-                building: 0,
-                floor: 1,
-            },
-        )
-        .into_iter()
-        .zip(times)
-        .filter(|(_, t)| ((t / step).round() * step - t).abs() < 1e-12)
-        .map(|(u, _)| u)
-        .collect();
+        let times = column(&outcome, Column::TIME);
+        let on_the_grid: Vec<f64> = column(&outcome, Column::displacement(0, 1))
+            .into_iter()
+            .zip(times)
+            .filter(|(_, t)| ((t / step).round() * step - t).abs() < 1e-12)
+            .map(|(u, _)| u)
+            .collect();
         assert!(
             on_the_grid.iter().all(|u| *u < gap),
             "every regular step is open"

@@ -95,40 +95,44 @@ fn run(model: &Model, duration: f64) -> (System, Outcome) {
 /// Floors of two runs, building by building; `share`: shears of the first over those of the second. Tolerances of displacements,
 /// and of forces and accelerations.
 fn same_floors(own: &Outcome, plane: &Outcome, share: f64, [tolerance, of_forces]: [f64; 2]) {
-    for (index, (own_floors, floors)) in own.floors.iter().zip(&plane.floors).enumerate() {
-        let most =
-            |of: fn(&jostle::history::FloorPeaks) -> f64| floors.iter().map(of).fold(0.0, f64::max);
-        let scale = most(|floor| floor.displacement_max.value);
-        let shear = most(|floor| floor.storey_shear);
-        for (a, b) in own_floors.iter().zip(floors) {
-            let [a_max, b_max] = [a, b].map(|own| own.displacement_max.value);
+    for (index, (own_floors, floors)) in own
+        .peaks
+        .buildings()
+        .zip(plane.peaks.buildings())
+        .enumerate()
+    {
+        let most = |of: fn(&jostle::history::PeaksOf<'_>) -> f64| {
+            floors.iter().map(of).fold(0.0, f64::max)
+        };
+        let scale = most(|floor| floor.displacement_max().value);
+        let shear = most(|floor| floor.storey_shear());
+        for (a, b) in own_floors.iter().zip(&floors) {
+            let [a_max, b_max] = [a, b].map(|own| own.displacement_max().value);
             close(a_max, b_max, scale, tolerance, "right");
-            let [a_min, b_min] = [a, b].map(|own| own.displacement_min.value);
+            let [a_min, b_min] = [a, b].map(|own| own.displacement_min().value);
             close(a_min, b_min, scale, tolerance, "left");
             close(
-                a.storey_shear,
-                share * b.storey_shear,
+                a.storey_shear(),
+                share * b.storey_shear(),
                 share * shear,
                 of_forces,
                 "shear",
             );
             close(
-                a.total_acceleration,
-                b.total_acceleration,
-                b.total_acceleration,
+                a.total_acceleration(),
+                b.total_acceleration(),
+                b.total_acceleration(),
                 of_forces,
                 "acceleration",
             );
         }
-        let [a, b] = [own, plane].map(|own| own.base_shear[index]);
+        let [a, b] = [own, plane].map(|own| own.peaks.base_shear(index));
         close(a, share * b, share * b, of_forces, "base shear");
-        let scale = most(|floor| floor.displacement_max.value);
-        for floor in own.in_plan[index]
-            .turning
-            .iter()
-            .chain(&own.in_plan[index].across)
-        {
-            assert!(floor.displacement_max.value.abs() < 1e-10 * scale);
+        let scale = most(|floor| floor.displacement_max().value);
+        for floor in own_floors {
+            for other in [floor.turning(), floor.across()] {
+                assert!(other.displacement_max().value.abs() < 1e-10 * scale);
+            }
         }
     }
 }

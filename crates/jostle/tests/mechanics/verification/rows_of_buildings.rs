@@ -60,8 +60,8 @@ fn towers(count: usize) -> Model {
 
 /// Peak force of every contact and link.
 fn peaks(outcome: &Outcome, system: &System) -> Vec<f64> {
-    let contacts = (0..system.contacts.len()).map(|contact| Column::ContactForce { contact });
-    let links = (0..system.links.len()).map(|link| Column::LinkForce { link });
+    let contacts = (0..system.contacts.len()).map(Column::contact_force);
+    let links = (0..system.links.len()).map(Column::link_force);
     contacts
         .chain(links)
         .map(|force| largest(&column(outcome, force)))
@@ -75,12 +75,12 @@ fn peaks(outcome: &Outcome, system: &System) -> Vec<f64> {
 fn compare(model: &Model, motion: &GroundMotion, plan: &Plan, at_once: usize) {
     let system = assembled(model);
     let outcome = run(&system, motion, plan);
-    let times = column(&outcome, Column::Time);
+    let times = column(&outcome, Column::TIME);
     let (expected, displacement) = monolith(&system, motion, &times);
     let forces = difference(&peaks(&outcome, &system), &expected);
     let displacements = difference(&outcome.state.displacement, &displacement);
     let closed: Vec<Vec<f64>> = (0..system.contacts.len())
-        .map(|contact| column(&outcome, Column::ContactForce { contact }))
+        .map(|contact| column(&outcome, Column::contact_force(contact)))
         .collect();
     let most = (0..times.len())
         .map(|i| closed.iter().filter(|force| force[i] > 0.0).count())

@@ -1,5 +1,6 @@
 //! Columns that fail in shear: pushed as by hand, shaken as one mass on a curve, and with everything else in one system.
 
+use jostle::history::Owner;
 use jostle::hysteresis::{Backbone, Corners, FallingBranch, Hysteresis, HysteresisRule};
 use jostle::model::CapacityLine;
 use jostle::pushover::{PushEnd, PushEventKind, PushPoint, PushSettings, Pushover, pushover};
@@ -293,13 +294,7 @@ fn failing_columns_move_as_one_mass_by_central_differences() {
     let mut worst = Vec::new();
     for step in [1e-3, 5e-4] {
         let outcome = run(&system, &motion, &steps(step, 1));
-        let roof = column(
-            &outcome,
-            Column::Displacement {
-                building: 0,
-                floor: 1,
-            },
-        );
+        let roof = column(&outcome, Column::displacement(0, 1));
         let most = roof.iter().fold([0.0_f64; 2], |[high, low], value| {
             [high.max(*value), low.min(*value)]
         });
@@ -307,10 +302,11 @@ fn failing_columns_move_as_one_mass_by_central_differences() {
             .equations
             .springs
             .iter()
-            .zip(&outcome.springs)
             .zip(&outcome.state.springs)
-            .map(|((spring, totals), memory)| {
-                totals.work - spring.hysteresis.recoverable_energy(memory)
+            .enumerate()
+            .map(|(index, (spring, memory))| {
+                let work = outcome.peaks.work(Owner::Spring(index));
+                work - spring.hysteresis.recoverable_energy(memory)
             })
             .sum();
         // Energy in the tests's own springs is that of column and spring together.
@@ -581,10 +577,10 @@ fn condensed_equals_monolithic_while_columns_fail() {
             place.is_shear() && events.any(|event| event.spring == *index)
         });
     assert!(failed.count() > 3 && outcome.impacts.len() > 2);
-    let times = column(&outcome, Column::Time);
+    let times = column(&outcome, Column::TIME);
     let (peaks, displacement) = monolith(&system, &motion, &times);
     let got: Vec<f64> = (0..system.contacts.len())
-        .map(|contact| largest(&column(&outcome, Column::ContactForce { contact })))
+        .map(|contact| largest(&column(&outcome, Column::contact_force(contact))))
         .collect();
     let (forces, displacements) = (
         difference(&got, &peaks),

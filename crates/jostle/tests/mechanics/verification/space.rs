@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use jostle::history::PeaksOf;
 use jostle::{
     Analysis, Bearing, Building, ContactLaw, Damping, Gap, GroundMotion, LawKind, Model, Outcome,
     Plan, PlanArea, PlanContact, PlanPoint, Shear, Solver, Structure, System, Tier, TierStorey,
@@ -106,48 +107,52 @@ pub(crate) fn compare_with_the_plane(law: ContactLaw, motion: &GroundMotion) {
     let [own, other] = [&outcome, &flat].map(|run| run.energy.ground);
     close(own, other, other.abs().max(1.0), 1e-9, "work of grounds");
     assert!(flat.impacts.len() > 4, "{} impacts", flat.impacts.len());
-    for (index, (own, other)) in outcome.floors.iter().zip(&flat.floors).enumerate() {
+    for (index, (own, other)) in outcome
+        .peaks
+        .buildings()
+        .zip(flat.peaks.buildings())
+        .enumerate()
+    {
         let scale = other
             .iter()
-            .map(|floor| floor.displacement_max.value)
+            .map(|floor| floor.displacement_max().value)
             .fold(0.0, f64::max);
-        for (a, b) in own.iter().zip(other) {
-            let (a_max, b_max) = (a.displacement_max.value, b.displacement_max.value);
+        for (a, b) in own.iter().zip(&other) {
+            let (a_max, b_max) = (a.displacement_max().value, b.displacement_max().value);
             close(a_max, b_max, scale, 1e-9, "right");
             close(
-                a.displacement_min.value,
-                b.displacement_min.value,
+                a.displacement_min().value,
+                b.displacement_min().value,
                 scale,
                 1e-9,
                 "left",
             );
             close(
-                a.storey_shear,
-                b.storey_shear,
-                b.storey_shear,
+                a.storey_shear(),
+                b.storey_shear(),
+                b.storey_shear(),
                 1e-9,
                 "shear",
             );
             close(
-                a.total_acceleration,
-                b.total_acceleration,
-                b.total_acceleration,
+                a.total_acceleration(),
+                b.total_acceleration(),
+                b.total_acceleration(),
                 1e-9,
                 "acceleration",
             );
         }
         close(
-            outcome.base_shear[index],
-            flat.base_shear[index],
-            flat.base_shear[index],
+            outcome.peaks.base_shear(index),
+            flat.peaks.base_shear(index),
+            flat.peaks.base_shear(index),
             1e-9,
             "base shear",
         );
-        for floor in &outcome.in_plan[index].turning {
-            assert!(floor.displacement_max.value.abs() < 1e-12 * scale);
-        }
-        for floor in &outcome.in_plan[index].across {
-            assert!(floor.displacement_max.value.abs() < 1e-12 * scale);
+        for floor in own {
+            for other in [floor.turning(), floor.across()] {
+                assert!(other.displacement_max().value.abs() < 1e-12 * scale);
+            }
         }
     }
     // All points of a face together are the contact of the plane.
@@ -194,8 +199,10 @@ fn numbers(outcome: &Outcome) -> (Vec<f64>, Vec<f64>) {
     let faces = outcome.face_impacts.iter();
     let mut forces: Vec<f64> = faces.map(|impact| impact.peak_force.value).collect();
     forces.sort_by(f64::total_cmp);
-    let corners = outcome.in_plan.iter();
-    let corners = corners.map(|plan| plan.corner_displacement.iter().copied().fold(0.0, f64::max));
+    let corners = outcome.peaks.buildings().map(|floors| {
+        let own = floors.iter().map(PeaksOf::corner_displacement);
+        own.fold(0.0, f64::max)
+    });
     (forces, corners.collect())
 }
 
@@ -324,11 +331,11 @@ fn friction_takes_energy_and_vanishes_with_its_coefficient() {
     finer.analysis.tolerance = 1e-6;
     let (_, exact) = run(&finer, &motion);
     let accelerations = |outcome: &Outcome| -> Vec<f64> {
-        let along = outcome.floors.iter().flatten();
-        let across = outcome.in_plan.iter().flat_map(|own| &own.across);
-        along
+        let along = || outcome.peaks.buildings().flatten();
+        let across = along().map(PeaksOf::across);
+        along()
             .chain(across)
-            .map(|own| own.total_acceleration)
+            .map(|own| own.total_acceleration())
             .collect()
     };
     let (got, expected) = (accelerations(&rough), accelerations(&exact));
@@ -445,13 +452,19 @@ fn a_sine_across_shakes_across() {
     };
     let across = motion.bearing.as_ref().and_then(|b| b.across.clone());
     let (_, flat) = run(&plane, &across.expect("a motion across"));
-    for (a, b) in outcome.in_plan[0].across.iter().zip(&flat.floors[0]) {
-        let scale = b.displacement_max.value;
-        close(a.displacement_max.value, scale, scale, 1e-6, "across");
+    for (a, b) in outcome
+        .peaks
+        .floors(0)
+        .into_iter()
+        .map(PeaksOf::across)
+        .zip(&flat.peaks.floors(0))
+    {
+        let scale = b.displacement_max().value;
+        close(a.displacement_max().value, scale, scale, 1e-6, "across");
         close(
-            a.storey_shear,
-            b.storey_shear,
-            b.storey_shear,
+            a.storey_shear(),
+            b.storey_shear(),
+            b.storey_shear(),
             1e-6,
             "shear",
         );
@@ -571,18 +584,18 @@ fn a_wall_on_the_site_is_that_of_the_plane() {
     let face = strongest(&mut outcome.face_impacts.iter().map(|i| i.peak_force.value));
     let contact = strongest(&mut flat.impacts.iter().map(|i| i.peak_force));
     close(face, contact, contact, 1e-9, "force");
-    for (a, b) in outcome.floors[0].iter().zip(&flat.floors[0]) {
-        let scale = b.displacement_max.value - b.displacement_min.value;
+    for (a, b) in outcome.peaks.floors(0).iter().zip(&flat.peaks.floors(0)) {
+        let scale = b.displacement_max().value - b.displacement_min().value;
         close(
-            a.displacement_max.value,
-            b.displacement_max.value,
+            a.displacement_max().value,
+            b.displacement_max().value,
             scale,
             1e-9,
             "right",
         );
         close(
-            a.displacement_min.value,
-            b.displacement_min.value,
+            a.displacement_min().value,
+            b.displacement_min().value,
             scale,
             1e-9,
             "left",
@@ -623,18 +636,23 @@ fn walls_around_a_corner_are_neighbours_that_stand_still() {
         "{}",
         outcome.face_impacts.len()
     );
-    for (a, b) in outcome.floors[0].iter().zip(&outcome.in_plan[0].across) {
-        let scale = a.displacement_max.value;
+    for (a, b) in outcome
+        .peaks
+        .floors(0)
+        .iter()
+        .map(|own| (own, own.across()))
+    {
+        let scale = a.displacement_max().value;
         close(
             scale,
-            b.displacement_max.value,
+            b.displacement_max().value,
             scale,
             1e-9,
             "right and behind",
         );
         close(
-            a.displacement_min.value,
-            b.displacement_min.value,
+            a.displacement_min().value,
+            b.displacement_min().value,
             scale,
             1e-9,
             "left and before",
@@ -662,8 +680,8 @@ fn walls_around_a_corner_are_neighbours_that_stand_still() {
         let most = b.peak_force.value;
         close(a.peak_force.value, most, most, 2e-3, "force");
     }
-    for (a, b) in got.floors[0].iter().zip(&expected.floors[0]) {
-        let scale = b.displacement_max.value;
-        close(a.displacement_max.value, scale, scale, 1e-3, "right");
+    for (a, b) in got.peaks.floors(0).iter().zip(&expected.peaks.floors(0)) {
+        let scale = b.displacement_max().value;
+        close(a.displacement_max().value, scale, scale, 1e-3, "right");
     }
 }

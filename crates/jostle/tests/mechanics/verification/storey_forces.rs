@@ -1,6 +1,6 @@
 //! Storey shears and overturning moments against free bodies, springs, and the base shear.
 
-use jostle::history::{Column, FloorPeaks};
+use jostle::history::{Column, PeaksOf};
 use jostle::{Analysis, Damping, LawKind, Model, Outcome, Plan, Solver, Structure, System};
 use jostle_testkit::compare::near;
 use jostle_testkit::models::UNDAMPED;
@@ -53,12 +53,12 @@ fn storeys_of_shear_buildings_bear_stiffness_times_drift() {
                 panic!("a shear building");
             };
             let storeys = shear.stiffness.iter().zip(&shear.storey_heights);
-            for ((stiffness, height), peaks) in storeys.zip(&outcome.floors[index]) {
-                let expected = stiffness * peaks.storey_drift * height;
-                near(peaks.storey_shear, expected, 1e-6, "storey shear");
+            for ((stiffness, height), peaks) in storeys.zip(&outcome.peaks.floors(index)) {
+                let expected = stiffness * peaks.storey_drift() * height;
+                near(peaks.storey_shear(), expected, 1e-6, "storey shear");
             }
-            let first = outcome.floors[index][0].storey_shear;
-            near(first, outcome.base_shear[index], 1e-6, "base shear");
+            let first = outcome.peaks.floor(index, 1).storey_shear();
+            near(first, outcome.peaks.base_shear(index), 1e-6, "base shear");
         }
     }
 }
@@ -74,11 +74,11 @@ fn frames_bear_the_inertia_above() {
     let outcome = outcome(&system, Solver::Stiffness, 1e-3);
     let history = outcome.history.as_ref().expect("a history");
     let of_floor = |floor: usize| {
-        let column = Column::TotalAcceleration { building: 0, floor };
+        let column = Column::total_acceleration(0, floor);
         history.column(column).expect("a column")
     };
     let accelerations: Vec<Vec<f64>> = (1..=4).map(of_floor).collect();
-    for (storey, peaks) in outcome.floors[0].iter().enumerate() {
+    for (storey, peaks) in outcome.peaks.floors(0).iter().enumerate() {
         let base = building.floors[storey].height - building.floors[storey].storey_height;
         let (mut shear, mut moment) = (0.0_f64, 0.0_f64);
         for row in 0..history.len() {
@@ -91,17 +91,17 @@ fn frames_bear_the_inertia_above() {
             shear = shear.max(sum[0].abs());
             moment = moment.max(sum[1].abs());
         }
-        near(peaks.storey_shear, shear, 1e-6, "storey shear");
-        near(peaks.overturning_moment, moment, 1e-6, "moment");
+        near(peaks.storey_shear(), shear, 1e-6, "storey shear");
+        near(peaks.overturning_moment(), moment, 1e-6, "moment");
     }
 }
 
-fn greatest_difference(a: &Outcome, b: &Outcome, kind: fn(&FloorPeaks) -> f64) -> f64 {
-    let buildings = a.floors.iter().zip(&b.floors);
+fn greatest_difference(a: &Outcome, b: &Outcome, kind: fn(&PeaksOf<'_>) -> f64) -> f64 {
+    let buildings = a.peaks.buildings().zip(b.peaks.buildings());
     buildings
         .map(|(a, b)| {
             let greatest = b.iter().map(kind).fold(0.0, f64::max);
-            let apart = a.iter().zip(b).map(|(a, b)| (kind(a) - kind(b)).abs());
+            let apart = a.iter().zip(&b).map(|(a, b)| (kind(a) - kind(b)).abs());
             apart.fold(0.0, f64::max) / greatest
         })
         .fold(0.0, f64::max)
@@ -115,8 +115,10 @@ fn modal_forces_are_those_of_the_whole_frame() {
     for (solver, tolerance) in [(Solver::Modal, 1e-3), (Solver::Stiffness, 1e-3)] {
         let found = outcome(&system, solver, tolerance);
         assert!(!found.impacts.is_empty());
-        let kinds: [fn(&FloorPeaks) -> f64; 2] =
-            [|floor| floor.storey_shear, |floor| floor.overturning_moment];
+        let kinds: [fn(&PeaksOf<'_>) -> f64; 2] = [
+            |floor| floor.storey_shear(),
+            |floor| floor.overturning_moment(),
+        ];
         for kind in kinds {
             let apart = greatest_difference(&found, &exact, kind);
             assert!(apart <= tolerance, "{solver:?}: {apart}");

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
+use jostle::history::{Kind, Owner};
 use jostle::interface::Contact;
 use jostle::stepping::{ContactSteps, simulate_from};
 use jostle::structure::{Discretization, Node, Spring, StickModel, Support};
@@ -292,4 +293,20 @@ pub(crate) fn moving(system: &System, displacement: &[f64], velocity: &[f64]) ->
         velocity: velocity.to_vec(),
         ..State::at_rest(system, 0.0)
     }
+}
+
+/// Base shears of all buildings \[N\].
+pub(crate) fn base_shears(outcome: &Outcome) -> Vec<f64> {
+    let is_base = |own: Column| matches!(own.owner, Owner::Building(_));
+    outcome
+        .peaks
+        .sizes(|own| is_base(own) && own == Column::along(own.owner, Kind::Shear))
+}
+
+/// Greatest forces of all springs that yield \[N, N·m\].
+pub(crate) fn spring_forces(outcome: &Outcome) -> Vec<f64> {
+    let is_spring = |own: Column| matches!(own.owner, Owner::Spring(_));
+    outcome
+        .peaks
+        .sizes(|own| is_spring(own) && own.kind == Kind::Force)
 }

@@ -22,11 +22,11 @@ fn it_is_the_greatest_sum_of_the_recorded_forces() {
             let outcome = run(&system, &motion, &plan);
             let contacts = 0..system.contacts.len();
             let forces: Vec<Vec<f64>> = contacts
-                .map(|contact| column(&outcome, Column::ContactForce { contact }))
+                .map(|contact| column(&outcome, Column::contact_force(contact)))
                 .collect();
             let sums = (0..forces[0].len()).map(|row| forces.iter().map(|force| force[row]).sum());
             let recorded = sums.fold(0.0, f64::max);
-            let total = outcome.gap_forces[0];
+            let total = outcome.peaks.gap_force(0);
             let strongest = outcome.impacts.iter().map(|impact| impact.peak_force);
             let strongest = strongest.fold(0.0, f64::max);
             assert!(

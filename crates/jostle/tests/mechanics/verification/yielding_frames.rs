@@ -109,11 +109,11 @@ fn condensed_equals_monolithic() {
         let system = assembled(&model);
         let motion = shaking(1.6);
         let outcome = run(&system, &motion, &steps(2e-3, 2));
-        let times = column(&outcome, Column::Time);
+        let times = column(&outcome, Column::TIME);
         assert!(outcome.impacts.len() > 2 && yielded(&outcome, &system) > 10);
         let (peaks, displacement) = monolith(&system, &motion, &times);
         let got: Vec<f64> = (0..system.contacts.len())
-            .map(|contact| largest(&column(&outcome, Column::ContactForce { contact })))
+            .map(|contact| largest(&column(&outcome, Column::contact_force(contact))))
             .collect();
         let (forces, displacements) = (
             difference(&got, &peaks),
@@ -321,13 +321,7 @@ fn second_order(rule: HysteresisRule) {
     let motion = shaking(2.0);
     let path = |step: f64| -> Vec<f64> {
         let outcome = run(&system, &motion, &steps(step, 1));
-        let roof = column(
-            &outcome,
-            Column::Displacement {
-                building: 0,
-                floor: 3,
-            },
-        );
+        let roof = column(&outcome, Column::displacement(0, 3));
         let every = (0.01 / step).round() as usize;
         roof.into_iter().step_by(every).collect()
     };
@@ -362,13 +356,18 @@ fn pinched_storeys_hold_the_tolerance() {
     assert_eq!(usual.end, RunEnd::Completed);
     assert!(!fine.impacts.is_empty() && yielded(&fine, &system) > 0);
     assert_eq!(usual.impacts.len(), fine.impacts.len());
-    for (building, (found, exact)) in usual.floors.iter().zip(&fine.floors).enumerate() {
+    for (building, (found, exact)) in usual
+        .peaks
+        .buildings()
+        .zip(fine.peaks.buildings())
+        .enumerate()
+    {
         let greatest = exact
             .iter()
-            .map(|f| f.total_acceleration)
+            .map(|f| f.total_acceleration())
             .fold(0.0, f64::max);
         for (found, exact) in found.iter().zip(exact) {
-            let error = (found.total_acceleration - exact.total_acceleration).abs() / greatest;
+            let error = (found.total_acceleration() - exact.total_acceleration()).abs() / greatest;
             println!("building {building}: {error:e}");
             assert!(error <= 1e-3, "{found:?} for {exact:?}");
         }
@@ -400,13 +399,7 @@ fn hinges_that_never_crack_change_nothing() {
         };
         let outcome = run(&assembled(&model), &motion, &steps(2e-3, 1));
         assert!(outcome.energy.hysteretic.abs() < 1e-3);
-        column(
-            &outcome,
-            Column::Displacement {
-                building: 0,
-                floor: 2,
-            },
-        )
+        column(&outcome, Column::displacement(0, 2))
     });
     assert!(difference(&a, &b) < 1e-5, "{:e}", difference(&a, &b));
 }

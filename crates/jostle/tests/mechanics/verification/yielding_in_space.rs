@@ -3,7 +3,10 @@
 
 use std::f64::consts::PI;
 
+use crate::verification::support::{base_shears, largest, spring_forces};
+use jostle::history::{Owner, PeaksOf};
 use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
+use jostle::system::Direction;
 use jostle::{
     Analysis, Base, Bearing, Building, Damping, Frame, FrameHinges, Gap, Gravity, GroundMotion,
     Hinges, MemberRequest, Model, Outcome, PlanArea, PlanAxis, PlanFrame, PlanPoint, PlanSpring,
@@ -156,35 +159,41 @@ fn plans_without_eccentricity_yield_as_in_the_plane() {
         let close = |a: f64, b: f64, scale: f64, what: &str| {
             assert!((a - b).abs() <= 1e-9 * scale, "{what}: {a} against {b}");
         };
-        let most = |of: &dyn Fn(&jostle::history::FloorPeaks) -> f64| {
-            flat.floors.iter().flatten().map(of).fold(0.0, f64::max)
+        let most = |of: &dyn Fn(&PeaksOf<'_>) -> f64| {
+            let floors = flat.peaks.buildings().flatten();
+            floors.map(|floor| of(&floor)).fold(0.0, f64::max)
         };
-        for (own, other) in flat.floors.iter().zip(&deep.floors) {
-            for (a, b) in own.iter().zip(other) {
-                let u = most(&|f| f.displacement_max.value);
-                close(a.displacement_max.value, b.displacement_max.value, u, "u");
+        for (own, other) in flat.peaks.buildings().zip(deep.peaks.buildings()) {
+            for (a, b) in own.iter().zip(&other) {
+                let u = most(&|f| f.displacement_max().value);
                 close(
-                    a.storey_drift,
-                    b.storey_drift,
-                    most(&|f| f.storey_drift),
+                    a.displacement_max().value,
+                    b.displacement_max().value,
+                    u,
+                    "u",
+                );
+                close(
+                    a.storey_drift(),
+                    b.storey_drift(),
+                    most(&|f| f.storey_drift()),
                     "drift",
                 );
                 close(
-                    a.storey_shear,
-                    b.storey_shear,
-                    most(&|f| f.storey_shear),
+                    a.storey_shear(),
+                    b.storey_shear(),
+                    most(&|f| f.storey_shear()),
                     "shear",
                 );
-                let moments = most(&|f| f.overturning_moment);
+                let moments = most(&|f| f.overturning_moment());
                 close(
-                    a.overturning_moment,
-                    b.overturning_moment,
+                    a.overturning_moment(),
+                    b.overturning_moment(),
                     moments,
                     "moment",
                 );
             }
         }
-        for (a, b) in flat.base_shear.iter().zip(&deep.base_shear) {
+        for (a, b) in base_shears(&flat).iter().zip(&base_shears(&deep)) {
             close(*a, *b, *a, "base shear");
         }
         close(
@@ -193,27 +202,26 @@ fn plans_without_eccentricity_yield_as_in_the_plane() {
             flat.energy.hysteretic,
             "hysteretic energy",
         );
-        let [left, right] = [&flat, &deep].map(|run| run.gap_forces[0].value);
+        let [left, right] = [&flat, &deep].map(|run| run.peaks.gap_force(0).value);
         close(left, right, left, "force of the gap");
-        for plan in &deep.in_plan {
-            for floor in plan.across.iter().chain(&plan.turning) {
-                assert!(floor.displacement_max.value.abs() < 1e-12);
+        for floor in deep.peaks.buildings().flatten() {
+            for other in [floor.across(), floor.turning()] {
+                assert!(other.displacement_max().value.abs() < 1e-12);
             }
         }
         // Springs along x have the loops of the storeys of the plane.
-        let along = (0..deep.springs.len()).step_by(2);
-        for (own, spring) in flat.springs.iter().zip(along) {
-            close(
-                own.peak_force,
-                deep.springs[spring].peak_force,
-                own.peak_force,
-                "force",
-            );
-            let most = flat
-                .springs
-                .iter()
-                .fold(0.0, |most: f64, own| most.max(own.work));
-            close(own.work, deep.springs[spring].work, most, "work");
+        let (own, other) = (spring_forces(&flat), spring_forces(&deep));
+        for (a, b) in own.iter().zip(other.iter().step_by(2)) {
+            close(*a, *b, *a, "force");
+        }
+        let works = |run: &Outcome| {
+            let springs = 0..run.state.springs.len();
+            let works = springs.map(|spring| run.peaks.work(Owner::Spring(spring)));
+            works.collect::<Vec<f64>>()
+        };
+        let (own, other) = (works(&flat), works(&deep));
+        for (a, b) in own.iter().zip(other.iter().step_by(2)) {
+            close(*a, *b, largest(&own), "work");
         }
         assert_eq!(system.buildings[0].equations.springs.len(), 10);
     }
@@ -359,14 +367,8 @@ fn an_eccentric_storey_yields_as_integrated_on_its_own() {
     let (expected, taken) = by_runge_kutta(&rows, masses, 0.6, &motion, 2e-5);
     model.analysis.step = Some(5e-5);
     let (_, outcome) = run(&model, &motion);
-    let most = |floor: &jostle::history::FloorPeaks| {
-        floor
-            .displacement_max
-            .value
-            .max(-floor.displacement_min.value)
-    };
-    let plan = &outcome.in_plan[0];
-    let found = [&outcome.floors[0][0], &plan.across[0], &plan.turning[0]].map(most);
+    let floor = outcome.peaks.floor(0, 1);
+    let found = [floor, floor.across(), floor.turning()].map(|own| own.displacement().size());
     assert!(expected[2] > 1e-3 && taken > 1e4, "{expected:?}, {taken} J");
     for (own, expected) in found.iter().zip(expected) {
         assert!(
@@ -374,11 +376,13 @@ fn an_eccentric_storey_yields_as_integrated_on_its_own() {
             "{own} against {expected}"
         );
     }
-    let work: f64 = outcome.springs.iter().map(|own| own.work).sum();
+    let springs = 0..outcome.state.springs.len();
+    let works = springs.map(|spring| outcome.peaks.work(Owner::Spring(spring)));
+    let work: f64 = works.sum();
     assert!((work / taken - 1.0).abs() < 2e-5, "{work} against {taken}");
     assert!(outcome.energy.worst_imbalance < 1e-9);
     // Shears are the sums of the elements, torques those of their moments about the centre of mass.
-    let shear = outcome.base_shear[0];
+    let shear = outcome.peaks.base_shear(0);
     let greatest = rows[0].1 * rows[0].2 + rows[1].1 * rows[1].2;
     assert!(shear > greatest && shear < 2.0 * greatest, "{shear}");
 }
@@ -438,20 +442,20 @@ fn a_turned_site_yields_the_same() {
         "{}",
         one.energy.worst_imbalance
     );
-    for (a, b) in one.in_plan.iter().zip(&other.in_plan) {
-        for (a, b) in a.turning.iter().zip(&b.turning) {
-            let (a, b) = (a.displacement_max.value, b.displacement_max.value);
-            assert!((a - b).abs() < 1e-8 * a.abs(), "{a} against {b}");
-        }
-        for (a, b) in a.corner_displacement.iter().zip(&b.corner_displacement) {
-            assert!((a - b).abs() < 1e-8 * a, "{a} against {b}");
-        }
-    }
-    for (floors, plan) in one.floors.iter().zip(&other.in_plan) {
-        for (a, b) in floors.iter().zip(&plan.across) {
-            let (a, b) = (a.storey_shear, b.storey_shear);
-            assert!((a - b).abs() < 1e-8 * a, "{a} against {b}");
-        }
+    let floors = |run: &Outcome, direction: Direction| -> Vec<[f64; 3]> {
+        let all = run.peaks.buildings().flatten();
+        let of = |own: PeaksOf<'_>| {
+            let turned = own.turning().displacement_max().value;
+            let shear = own.to(direction).storey_shear();
+            [turned, own.corner_displacement(), shear]
+        };
+        all.map(of).collect()
+    };
+    let pairs = floors(&one, Direction::Along)
+        .into_iter()
+        .zip(floors(&other, Direction::Across));
+    for (a, b) in pairs.flat_map(|(a, b)| a.into_iter().zip(b)) {
+        assert!((a - b).abs() < 1e-8 * a.abs(), "{a} against {b}");
     }
 }
 
@@ -559,18 +563,14 @@ fn two_equal_frames_in_plan_yield_as_one_in_the_plane() {
     let same = |a: f64, b: f64, what: &str| {
         assert!((a / b - 1.0).abs() < 1e-9, "{what}: {a} against {b}");
     };
-    for (a, b) in flat.floors[0].iter().zip(&deep.floors[0]) {
-        same(a.displacement_max.value, b.displacement_max.value, "u");
-        same(2.0 * a.storey_shear, b.storey_shear, "shear");
+    for (a, b) in flat.peaks.floors(0).iter().zip(&deep.peaks.floors(0)) {
+        same(a.displacement_max().value, b.displacement_max().value, "u");
+        same(2.0 * a.storey_shear(), b.storey_shear(), "shear");
     }
-    let count = flat.springs.len();
-    assert_eq!(deep.springs.len(), 2 * count);
-    for (spring, own) in deep.springs.iter().enumerate() {
-        same(
-            flat.springs[spring % count].peak_force,
-            own.peak_force,
-            "moment",
-        );
+    let (own, other) = (spring_forces(&flat), spring_forces(&deep));
+    assert_eq!(other.len(), 2 * own.len());
+    for (own, other) in own.iter().cycle().zip(&other) {
+        same(*own, *other, "moment");
     }
     // Members of the first frame have the forces of those of the plane one, moments of hinges included; beams have no axial force.
     let own = system.buildings[0].members.members.iter();
@@ -592,6 +592,7 @@ fn two_equal_frames_in_plan_yield_as_one_in_the_plane() {
         }
     }
     let discretization = &system.buildings[0].discretization;
-    let name = discretization.spring_places[count].named(&[], &discretization.frames);
+    let name =
+        discretization.spring_places[spring_forces(&flat).len()].named(&[], &discretization.frames);
     assert!(name.starts_with("frame 2, "), "{name}");
 }

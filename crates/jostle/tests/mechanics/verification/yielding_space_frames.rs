@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-use jostle::history::FloorPeaks;
+use crate::verification::support::spring_forces;
+use jostle::history::PeaksOf;
 use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
 use jostle::structure::MemberPlace;
 use jostle::{
@@ -208,9 +209,8 @@ fn bearing(mut motion: GroundMotion, angle: f64, across: Option<GroundMotion>) -
     motion
 }
 
-fn most(floor: &FloorPeaks) -> f64 {
-    let least = -floor.displacement_min.value;
-    floor.displacement_max.value.max(least)
+fn most(floor: &PeaksOf<'_>) -> f64 {
+    floor.displacement().size()
 }
 
 /// Two storeys, two bays along x, one across.
@@ -310,17 +310,23 @@ fn a_pair_of_frames_yields_as_its_plane_limit() {
         assert!(a.energy.worst_imbalance < 1e-9);
         let (ea, eb) = (a.energy.hysteretic, b.energy.hysteretic);
         close(ea, eb, eb, 1e-8, "hysteretic energy");
-        close(a.base_shear[0], b.base_shear[0], b.base_shear[0], 1e-8, "V");
-        for (own, other) in a.floors[0].iter().zip(&b.floors[0]) {
+        close(
+            a.peaks.base_shear(0),
+            b.peaks.base_shear(0),
+            b.peaks.base_shear(0),
+            1e-8,
+            "V",
+        );
+        for (own, other) in a.peaks.floors(0).iter().zip(&b.peaks.floors(0)) {
             close(most(own), most(other), most(other), 1e-8, "displacement");
-            let shears = [own.storey_shear, other.storey_shear];
+            let shears = [own.storey_shear(), other.storey_shear()];
             close(shears[0], shears[1], shears[1], 1e-8, "storey shear");
-            let moments = [own.overturning_moment, other.overturning_moment];
+            let moments = [own.overturning_moment(), other.overturning_moment()];
             close(moments[0], moments[1], moments[1], 1e-8, "moment");
         }
-        for plan in &a.in_plan {
-            for floor in plan.across.iter().chain(&plan.turning) {
-                assert!(most(floor) < 1e-10, "{}", most(floor));
+        for floor in a.peaks.buildings().flatten() {
+            for other in [floor.across(), floor.turning()] {
+                assert!(most(&other) < 1e-10, "{}", most(&other));
             }
         }
         // Peaks of members on the first line are those of the first plane frame.
@@ -395,22 +401,18 @@ fn a_turned_site_yields_the_same() {
         1e-8,
         "energy",
     );
-    for (own, other) in a.springs.iter().zip(&b.springs) {
-        close(
-            other.peak_force,
-            own.peak_force,
-            own.peak_force,
-            1e-8,
-            "moment",
-        );
+    let (forces, others) = (spring_forces(&a), spring_forces(&b));
+    for (own, other) in forces.iter().zip(&others) {
+        close(*other, *own, *own, 1e-8, "moment");
     }
-    for (own, other) in a.in_plan[0].turning.iter().zip(&b.in_plan[0].turning) {
-        assert!(most(own) > 1e-4, "it turns");
-        close(most(other), most(own), most(own), 1e-8, "rotation");
+    for (own, other) in a.peaks.floors(0).iter().zip(&b.peaks.floors(0)) {
+        let (own, other) = (most(&own.turning()), most(&other.turning()));
+        assert!(own > 1e-4, "it turns");
+        close(other, own, own, 1e-8, "rotation");
     }
-    assert_eq!(a.springs.len(), system.buildings[0].equations.springs.len());
+    assert_eq!(forces.len(), system.buildings[0].equations.springs.len());
     // Columns in two planes at two ends; beams in one.
-    assert_eq!(a.springs.len(), 2 * (12 * 2 + 14));
+    assert_eq!(forces.len(), 2 * (12 * 2 + 14));
 }
 
 /// With x and y exchanged everywhere, so are the displacements.
@@ -445,7 +447,10 @@ fn a_portal_yields_across_as_along() {
     let (_, a) = single(own(false), &motion(0.0));
     let (_, b) = single(own(true), &motion(0.5 * PI));
     assert!(a.energy.hysteretic > 1e4);
-    let (along, across) = (most(&a.floors[0][0]), most(&b.in_plan[0].across[0]));
+    let (along, across) = (
+        most(&a.peaks.floor(0, 1)),
+        most(&b.peaks.floor(0, 1).across()),
+    );
     close(across, along, along, 1e-9, "displacement");
     let energies = [b.energy.hysteretic, a.energy.hysteretic];
     close(energies[0], energies[1], energies[1], 1e-9, "energy");
@@ -502,8 +507,8 @@ fn cantilevers_yield_in_each_direction_as_in_the_plane() {
     let components = [shaking("along", 4.0, 0.6), shaking("across", 5.0, 0.5)];
     let motion = bearing(components[0].clone(), 0.0, Some(components[1].clone()));
     let (_, space) = single(Structure::Tiers(tiers), &motion);
-    assert!(most(&space.in_plan[0].turning[0]) < 1e-12);
-    let found = [&space.floors[0][0], &space.in_plan[0].across[0]];
+    assert!(most(&space.peaks.floor(0, 1).turning()) < 1e-12);
+    let found = [&space.peaks.floor(0, 1), &space.peaks.floor(0, 1).across()];
     for axis in 0..2 {
         let own = in_series(section.flexural_rigidity[axis], &hinges[axis]);
         let doubled = own.backbone().initial() * 2.0;
@@ -524,10 +529,10 @@ fn cantilevers_yield_in_each_direction_as_in_the_plane() {
             &components[axis],
             Some(0.02),
         );
-        let floor = &plane.floors[0][0];
+        let floor = &plane.peaks.floor(0, 1);
         assert!(plane.energy.hysteretic > 1e3);
         close(most(found[axis]), most(floor), most(floor), 1e-9, "u");
-        let times = [found[axis], floor].map(|own| own.displacement_max.at);
+        let times = [found[axis], floor].map(|own| own.displacement_max().at);
         close(times[0], times[1], 1.0, 1e-9, "time");
     }
 }
@@ -582,15 +587,21 @@ fn an_eccentric_storey_yields_as_springs_at_points_of_the_plan() {
     let (_, a) = single(Structure::Tiers(of_columns), &motion);
     let (_, b) = single(Structure::Tiers(of_springs), &motion);
     let peaks = |own: &Outcome| {
-        let plan = &own.in_plan[0];
-        [&own.floors[0][0], &plan.across[0], &plan.turning[0]].map(most)
+        let floor = own.peaks.floor(0, 1);
+        [floor, floor.across(), floor.turning()].map(|own| most(&own))
     };
     for (own, expected) in peaks(&a).into_iter().zip(peaks(&b)) {
         assert!(expected > 1e-3, "{expected}");
         close(own, expected, expected, 1e-9, "peak");
     }
     assert!(b.energy.hysteretic > 1e4 && a.energy.worst_imbalance < 1e-9);
-    close(a.base_shear[0], b.base_shear[0], b.base_shear[0], 1e-9, "V");
+    close(
+        a.peaks.base_shear(0),
+        b.peaks.base_shear(0),
+        b.peaks.base_shear(0),
+        1e-9,
+        "V",
+    );
 }
 
 /// Hinges that are nearly rigid and never yield leave the frame without hinges.
@@ -617,12 +628,12 @@ fn hinges_that_do_not_yield_leave_the_elastic_frame() {
         };
         let (of_hinges, a) = single(own(never), &motion);
         let (of_none, b) = single(own(elastic), &motion);
-        for (own, other) in a.floors[0].iter().zip(&b.floors[0]) {
+        for (own, other) in a.peaks.floors(0).iter().zip(&b.peaks.floors(0)) {
             close(most(own), most(other), most(other), 1e-6, "u");
         }
-        let plans = [&a.in_plan[0], &b.in_plan[0]];
-        for (own, other) in plans[0].turning.iter().zip(&plans[1].turning) {
-            close(most(own), most(other), most(other), 1e-6, "rotation");
+        for (own, other) in a.peaks.floors(0).iter().zip(&b.peaks.floors(0)) {
+            let (own, other) = (most(&own.turning()), most(&other.turning()));
+            close(own, other, other, 1e-6, "rotation");
         }
         let modes = of_hinges.buildings[0].modes.iter();
         for (own, other) in modes.zip(&of_none.buildings[0].modes) {
@@ -638,7 +649,7 @@ fn hinges_that_do_not_yield_leave_the_elastic_frame() {
             ..Analysis::default()
         };
         let (_, modal) = run(&by_modes, &motion, Some(0.02));
-        for (own, other) in a.floors[0].iter().zip(&modal.floors[0]) {
+        for (own, other) in a.peaks.floors(0).iter().zip(&modal.peaks.floors(0)) {
             close(most(own), most(other), most(other), 3e-3, "by modes");
         }
     }
@@ -780,7 +791,7 @@ fn both_direct_solvers_agree_and_modes_are_refused() {
     };
     let (_, a) = run(&with(Solver::Riccati), &motion, Some(0.02));
     let (_, b) = run(&with(Solver::Stiffness), &motion, Some(0.02));
-    for (own, other) in a.floors[0].iter().zip(&b.floors[0]) {
+    for (own, other) in a.peaks.floors(0).iter().zip(&b.peaks.floors(0)) {
         close(most(own), most(other), most(other), 1e-9, "u");
     }
     let refused = with(Solver::Modal);

@@ -2,277 +2,29 @@
 
 use crate::hysteresis::{HysteresisMemory, Stage};
 use crate::interface::MOST_POINTS;
-use crate::quantity::Unit;
 use crate::system::System;
+
+pub use column::{Column, EnergyTerm, Kind, Owner, Recorded};
+pub use peaks::{Peak, Peaks, PeaksOf};
+
+mod column;
+mod peaks;
 
 /// Time histories at the recorded instants: one row per instant, one column per quantity.
 ///
 /// ```
 /// use jostle::{Column, EnergyTerm, History};
 ///
-/// let columns = vec![Column::Time, Column::Energy(EnergyTerm::Input)];
+/// let columns = vec![Column::TIME, Column::energy(EnergyTerm::Input)];
 /// let history = History::from_rows(columns, vec![0.0, 0.0, 0.01, 2.5]); // two rows
 /// assert_eq!(history.len(), 2);
-/// assert_eq!(history.column(Column::Energy(EnergyTerm::Input)), Some(vec![0.0, 2.5]));
-/// assert_eq!(history.column(Column::GroundAcceleration), None);
+/// assert_eq!(history.column(Column::energy(EnergyTerm::Input)), Some(vec![0.0, 2.5]));
+/// assert_eq!(history.column(Column::GROUND_ACCELERATION), None);
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct History {
     columns: Vec<Column>,
     values: Vec<f64>,
-}
-
-/// A recorded quantity.
-///
-/// ```
-/// use std::ops::ControlFlow;
-///
-/// use jostle::{Column, EnergyTerm, Settings, simulate};
-/// # mod towers { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/two_towers/pair.rs")); }
-/// # let model = towers::pair(0.02);
-/// # let wave = (0..=300).map(|i| 3.0 * (0.09 * f64::from(i)).sin()).collect();
-/// # let motion = jostle::GroundMotion::sampled("sine", 0.01, wave);
-/// # let system = jostle::System::assemble(&model).map_err(|faults| faults[0].clone())?;
-/// # let plan = jostle::Plan::choose(&system, &motion, &model.analysis).map_err(|faults| faults[0].clone())?;
-///
-/// let outcome = simulate(&system, &motion, &plan, Settings::default(), |_| ControlFlow::Continue(()));
-/// let history = outcome.history.expect("histories are recorded by default");
-/// let roof = history.column(Column::Displacement { building: 0, floor: 3 }).expect("it has three floors");
-/// let input = history.column(Column::Energy(EnergyTerm::Input)).expect("energies are recorded");
-/// assert_eq!(roof.len(), input.len());
-/// # Ok::<(), jostle::ModelFault>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Column {
-    /// Time \[s\].
-    Time,
-    /// Ground acceleration \[m/s²\].
-    GroundAcceleration,
-    /// Displacement of a floor relative to the ground \[m\]; floors count from 1, and 0 is a mat or a wall.
-    Displacement {
-        /// Building index.
-        building: usize,
-        /// Floor, from 1.
-        floor: usize,
-    },
-    /// Velocity of a floor relative to the ground \[m/s\].
-    Velocity {
-        /// Building index.
-        building: usize,
-        /// Floor, from 1.
-        floor: usize,
-    },
-    /// Acceleration of a floor, ground included \[m/s²\].
-    TotalAcceleration {
-        /// Building index.
-        building: usize,
-        /// Floor, from 1.
-        floor: usize,
-    },
-    /// Ground acceleration across the row, of buildings in space \[m/s²\].
-    GroundAccelerationAcross,
-    /// Displacement across of a floor in space, relative to the ground \[m\].
-    DisplacementAcross {
-        /// Building index.
-        building: usize,
-        /// Floor, from 1.
-        floor: usize,
-    },
-    /// Its rate \[m/s\].
-    VelocityAcross {
-        /// Building index.
-        building: usize,
-        /// Floor, from 1.
-        floor: usize,
-    },
-    /// Acceleration across of a floor in space, ground included \[m/s²\].
-    TotalAccelerationAcross {
-        /// Building index.
-        building: usize,
-        /// Floor, from 1.
-        floor: usize,
-    },
-    /// Rotation of a floor in space \[rad\].
-    Rotation {
-        /// Building index.
-        building: usize,
-        /// Floor, from 1.
-        floor: usize,
-    },
-    /// Its rate \[rad/s\].
-    RotationRate {
-        /// Building index.
-        building: usize,
-        /// Floor, from 1.
-        floor: usize,
-    },
-    /// The rate of that \[rad/s²\].
-    RotationAcceleration {
-        /// Building index.
-        building: usize,
-        /// Floor, from 1.
-        floor: usize,
-    },
-    /// Force of a contact (index into the contacts of the system, or into the faces of buildings in space) \[N\].
-    ContactForce {
-        /// Contact index.
-        contact: usize,
-    },
-    /// Closing of a contact on a column between floors (index into the contacts of the system) \[m\]. That of other
-    /// contacts follows from the displacements of their floors, and is recorded only where grounds move apart.
-    Closing {
-        /// Contact index.
-        contact: usize,
-    },
-    /// Compression of a link (index into the links of the system), negative in tension \[N\].
-    LinkForce {
-        /// Link index.
-        link: usize,
-    },
-    /// Shortening of a link since rest (index into the links of the system) \[m\]. On request; and of links that are not linear
-    /// between floors, where it does not follow from displacements of floors.
-    LinkStroke {
-        /// Link index.
-        link: usize,
-    },
-    /// Its rate, on the same terms \[m/s\].
-    LinkSpeed {
-        /// Link index.
-        link: usize,
-    },
-    /// Force of the bearings of a building or of the spring and dashpot of a wall on the ground \[N\].
-    SupportForce {
-        /// Building index; walls are counted on from the buildings.
-        building: usize,
-    },
-    /// The same across, of bearings in plan \[N\].
-    SupportForceAcross {
-        /// Building index.
-        building: usize,
-    },
-    /// Displacement from rest of the ground under a building or a wall, where grounds move apart \[m\].
-    GroundDisplacement {
-        /// Building index; walls are counted on from the buildings.
-        building: usize,
-    },
-    /// The same across, under buildings in space \[m\].
-    GroundDisplacementAcross {
-        /// Building index; walls are counted on from the buildings.
-        building: usize,
-    },
-    /// A term of the energy balance \[J\].
-    Energy(EnergyTerm),
-}
-
-/// What a column of a history records.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Recorded {
-    /// Whose it is: `run`, `floor`, `contact`, `link`, `isolation` or `energy`.
-    pub owner: &'static str,
-    /// Name without unit.
-    pub name: &'static str,
-    /// Unit.
-    pub unit: Unit,
-    /// Meaning, in one line.
-    pub meaning: &'static str,
-}
-
-impl Column {
-    /// What it records.
-    #[must_use]
-    #[rustfmt::skip]
-    pub fn recorded(self) -> Recorded {
-        let of = |owner, name, unit, meaning| Recorded { owner, name, unit, meaning };
-        match self {
-            Self::Time => of("run", "time", Unit::S, "instant"),
-            Self::GroundAcceleration => of("run", "ground_acceleration", Unit::M_S2, "ground acceleration"),
-            Self::Displacement { .. } => of("floor", "displacement", Unit::M, "displacement relative to the ground, positive to the right"),
-            Self::Velocity { .. } => of("floor", "velocity", Unit::M_S, "velocity relative to the ground"),
-            Self::TotalAcceleration { .. } => of("floor", "total_acceleration", Unit::M_S2, "acceleration, that of the ground included"),
-            Self::GroundAccelerationAcross => of("run", "ground_acceleration_across", Unit::M_S2, "ground acceleration across the row, of buildings in space"),
-            Self::DisplacementAcross { .. } => of("floor", "displacement_across", Unit::M, "displacement across the row, of buildings in space"),
-            Self::VelocityAcross { .. } => of("floor", "velocity_across", Unit::M_S, "its rate"),
-            Self::TotalAccelerationAcross { .. } => of("floor", "total_acceleration_across", Unit::M_S2, "acceleration across, that of the ground included"),
-            Self::Rotation { .. } => of("floor", "rotation", Unit::RAD, "rotation, counter-clockwise seen from above, of buildings in space"),
-            Self::RotationRate { .. } => of("floor", "rotation_rate", Unit::RAD_S, "its rate"),
-            Self::RotationAcceleration { .. } => of("floor", "rotation_acceleration", Unit::RAD_S2, "the rate of that"),
-            Self::ContactForce { .. } => of("contact", "force", Unit::N, "contact force, positive in compression"),
-            Self::Closing { .. } => of("contact", "closing", Unit::M, "closing; only of contacts on a column between floors, or where grounds move apart"),
-            Self::GroundDisplacement { .. } => of("ground", "ground_displacement", Unit::M, "displacement of the ground from rest, where grounds move apart"),
-            Self::GroundDisplacementAcross { .. } => of("ground", "ground_displacement_across", Unit::M, "the same across, of buildings in space"),
-            Self::LinkForce { .. } => of("link", "force", Unit::N, "force of the link, positive in compression"),
-            Self::LinkStroke { .. } => of("link", "stroke", Unit::M, "shortening of the link since rest; with `links = true` under `[output]`"),
-            Self::LinkSpeed { .. } => of("link", "speed", Unit::M_S, "its rate; with `links = true` under `[output]`"),
-            Self::SupportForce { .. } => of("isolation", "force", Unit::N, "force of bearings, stops not included; of a wall, that of its spring and dashpot"),
-            Self::SupportForceAcross { .. } => of("isolation", "force_across", Unit::N, "the same across, of buildings in space"),
-            Self::Energy(EnergyTerm::Input) => of("energy", "input", Unit::J, "work of the ground motion until then"),
-            Self::Energy(EnergyTerm::Ground) => of("energy", "ground", Unit::J, "work of grounds that move apart, through contacts and links, until then"),
-            Self::Energy(EnergyTerm::Kinetic) => of("energy", "kinetic", Unit::J, "kinetic energy relative to the ground"),
-            Self::Energy(EnergyTerm::Strain) => of("energy", "strain", Unit::J, "strain energy of members, and recoverable energy of hinges"),
-            Self::Energy(EnergyTerm::Damped) => of("energy", "damped", Unit::J, "dissipated by viscous damping until then"),
-            Self::Energy(EnergyTerm::Hysteretic) => of("energy", "hysteretic", Unit::J, "dissipated by hinges until then"),
-            Self::Energy(EnergyTerm::Contact) => of("energy", "contact", Unit::J, "energy of contacts: dissipated until then, and stored"),
-        }
-    }
-
-    /// Index of its building, contact or link, and its floor; zeros where it has none.
-    #[must_use]
-    pub fn place(self) -> [usize; 2] {
-        match self {
-            Self::Time
-            | Self::GroundAcceleration
-            | Self::GroundAccelerationAcross
-            | Self::Energy(_) => [0, 0],
-            Self::Displacement { building, floor }
-            | Self::Velocity { building, floor }
-            | Self::TotalAcceleration { building, floor }
-            | Self::DisplacementAcross { building, floor }
-            | Self::VelocityAcross { building, floor }
-            | Self::TotalAccelerationAcross { building, floor }
-            | Self::Rotation { building, floor }
-            | Self::RotationRate { building, floor }
-            | Self::RotationAcceleration { building, floor } => [building, floor],
-            Self::ContactForce { contact } | Self::Closing { contact } => [contact, 0],
-            Self::LinkForce { link } | Self::LinkStroke { link } | Self::LinkSpeed { link } => {
-                [link, 0]
-            }
-            Self::SupportForce { building }
-            | Self::SupportForceAcross { building }
-            | Self::GroundDisplacement { building }
-            | Self::GroundDisplacementAcross { building } => [building, 0],
-        }
-    }
-}
-
-/// Terms of the energy balance.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum EnergyTerm {
-    /// Work of the inertia forces of the ground motion.
-    Input,
-    /// Work of grounds that move apart, through contacts and links; recorded only with them.
-    Ground,
-    /// Kinetic energy relative to the ground.
-    Kinetic,
-    /// Strain energy of members, and recoverable energy of yielding springs.
-    Strain,
-    /// Dissipated by viscous damping.
-    Damped,
-    /// Dissipated by springs that yield.
-    Hysteretic,
-    /// Energy of contacts: dissipated plus, during an impact, stored.
-    Contact,
-}
-
-impl EnergyTerm {
-    /// The terms of every run, in the order of the balance.
-    pub const ALL: [Self; 6] = [
-        Self::Input,
-        Self::Kinetic,
-        Self::Strain,
-        Self::Damped,
-        Self::Hysteretic,
-        Self::Contact,
-    ];
 }
 
 impl History {
@@ -490,82 +242,6 @@ pub struct Extreme {
     pub at: f64,
 }
 
-/// Peak response of one floor.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct FloorPeaks {
-    /// Greatest displacement to the right \[m\].
-    pub displacement_max: Extreme,
-    /// Greatest displacement to the left, ≤ 0 \[m\].
-    pub displacement_min: Extreme,
-    /// Greatest total acceleration, either sign \[m/s²\].
-    pub total_acceleration: f64,
-    /// The same after a low-pass filter, which the mechanics leaves to its callers; `None` if it was not computed \[m/s²\].
-    pub filtered_acceleration: Option<f64>,
-    /// Greatest drift ratio of the storey below, either sign \[–\].
-    pub storey_drift: f64,
-    /// Greatest shear of the storey below, either sign \[N\].
-    pub storey_shear: f64,
-    /// Greatest overturning moment about the base of the storey below, either sign \[N·m\].
-    pub overturning_moment: f64,
-    /// Greatest vertical displacement of any mass of the floor, either sign; followed under vertical shaking only \[m\].
-    pub vertical_displacement: f64,
-}
-
-/// Peak response of what a building or a wall stands on: its bearings, or its spring and dashpot.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct SupportPeaks {
-    /// Greatest displacement to the right \[m\].
-    pub displacement_max: Extreme,
-    /// Greatest displacement to the left, ≤ 0 \[m\].
-    pub displacement_min: Extreme,
-    /// Greatest total acceleration, either sign \[m/s²\].
-    pub total_acceleration: f64,
-    /// Greatest force of springs, friction and dashpot together, without stops, either sign \[N\].
-    pub force: f64,
-    /// Energy dissipated in the dashpot \[J\].
-    pub damped: f64,
-    /// Those of a mat that moves across and turns too.
-    pub in_plan: Option<MatPeaks>,
-}
-
-/// Peaks of a mat in plan beside those along x.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct MatPeaks {
-    /// Greatest and least displacement of its centre across \[m\].
-    pub across: [Extreme; 2],
-    /// Greatest rotation counter-clockwise, and least \[rad\].
-    pub rotation: [Extreme; 2],
-    /// Greatest length of the displacement of a bearing \[m\].
-    pub stroke: Extreme,
-    /// That bearing, from 0.
-    pub bearing: usize,
-    /// Greatest displacement of a corner of the mat \[m\].
-    pub corner: f64,
-    /// Greatest total acceleration across, either sign \[m/s²\].
-    pub total_acceleration_across: f64,
-    /// Greatest force of bearings across, dashpots included, without the ring \[N\].
-    pub force_across: f64,
-    /// Greatest force of bearings and ring across, without dashpots \[N\].
-    pub base_shear_across: f64,
-    /// Greatest torque of these forces about the centre of mass of the lowest floor \[N·m\].
-    pub base_torque: f64,
-    /// Greatest force of the ring that stops it, in any direction \[N\].
-    pub ring_force: f64,
-    /// Energy dissipated in its dashpots \[J\].
-    pub damped: f64,
-}
-
-/// Peaks of a rigid foundation on soil.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct FoundationPeaks {
-    /// Greatest displacement to the right, and to the left (≤ 0) \[m\].
-    pub sway: [Extreme; 2],
-    /// Greatest rotation counter-clockwise, and clockwise (≤ 0) \[rad\].
-    pub rocking: [Extreme; 2],
-    /// Energy that its dashpots, apart from those to neighbours, take away: radiation and damping of the soil \[J\].
-    pub damped: f64,
-}
-
 /// Energies \[J\] and the greatest error of their balance so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Energy {
@@ -635,28 +311,6 @@ pub struct Work {
     pub shapes: u64,
     /// Runs repeated by modal stepping with more shapes or finer steps.
     pub repeated_runs: u64,
-}
-
-/// Peaks of a link.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct LinkTotals {
-    /// Force of greatest magnitude, positive in compression, and its instant \[N\].
-    pub peak_force: Extreme,
-    /// Greatest change of length, either sign \[m\].
-    pub peak_shortening: f64,
-    /// Greatest rate of change of length, either sign \[m/s\].
-    pub peak_rate: f64,
-    /// Work done on it, recoverable energy of its spring included \[J\].
-    pub work: f64,
-}
-
-/// Peaks of a spring that yields.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct SpringTotals {
-    /// Greatest force, either sign \[N·m or N\].
-    pub peak_force: f64,
-    /// Work done on it, recoverable energy included \[J\].
-    pub work: f64,
 }
 
 /// Deformation and force of every spring that yields at the instants of a [`History`], in single precision.

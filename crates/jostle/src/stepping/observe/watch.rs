@@ -1,0 +1,156 @@
+//! What direct runs follow: a number over displacements, and what of it is reported.
+
+use crate::history::{Column, Kind, Owner};
+use crate::linear::Row;
+use crate::stepping::floor_peaks::floor_of;
+use crate::system::{BuildingSystem, System, Track};
+
+/// A number over displacements of the system, whose peak is reported under a column. Watches of the same column follow each other and
+/// share its peak.
+#[derive(Clone, Debug)]
+pub(crate) struct Watch {
+    /// Owner, kind and direction.
+    pub(crate) column: Column,
+    /// The number, and what of it is reported.
+    pub(super) statistic: Statistic,
+}
+
+/// Rows over the vectors of a [`State`](crate::State), and what of them is reported.
+#[derive(Clone, Debug)]
+pub(crate) enum Statistic {
+    /// Greatest and least value.
+    Extremes(Row),
+    /// Greatest magnitude.
+    Size(Row),
+    /// Greatest length in plan, of two rows at right angles. Squares are followed: the length may be greatest where neither row is.
+    Length([Row; 2]),
+    /// Greatest magnitude at ends of steps.
+    Drift(Drift),
+    /// Greatest value of the closing of a contact, under which grounds may move apart.
+    Closing(usize),
+    /// Energy that dashpots take, from their coefficients uu, uθ, θθ over two rows.
+    Dashpots([f64; 3], [Row; 2]),
+}
+
+/// The drift ratio of a vertical line: the difference of two displacements over a height \[m\], and a rotation.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Drift {
+    pub(super) above: usize,
+    pub(super) below: Option<usize>,
+    pub(super) turned: Option<usize>,
+    pub(super) height: f64,
+}
+
+impl Watch {
+    pub(crate) fn new(column: Column, statistic: Statistic) -> Self {
+        Self { column, statistic }
+    }
+}
+
+/// All that direct runs of a system follow by displacements; `rises`: of masses that move vertically as well.
+pub(super) fn watches(system: &System, rises: bool) -> Vec<Watch> {
+    let mut all = Vec::new();
+    for (index, building) in system.buildings.iter().enumerate() {
+        of_floors(index, building, &mut all);
+        of_support(index, building, &mut all);
+        of_foundation(index, building, &mut all);
+        if rises {
+            all.extend(building.vertical_points().map(|(floor, dof)| {
+                let column = Column::displacement(index, floor + 1).up();
+                Watch::new(column, Statistic::Size(Row::single(dof)))
+            }));
+        }
+    }
+    all.extend(
+        (0..system.contacts.len())
+            .map(|contact| Watch::new(Column::closing(contact), Statistic::Closing(contact))),
+    );
+    all
+}
+
+/// Displacements of floors in all directions, drifts of vertical lines, and corners.
+fn of_floors(index: usize, building: &BuildingSystem, all: &mut Vec<Watch>) {
+    let turned = building.foundation.as_ref().map(|own| own.dofs[1]);
+    let mut below: Option<&Track> = None;
+    for (place, track) in building.tracks.iter().enumerate() {
+        let owner = floor_of(index, building, place);
+        let direction = track.direction;
+        let column = |kind| Column::new(owner, kind, direction);
+        all.push(moved(column(Kind::Displacement), track.dof));
+        if track.is_in_line {
+            let lowest = building.dof_below_lowest(direction);
+            let below = below.filter(|_| !track.is_lowest).map(|below| below.dof);
+            let drift = Drift {
+                above: track.dof,
+                below: below.or(lowest.filter(|_| track.is_lowest)),
+                height: track.storey_height,
+                turned,
+            };
+            let statistic = Statistic::Drift(drift);
+            all.push(Watch::new(column(Kind::Drift), statistic));
+        }
+        below = Some(track);
+    }
+    for corner in &building.corners {
+        let owner = floor_of(index, building, corner.floor);
+        let column = Column::along(owner, Kind::CornerDisplacement);
+        all.push(length(column, &corner.rows, building));
+    }
+}
+
+/// Bearings of an isolated building, or the spring of a wall.
+fn of_support(index: usize, building: &BuildingSystem, all: &mut Vec<Watch>) {
+    let Some(support) = building.support else {
+        return;
+    };
+    let mat = Column::displacement(index, 0);
+    all.push(moved(mat, support.dof));
+    let work = Column::along(Owner::Support(index), Kind::Work);
+    let dashpot = |damping, row| {
+        let rows = [row, Row::default()];
+        Watch::new(work, Statistic::Dashpots([damping, 0.0, 0.0], rows))
+    };
+    let Some(own) = &building.mat_in_plan else {
+        all.push(dashpot(support.damping, Row::single(support.dof)));
+        return;
+    };
+    all.push(moved(mat.across(), own.dofs[1]));
+    all.push(moved(mat.turning(), own.dofs[2]));
+    for (bearing, rows) in own.rows.iter().enumerate() {
+        let owner = Owner::Bearing {
+            building: index,
+            bearing,
+        };
+        all.push(length(Column::along(owner, Kind::Stroke), rows, building));
+    }
+    for row in own.rows.iter().flatten() {
+        all.push(dashpot(own.damping, row.moved_up(building.offset)));
+    }
+    let corner = Column::along(mat.owner, Kind::CornerDisplacement);
+    let corners = own.corners.iter();
+    all.extend(corners.map(|rows| length(corner, rows, building)));
+}
+
+/// A rigid foundation on soil.
+fn of_foundation(index: usize, building: &BuildingSystem, all: &mut Vec<Watch>) {
+    let Some(own) = building.foundation else {
+        return;
+    };
+    let of = |kind| Column::along(Owner::Foundation(index), kind);
+    let displacement = of(Kind::Displacement);
+    all.push(moved(displacement, own.dofs[0]));
+    all.push(moved(displacement.turning(), own.dofs[1]));
+    let dashpots = Statistic::Dashpots(own.own_damping, own.dofs.map(Row::single));
+    all.push(Watch::new(of(Kind::Work), dashpots));
+}
+
+/// The greatest and the least value of a displacement.
+fn moved(column: Column, dof: usize) -> Watch {
+    Watch::new(column, Statistic::Extremes(Row::single(dof)))
+}
+
+/// The distance that a point has moved; `rows` are over the displacements of its building.
+fn length(column: Column, rows: &[Row; 2], building: &BuildingSystem) -> Watch {
+    let rows = rows.each_ref().map(|row| row.moved_up(building.offset));
+    Watch::new(column, Statistic::Length(rows))
+}

@@ -1,0 +1,187 @@
+//! Watches over a step: one loop for each statistic.
+
+use super::Places;
+use super::watch::{Drift, Statistic, Watch};
+use crate::history::Peak;
+use crate::linear::Row;
+use crate::state::State;
+use crate::stepping::extremes::{greatest_in_step, take_extremes};
+use crate::system::{RunGrounds, System};
+
+/// Value and rate.
+type Motion = (f64, f64);
+
+/// What is followed, statistic by statistic.
+#[derive(Default)]
+pub(super) struct Watches {
+    /// Displacements by their degree of freedom: most of what is followed.
+    displacements: Vec<Followed<usize>>,
+    /// Other extremes.
+    extremes: Vec<Followed<Row>>,
+    sizes: Vec<Followed<Row>>,
+    drifts: Vec<Followed<Drift>>,
+    /// Contacts.
+    closings: Vec<Followed<usize>>,
+    lengths: Vec<Followed<[Row; 2]>>,
+    dashpots: Vec<Followed<([f64; 3], [Row; 2])>>,
+}
+
+/// A number with the place of its peak.
+struct Followed<T> {
+    number: T,
+    place: usize,
+    /// What it was at the start of the step.
+    then: Motion,
+}
+
+impl Watches {
+    pub(super) fn new(watches: Vec<Watch>, places: &mut Places) -> Self {
+        let mut all = Self::default();
+        for watch in watches {
+            let place = places.of(watch.column);
+            match watch.statistic {
+                Statistic::Extremes(row) => match row.only() {
+                    Some(dof) => follow(&mut all.displacements, dof, place),
+                    None => follow(&mut all.extremes, row, place),
+                },
+                Statistic::Size(row) => follow(&mut all.sizes, row, place),
+                Statistic::Length(rows) => follow(&mut all.lengths, rows, place),
+                Statistic::Drift(drift) => follow(&mut all.drifts, drift, place),
+                Statistic::Closing(contact) => follow(&mut all.closings, contact, place),
+                Statistic::Dashpots(matrix, rows) => {
+                    follow(&mut all.dashpots, (matrix, rows), place);
+                }
+            }
+        }
+        all
+    }
+
+    /// Begins a run whose masses do not stand at their heights.
+    pub(super) fn start(&self, state: &State, peaks: &mut [Peak]) {
+        for own in &self.sizes {
+            peaks[own.place].widen(own.number.value(&state.displacement));
+        }
+    }
+
+    /// Stores what numbers are at the start of a step.
+    pub(super) fn before_step(&mut self, system: &System, state: &State, grounds: &RunGrounds<'_>) {
+        let (u, v) = (&state.displacement[..], &state.velocity[..]);
+        for own in &mut self.displacements {
+            own.then = (u[own.number], v[own.number]);
+        }
+        for own in self.extremes.iter_mut().chain(&mut self.sizes) {
+            own.then = (own.number.value(u), own.number.value(v));
+        }
+        for own in &mut self.closings {
+            own.then = closing(system, own.number, state, grounds);
+        }
+        for own in &mut self.lengths {
+            own.then = square(&own.number, u, v);
+        }
+        for own in &mut self.dashpots {
+            let [x, turn] = &own.number.1;
+            own.then = (x.value(u), turn.value(u));
+        }
+    }
+
+    /// Takes in a step \[s\] that ended in a state.
+    pub(super) fn after_step(
+        &self,
+        system: &System,
+        state: &State,
+        grounds: &RunGrounds<'_>,
+        peaks: &mut [Peak],
+        step: f64,
+    ) {
+        let start = state.time - step;
+        let (u, v) = (&state.displacement[..], &state.velocity[..]);
+        for own in &self.displacements {
+            let now = (u[own.number], v[own.number]);
+            take_extremes(&mut peaks[own.place], [own.then, now], start, step);
+        }
+        for own in &self.extremes {
+            let now = (own.number.value(u), own.number.value(v));
+            take_extremes(&mut peaks[own.place], [own.then, now], start, step);
+        }
+        for own in &self.sizes {
+            let now = (own.number.value(u), own.number.value(v));
+            for sign in [1.0, -1.0] {
+                let [then, now] = [own.then, now].map(|(u, v)| (sign * u, sign * v));
+                let greatest = greatest_in_step(then, now, start, step);
+                let peak = &mut peaks[own.place].greatest.value;
+                *peak = peak.max(greatest.value);
+            }
+        }
+        for own in &self.drifts {
+            let Drift {
+                above,
+                below,
+                turned,
+                height,
+            } = own.number;
+            let below = below.map_or(0.0, |dof| u[dof]);
+            let turned = turned.map_or(0.0, |dof| u[dof]);
+            peaks[own.place].widen((u[above] - below) / height + turned);
+        }
+        for own in &self.closings {
+            let now = closing(system, own.number, state, grounds);
+            raise(peaks, own, now, start, step);
+        }
+        for own in &self.lengths {
+            raise(peaks, own, square(&own.number, u, v), start, step);
+        }
+        for own in &self.dashpots {
+            let ([uu, ut, tt], rows) = &own.number;
+            let [x, turn] = rows.each_ref().map(|row| row.value(u));
+            let (x, turn) = (x - own.then.0, turn - own.then.1);
+            let taken = uu * x * x + 2.0 * ut * x * turn + tt * turn * turn;
+            peaks[own.place].greatest.value += taken / step;
+        }
+    }
+
+    /// Ends a run: lengths were followed as squares.
+    pub(super) fn finish(&self, peaks: &mut [Peak]) {
+        let mut places: Vec<usize> = self.lengths.iter().map(|own| own.place).collect();
+        places.dedup();
+        for place in places {
+            let greatest = &mut peaks[place].greatest.value;
+            *greatest = greatest.max(0.0).sqrt();
+        }
+    }
+}
+
+fn follow<T>(list: &mut Vec<Followed<T>>, number: T, place: usize) {
+    list.push(Followed {
+        number,
+        place,
+        then: (0.0, 0.0),
+    });
+}
+
+#[inline]
+fn raise<T>(peaks: &mut [Peak], own: &Followed<T>, now: Motion, start: f64, step: f64) {
+    let greatest = greatest_in_step(own.then, now, start, step);
+    let peak = &mut peaks[own.place].greatest;
+    if greatest.value > peak.value {
+        *peak = greatest;
+    }
+}
+
+/// Closing of a contact, under which grounds may move apart.
+#[inline]
+fn closing(system: &System, contact: usize, state: &State, grounds: &RunGrounds<'_>) -> Motion {
+    let ports = &system.contacts[contact].ports;
+    let [moved, rate, _] = grounds.closing(contact, 0);
+    (
+        ports.closing(&state.displacement) + moved,
+        ports.closing(&state.velocity) + rate,
+    )
+}
+
+/// |u|² of a point and its rate.
+#[inline]
+fn square(rows: &[Row; 2], u: &[f64], v: &[f64]) -> Motion {
+    let [x, y] = rows.each_ref().map(|row| row.value(u));
+    let [x_rate, y_rate] = rows.each_ref().map(|row| row.value(v));
+    (x * x + y * y, 2.0 * (x * x_rate + y * y_rate))
+}
