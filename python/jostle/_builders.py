@@ -455,7 +455,8 @@ class SpaceFrame(Part):
 class Given(Part):
     """A building by the matrices of another program, or by its modes. It is elastic.
 
-    By matrices, give ``matrices`` and ``ports``; by modes, ``mass``, ``periods`` and ``shapes``.
+    By matrices, give ``matrices`` and ``ports``; by modes, ``mass``, ``periods`` and ``shapes``. With a ``plan`` it moves in both
+    directions and turns.
 
     Args:
         name: name of the building, used by gaps and links; ``"B1"``, ``"B2"``, … by default.
@@ -463,7 +464,14 @@ class Given(Part):
             ``"stiffness"`` and ``"mass"`` and, where wanted, ``"damping"``, ``"influence"`` and ``"heights"``: arrays, lists
             or Matrix Market files. n rows each; the mass matrix is diagonal, and a list of n masses will do.
             ``"influence"`` is 1 for displacements that move with the ground and 0 for rotations and vertical ones.
-        ports: floors by name, ``{"1": {"dof": 1, "height": "3 m"}}``; ``dof`` counts rows from 1.
+        ports: floors by name, ``{"1": {"dof": 1, "height": "3 m"}}``; ``dof`` counts rows from 1. With a plan
+            ``{"1": {"dofs": [1, 2, 3], "at": ["4 m", "3 m"], "height": "3 m"}}``: rows of x, y and rotation of the point ``at``,
+            by default the middle of the plan; other rows carry no mass and are condensed.
+        plan: width along x and depth across, ``["20 m", "12 m"]``, corners counter-clockwise, or a list of ``{"size": …}`` or
+            ``{"corners": …}`` from the ground up; the mass matrix may then couple x, y and rotation of a floor.
+        at: where the origin of the plan stands on the site; in a row by default.
+        angle: angle from x of the site to x of the plan and of the matrices, counter-clockwise, 0 by default.
+        isolation: with a plan: bearings and a mat under the building, whose matrices are then those on a fixed base.
         units: force and length of the matrices, ``"N, m"`` by default; ``"kN, m"``, ``"N, mm"``, ``"kN, mm"``, ``"kip, ft"``,
             ``"kip, in"``.
         mass: floor masses from the ground up.
@@ -496,6 +504,10 @@ class Given(Part):
         matrices: str | os.PathLike[str] | Mapping[str, object] | None = None,
         ports: Mapping[str, Mapping[str, object]] | None = None,
         units: _MatrixUnits | None = None,
+        plan: Sequence[Any] | None = None,
+        at: Sequence[Quantity] | None = None,
+        angle: Quantity | None = None,
+        isolation: Table | None = None,
         mass: Quantities | None = None,
         periods: Quantities | None = None,
         shapes: npt.ArrayLike | None = None,
@@ -518,6 +530,10 @@ class Given(Part):
                 "matrices": matrices,
                 "ports": ports,
                 "units": units,
+                "plan": plan,
+                "at": at,
+                "angle": angle,
+                "isolation": isolation,
                 "mass": mass,
                 "periods": periods,
                 "shapes": shapes,

@@ -386,6 +386,19 @@ def test_given_buildings_are_those_of_their_matrices() -> None:
         Model([jostle.Given(matrices={**matrices, "stiffness": [[2, 1], [0, 2]]}, ports=ports)])
 
 
+def test_given_buildings_in_plan_turn() -> None:
+    m, j, k = 4e4, 4e4 * 100 / 12, 6e7
+    # A spring across, 1 m right of the middle.
+    matrices = {"stiffness": np.array([[k, 0, 0], [0, k, k], [0, k, 40 * k]]), "mass": np.diag([m, m, j])}
+    ports: dict[str, dict[str, object]] = {"1": {"dofs": [1, 2, 3], "height": "3 m"}}
+    given = jostle.Given("a", matrices=matrices, ports=ports, plan=["8 m", "6 m"], at=["0 m", "0 m"])
+    model = Model([given], motion=jostle.Motion.el_centro().lasting("2 s"))
+    assert model.description["buildings"][0]["kind"] == "given"
+    values = np.linalg.eigvals(np.diag([1 / m, 1 / m, 1 / j]) @ matrices["stiffness"])
+    expected = np.sort(2 * np.pi / np.sqrt(np.real(values)))[::-1]
+    assert jostle.modes(model)["a"].periods == pytest.approx(expected, rel=1e-10)
+
+
 def test_keywords_reach_the_model() -> None:
     hinges = {"rule": "bilinear", "yield": "20 mm", "post_yield": 0.05}
     common: dict[str, Any] = {"mass": "40 t", "stiffness": "10 MN/m", "storey_height": 3}

@@ -271,6 +271,10 @@ fn describe(
                 counted(tiers.floors.len(), "storey")
             ),
             Structure::Tiers(tiers) if tiers.space_frame.is_some() => space_frame(tiers),
+            Structure::Tiers(tiers) if tiers.matrices.is_some() => format!(
+                "given by matrices, {} in plan",
+                counted(tiers.floors.len(), "floor")
+            ),
             Structure::Tiers(tiers) => format!(
                 "shear building with a plan, {}",
                 counted(tiers.floors.len(), "storey")

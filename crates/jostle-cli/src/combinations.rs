@@ -55,7 +55,7 @@ const USUAL: Feature = Feature {
     then: Then::Plan,
 };
 
-const KINDS: [Kind; 6] = [
+const KINDS: [Kind; 7] = [
     Kind {
         name: "frame",
         keys: "kind = \"frame\"\nspans = [5, 5]\nconcrete = \"C30\"\ncolumn = { width = 0.5, depth = 0.5 }\nbeam = { width = 0.3, depth = 0.6 }\nbeam_mass = 4000\n",
@@ -92,16 +92,23 @@ const KINDS: [Kind; 6] = [
         tables: "",
         in_plan: true,
     },
+    Kind {
+        name: "given, plan",
+        keys: "kind = \"given\"\nplan = [10, 8]\nmatrices = { stiffness = STIFFNESS, mass = MASS }\nports = { \"1\" = { dofs = [1, 2, 3], height = FIRST }, \"2\" = { dofs = [4, 5, 6], height = SECOND } }\n",
+        tables: "",
+        in_plan: true,
+    },
 ];
 
 /// Yielding of every kind in its own words.
-const YIELDING: [&str; 6] = [
+const YIELDING: [&str; 7] = [
     "hinges = { rule = \"bilinear\", column = { yield = \"300 kN.m\", post_yield = 0.01 }, beam = { yield = \"200 kN.m\", post_yield = 0.01 } }\n",
     "hinges = { rule = \"bilinear\", yield = \"5 mm\", post_yield = 0.05 }\n",
     "hinges = { rule = \"bilinear\", yield = \"200 kN\", post_yield = 0.05 }\n",
     "hinges = { rule = \"bilinear\", x = { yield = \"5 mm\", post_yield = 0.05 }, y = { yield = \"5 mm\", post_yield = 0.05 } }\n",
     "",
     "hinges = { rule = \"bilinear\", column = { yield = \"300 kN.m\", post_yield = 0.01 }, beam = { yield = \"200 kN.m\", post_yield = 0.01 } }\n",
+    "hinges = { rule = \"bilinear\", x = { yield = \"5 mm\", post_yield = 0.05 }, y = { yield = \"5 mm\", post_yield = 0.05 } }\n",
 ];
 
 const OWN_WORDS: &str = "YIELDING";
@@ -220,13 +227,15 @@ fn model(kind: usize, feature: &Feature) -> String {
         };
         let heights = match own.name {
             // Its ports say how high its floors are.
-            "given" => String::new(),
+            "given" | "given, plan" => String::new(),
             _ => format!("storey_height = [{first:?}, 3.0]\n"),
         };
         let keys = own
             .keys
             .replace("FIRST", &format!("{first:?}"))
-            .replace("SECOND", &format!("{:?}", first + 3.0));
+            .replace("SECOND", &format!("{:?}", first + 3.0))
+            .replace("STIFFNESS", &in_plan_matrix([120e6, 60e6]))
+            .replace("MASS", &in_plan_matrix([40e3, 0.0]));
         let place = match own.in_plan && index == 1 {
             true => "at = [10.02, 0]\n",
             false => "",
@@ -295,6 +304,26 @@ fn model(kind: usize, feature: &Feature) -> String {
         }
     );
     text
+}
+
+/// Rows of a matrix over x, y and rotation of two floors: one value on the diagonal, and less the other between the floors; those of
+/// rotations are 14 m² times as great.
+fn in_plan_matrix([own, between]: [f64; 2]) -> String {
+    let entry = |row: usize, column: usize| {
+        let unit = if row % 3 == 2 { 14.0 } else { 1.0 };
+        match row.abs_diff(column) {
+            // The upper floor stands on one storey.
+            0 if row > 2 => unit * (own - between),
+            0 => unit * own,
+            3 => -unit * between,
+            _ => 0.0,
+        }
+    };
+    let row = |row: usize| {
+        let entries = (0..6).map(|column| format!("{:?}", entry(row, column)));
+        format!("[{}]", entries.collect::<Vec<_>>().join(", "))
+    };
+    format!("[{}]", (0..6).map(row).collect::<Vec<_>>().join(", "))
 }
 
 /// The first problem of a model in one line.

@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-use jostle::ModelFault;
 use jostle::linear::SparseSymmetric;
 use jostle::system::BuildingSystem;
+use jostle::{ModelFault, Structure, Tiers};
 
 use crate::Export;
 
@@ -22,12 +22,21 @@ pub struct BuildingMatrices {
 /// The matrices of every building.
 ///
 /// # Errors
-/// Buildings that yield, and those that start under their weight.
+/// Buildings that yield, those that start under their weight, and those in plan with masses apart from the floors.
 pub fn export(export: &Export<'_>) -> Result<Vec<BuildingMatrices>, Vec<ModelFault>> {
     let mut faults = Vec::new();
     let mut found = Vec::new();
     for (index, building) in export.system.structures().iter().enumerate() {
+        let tiers = match &export.model.buildings[index].structure {
+            Structure::Tiers(tiers) => Some(tiers),
+            Structure::Frame(_) | Structure::Shear(_) | Structure::Given(_) => None,
+        };
         let refused = [
+            (
+                tiers.is_some() && has_masses_apart(building),
+                "frame",
+                "has columns with mass between floors, which matrices of floors do not hold; give the mass to the floors",
+            ),
             (
                 !building.equations.springs.is_empty(),
                 "hinges",
@@ -55,7 +64,7 @@ pub fn export(export: &Export<'_>) -> Result<Vec<BuildingMatrices>, Vec<ModelFau
             problem: (*problem).to_owned(),
         }));
         if refused.is_empty() {
-            found.push(of_building(building));
+            found.push(of_building(building, tiers));
         }
     }
     if faults.is_empty() {
@@ -65,7 +74,24 @@ pub fn export(export: &Export<'_>) -> Result<Vec<BuildingMatrices>, Vec<ModelFau
     }
 }
 
-fn of_building(building: &BuildingSystem) -> BuildingMatrices {
+/// Displacements along x and across and rotation of a floor in plan.
+fn dofs_in_plan(building: &BuildingSystem, floor: usize) -> [usize; 3] {
+    let floors = building.floors.len();
+    // Tracks count from the first building.
+    [0, 1, 2].map(|component| building.tracks[component * floors + floor].dof - building.offset)
+}
+
+/// Whether a building in plan has masses that are not those of a floor, or that move one way alone.
+fn has_masses_apart(building: &BuildingSystem) -> bool {
+    let mass = &building.equations.mass;
+    let floors: Vec<[usize; 3]> = (0..building.floors.len())
+        .map(|floor| dofs_in_plan(building, floor))
+        .collect();
+    let mut others = (0..mass.len()).filter(|dof| floors.iter().all(|own| !own.contains(dof)));
+    others.any(|dof| mass[dof] > 0.0) || floors.iter().any(|[x, y, _]| mass[*x] != mass[*y])
+}
+
+fn of_building(building: &BuildingSystem, tiers: Option<&Tiers>) -> BuildingMatrices {
     let equations = &building.equations;
     let n = equations.len();
     let mut stiffness = full(&equations.stiffness, n);
@@ -93,9 +119,12 @@ fn of_building(building: &BuildingSystem) -> BuildingMatrices {
     let mut arrays = vec![
         ("K", vec![n, n], stiffness),
         ("M", vec![n], equations.mass.clone()),
-        ("r", vec![n], influence),
-        ("h", vec![n], heights),
     ];
+    match tiers {
+        // Ports say it.
+        Some(tiers) => block.push_str(&plans(tiers)),
+        None => arrays.extend([("r", vec![n], influence), ("h", vec![n], heights)]),
+    }
     // Writing to a string cannot fail.
     match building.modal_damping {
         Some(ratio) => {
@@ -105,11 +134,17 @@ fn of_building(building: &BuildingSystem) -> BuildingMatrices {
     }
     block.push_str("\n[building.ports]\n");
     for (floor, (dof, place)) in building.floor_dofs.iter().zip(&building.floors).enumerate() {
+        let dofs = match (tiers, building.discretization.centres.get(floor)) {
+            (Some(_), Some(centre)) => {
+                let dofs = dofs_in_plan(building, floor).map(|dof| dof + 1);
+                format!("dofs = {dofs:?}, at = {}", point(centre))
+            }
+            _ => format!("dof = {}", dof + 1),
+        };
         let _ = writeln!(
             block,
-            "\"{}\" = {{ dof = {}, height = \"{} m\" }}",
+            "\"{}\" = {{ {dofs}, height = \"{} m\" }}",
             floor + 1,
-            dof + 1,
             // Sums of storey heights have rounding errors.
             (place.height * 1e9).round() / 1e9
         );
@@ -119,6 +154,23 @@ fn of_building(building: &BuildingSystem) -> BuildingMatrices {
         arrays,
         block,
     }
+}
+
+/// A point of the site in a model file.
+fn point([x, y]: &[f64; 2]) -> String {
+    format!("[\"{x:?} m\", \"{y:?} m\"]")
+}
+
+/// Where a building in plan stands, and its floors.
+fn plans(tiers: &Tiers) -> String {
+    let plans = tiers.floors.iter().map(|floor| {
+        let corners: Vec<String> = floor.plan.iter().map(point).collect();
+        format!("  {{ corners = [{}] }},\n", corners.join(", "))
+    });
+    format!(
+        "at = [\"0 m\", \"0 m\"]\nplan = [\n{}]\n",
+        plans.collect::<String>()
+    )
 }
 
 /// A symmetric matrix row by row.

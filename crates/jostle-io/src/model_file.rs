@@ -15,6 +15,7 @@ mod floor_spectra;
 mod frame;
 mod gap;
 mod given;
+mod given_in_plan;
 mod grounds;
 mod hinges;
 mod infill;

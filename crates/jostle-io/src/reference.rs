@@ -82,7 +82,7 @@ const TABLES: &[(Section, &str, &str)] = &[
     (
         Section::Given,
         "`[[building]]` with `kind = \"given\"`",
-        "By matrices and ports, or by mass, periods and shapes; see [From ETABS to jostle](how-to/from-etabs.md).",
+        "By matrices and ports, or by mass, periods and shapes; with a plan by matrices over x, y and rotation of every floor. See [From ETABS to jostle](how-to/from-etabs.md).",
     ),
     (Section::Matrices, "`matrices` of a given building", ""),
     (Section::Port, "`ports` of a given building, each", ""),

@@ -14,6 +14,7 @@ pub(crate) fn describe(model: &Model, system: &System) -> Value {
             Structure::Given(_) => ("given", Vec::new()),
             Structure::Tiers(tiers) if !tiers.frames.is_empty() => ("frame", Vec::new()),
             Structure::Tiers(tiers) if tiers.space_frame.is_some() => ("space-frame", Vec::new()),
+            Structure::Tiers(tiers) if tiers.matrices.is_some() => ("given", Vec::new()),
             Structure::Tiers(_) => ("shear", Vec::new()),
         };
         let periods: Vec<f64> = assembled

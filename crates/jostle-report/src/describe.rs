@@ -255,6 +255,10 @@ fn tiers_facts(tiers: &jostle::Tiers, facts: &mut Facts) {
             message::columns_and_beams_count(columns, beams),
         ));
     }
+    if let Some(matrices) = &tiers.matrices {
+        let size = matrices.stiffness.len();
+        facts.push((message::stiffness(), message::given_as_a_matrix(size)));
+    }
     // Before anything yields.
     let storeys = (0..tiers.floors.len()).filter_map(|storey| tiers.initial_storey(storey));
     let storeys: Vec<jostle::TierStorey> = storeys.collect();

@@ -13,6 +13,7 @@ pub mod direct_steps;
 pub mod document;
 pub mod frames;
 pub mod free_bodies;
+pub mod given_in_plan;
 pub mod ground;
 pub mod harmonic;
 pub mod links;
@@ -64,7 +65,7 @@ pub struct Family {
 type Make = fn(Extent) -> Vec<Row>;
 
 /// Title, explanation and rows of every family.
-const FAMILIES: [(&str, &str, Make); 25] = [
+const FAMILIES: [(&str, &str, Make); 26] = [
     (
         "Closed forms",
         "Statics, frequencies, damping coefficients and single Newmark steps against formulas and an independent \
@@ -114,6 +115,12 @@ const FAMILIES: [(&str, &str, Make); 25] = [
          deformation. Expected values: members of six degrees of freedom assembled by an independent program, whose periods and \
          displacements agree with OpenSees (elasticBeamColumn, ElasticTimoshenkoBeam, rigidDiaphragm) to 2·10⁻¹⁴.",
         |_| space_frames::rows(),
+    ),
+    (
+        "Matrices of floors in space",
+        "An eccentric frame of two storeys with rigid diaphragms given by the K and M of OpenSees: with its mass at the retained \
+         nodes, apart from them, and with all displacements of its joints. Expected values: eigenvalues of OpenSees (fullGenLapack).",
+        |_| given_in_plan::rows(),
     ),
     (
         "Free floors in space",

@@ -191,6 +191,96 @@ fn buildings_given_by_their_matrices_have_the_same_numbers() {
     );
 }
 
+/// A space frame and storeys with a plan, and the same two read from their matrices.
+#[test]
+fn buildings_in_space_given_by_their_matrices_have_the_same_numbers() {
+    let folder = folder();
+    let before = r#"
+[motion]
+record = "el-centro"
+pga = "0.4 g"
+angle = "25 deg"
+duration = "5 s"
+[analysis]
+solver = "modal"
+step = "2 ms"
+contact_step = "0.2 ms"
+"#;
+    let buildings = r#"
+[[building]]
+name = "A"
+kind = "space-frame"
+lines_x = ["0 m", "6 m", "11 m"]
+lines_y = ["0 m", "5 m"]
+storeys = 2
+mass = "60 t"
+mass_centre = ["5.2 m", "2.4 m"]
+elastic_modulus = "30 GPa"
+column = { size = ["0.4 m", "0.4 m"] }
+beam_x = { width = "0.3 m", depth = "0.6 m" }
+beam_y = { width = "0.3 m", depth = "0.5 m" }
+[[building]]
+name = "B"
+kind = "shear"
+storeys = 2
+plan = ["7 m", "5 m"]
+mass = "50 t"
+stiffness = { x = "150 MN/m", y = "90 MN/m" }
+eccentricity = ["0.7 m", "0.4 m"]
+"#;
+    let gap = "\n[[gap]]\nbetween = [\"A\", \"B\"]\nwidth = \"12 mm\"\nlaw = \"kelvin\"\nstiffness = \"300 MN/m\"\nrestitution = 0.65\n";
+    let write = |name: &str, text: &str| {
+        std::fs::write(folder.path().join(name), text).expect("a file");
+    };
+    write("members.toml", &format!("{before}{buildings}{gap}"));
+    let arguments = ["export", "members.toml", "--to", "matrices", "-o", "."];
+    let output = jostle(folder.path(), &arguments);
+    assert!(output.status.success(), "{}", complained(&output));
+    let blocks = std::fs::read_to_string(folder.path().join("buildings.toml"));
+    let blocks = blocks.expect("it is there");
+    assert!(blocks.contains("dofs = [") && blocks.contains("corners"));
+    write("given.toml", &format!("{before}{blocks}{gap}"));
+    let run = |model: &str| {
+        let output = jostle(folder.path(), &["run", model, "--json"]);
+        assert!(output.status.success(), "{}", complained(&output));
+        let summary: serde_json::Value = serde_json::from_str(&printed(&output)).expect("JSON");
+        let mut found = Vec::new();
+        for part in ["buildings", "gaps"] {
+            numbers(&summary[part], part, &mut found);
+        }
+        found
+    };
+    let (expected, found) = (run("members.toml"), run("given.toml"));
+    assert!(found.len() > 100, "{}", found.len());
+    let impacts = expected
+        .iter()
+        .find(|(path, _)| path == "gaps[0].impact_count");
+    assert!(impacts.is_some_and(|(_, count)| *count > 0.0));
+    for (path, expected) in &expected {
+        let same = found.iter().find(|(other, _)| other == path);
+        let (_, found) = same.unwrap_or_else(|| panic!("{path}"));
+        let scale = expected.abs().max(1e-6);
+        assert!(
+            (found - expected).abs() <= 1e-8 * scale,
+            "{path}: {found} for {expected}"
+        );
+    }
+    let output = jostle(folder.path(), &["check", "given.toml"]);
+    assert!(printed(&output).contains("given by matrices, 2 floors in plan"));
+    let output = jostle(
+        folder.path(),
+        &[
+            "export",
+            "given.toml",
+            "--to",
+            "openseespy",
+            "-o",
+            "given.py",
+        ],
+    );
+    assert!(complained(&output).contains("building[0].matrices"));
+}
+
 #[test]
 fn faults_of_matrices_name_line_and_remedy() {
     let folder = folder();

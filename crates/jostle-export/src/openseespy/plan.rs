@@ -45,6 +45,12 @@ impl Script<'_> {
                 "frames at lines of a plan are not exported yet; give stiffness or [[building.element]] instead",
             );
         }
+        if tiers.matrices.is_some() {
+            return refuse(
+                ".matrices",
+                "of floors in plan are not exported to OpenSees yet; write --to matrices, or export the model from which they come",
+            );
+        }
         let title = format!("    # {}\n", comment(&building.name));
         for table in [
             &mut self.nodes,

@@ -6,7 +6,9 @@ use jostle::{Base, Building, Damping, Gravity, Model, PlanPoint, ProportionalDam
 
 use super::damper::{self, Damper};
 use super::reinforced::{self, ReinforcedMember};
-use super::{codes, frame, given, hinges, isolation, plan, shear, shear_failure, soil};
+use super::{
+    codes, frame, given, given_in_plan, hinges, isolation, plan, shear, shear_failure, soil,
+};
 use crate::files::Files;
 use crate::keys::{BUILDING_KINDS, Section};
 use crate::quantity::Dimension;
@@ -189,6 +191,12 @@ fn read(
             Structure::Shear(shear::read(reader, &view))
         }
         Kind::Frame => Structure::Frame(frame::read(reader, &view)),
+        Kind::Given if view.has("plan") => {
+            let read = given_in_plan::read(reader, &view, files);
+            damped = read.damping;
+            *at = read.given.at;
+            Structure::Tiers(read.given.tiers)
+        }
         Kind::Given => {
             let read = given::read(reader, &view, files);
             damped = read.damping;
@@ -216,6 +224,8 @@ fn read(
         };
         building.base.isolation = isolation::read(reader, &view, places);
         building.base.foundation = soil::read_foundation(reader, &view);
+    } else if let Structure::Tiers(tiers) = &mut building.structure {
+        building.base.isolation = isolation::read(reader, &view, Some(&mut tiers.bearings));
     }
     let Base {
         isolation,

@@ -1,6 +1,7 @@
 //! `kind = "given"`: a building by the matrices of another program, or by its modes.
 
 use jostle::linear::sort_by;
+use jostle::model::MatrixEntry;
 use jostle::{Damping, Given, Model, Structure};
 
 use super::building::{per_storey, storeys};
@@ -23,9 +24,19 @@ const UNITS: [[f64; 2]; MATRIX_UNITS.len()] = [
 ];
 
 /// A building, and its damping if its matrices say it.
-pub(super) struct Read {
-    pub(super) given: Given,
+pub(super) struct Read<T = Given> {
+    pub(super) given: T,
     pub(super) damping: Option<Damping>,
+}
+
+/// What a file says of matrices.
+pub(super) struct Stated<'n> {
+    /// The field that names them.
+    pub(super) field: Field<'n>,
+    /// `None` after a fault.
+    pub(super) matrices: Option<Matrices>,
+    /// Factors from their units to SI: of a force per length and a mass alike, and of a length.
+    pub(super) units: [f64; 2],
 }
 
 /// Reads the keys of a given building; after a fault, harmless values are used.
@@ -46,6 +57,31 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, files: &Files) -> R
 }
 
 fn from_matrices(reader: &mut Reader<'_>, view: &View<'_>, files: &Files) -> Option<Read> {
+    for key in ["at", "angle", "isolation"] {
+        if let Some(field) = reader.get(view, key) {
+            *reader.bad(&field, "needs a plan") =
+                Some("add plan = [\"20 m\", \"12 m\"], or corners, and dofs to the ports".into());
+        }
+    }
+    let stated = read_stated(reader, view, files)?;
+    let example = "add ports = { \"1\" = { dof = 1, height = \"3 m\" }, … }, with the displacement of every floor, counted from 1";
+    let ports = read_ports(reader, view, example, read_port);
+    let (matrices, ports) = (stated.matrices?, ports?);
+    match assemble(&matrices, &ports, stated.units) {
+        Ok(read) => Some(read),
+        Err(problem) => {
+            reader.bad(&stated.field, format!("the matrices: {problem}"));
+            None
+        }
+    }
+}
+
+/// What a file says of the matrices of a building, with or without a plan.
+pub(super) fn read_stated<'n>(
+    reader: &mut Reader<'_>,
+    view: &View<'n>,
+    files: &Files,
+) -> Option<Stated<'n>> {
     for key in [
         "mass",
         "remainder_period",
@@ -79,25 +115,11 @@ fn from_matrices(reader: &mut Reader<'_>, view: &View<'_>, files: &Files) -> Opt
         return None;
     };
     let matrices = read_matrices(reader, &field, files);
-    let ports = match reader.get(view, "ports") {
-        Some(ports) => read_ports(reader, &ports),
-        None => {
-            reader.missing(
-                view,
-                "ports",
-                "add ports = { \"1\" = { dof = 1, height = \"3 m\" }, … }, with the displacement of every floor, counted from 1",
-            );
-            None
-        }
-    };
-    let (matrices, ports) = (matrices?, ports?);
-    match assemble(&matrices, &ports, UNITS[unit]) {
-        Ok(read) => Some(read),
-        Err(problem) => {
-            reader.bad(&field, format!("the matrices: {problem}"));
-            None
-        }
-    }
+    Some(Stated {
+        field,
+        matrices,
+        units: UNITS[unit],
+    })
 }
 
 /// One file for all matrices, one for each, or lists of numbers.
@@ -167,15 +189,25 @@ fn read_lists(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Matrix> {
     sound.then_some(matrix)
 }
 
-/// A floor: its name in the file, its displacement from 0 and its height \[m\].
-struct Port {
-    name: String,
-    dof: usize,
-    height: f64,
+/// A floor: its name in the file, its displacement from 0, or what moves it, and its height \[m\].
+pub(super) struct Port<T = usize> {
+    pub(super) name: String,
+    pub(super) dof: T,
+    pub(super) height: f64,
 }
 
 /// Floors from the ground up.
-fn read_ports(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Vec<Port>> {
+pub(super) fn read_ports<'n, T>(
+    reader: &mut Reader<'_>,
+    view: &View<'n>,
+    example: &str,
+    read_port: impl Fn(&mut Reader<'_>, &View<'n>) -> Option<T>,
+) -> Option<Vec<Port<T>>> {
+    let Some(field) = reader.get(view, "ports") else {
+        reader.missing(view, "ports", example);
+        return None;
+    };
+    let field = &field;
     let Some(entries) = field.named_entries() else {
         let found = field.node.describe();
         *reader.bad(field, format!("expected a table of floors, found {found}")) =
@@ -185,7 +217,15 @@ fn read_ports(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Vec<Port>> {
     let mut ports = Vec::with_capacity(entries.len());
     let mut sound = true;
     for (name, entry) in &entries {
-        let port = read_port(reader, name, entry);
+        let port = reader.open(entry, &[Section::Port]).and_then(|view| {
+            let dof = read_port(reader, &view);
+            let height = read_height(reader, &view);
+            Some(Port {
+                name: (*name).to_owned(),
+                dof: dof?,
+                height: height?,
+            })
+        });
         sound &= port.is_some();
         ports.extend(port);
     }
@@ -218,33 +258,59 @@ fn read_ports(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Vec<Port>> {
     (sound && !ports.is_empty()).then_some(ports)
 }
 
-fn read_port(reader: &mut Reader<'_>, name: &str, entry: &Field<'_>) -> Option<Port> {
-    let view = reader.open(entry, &[Section::Port])?;
-    let dof = match reader.get(&view, "dof") {
-        Some(field) => match reader.count(&field) {
-            Some(0) => {
-                reader.bad(&field, "displacements count from 1");
-                None
-            }
-            count => count,
-        },
+/// Its displacement, from 0.
+fn read_port(reader: &mut Reader<'_>, view: &View<'_>) -> Option<usize> {
+    for key in ["dofs", "at"] {
+        if let Some(field) = reader.get(view, key) {
+            *reader.bad(&field, "needs a plan") = Some(
+                "add plan = [\"20 m\", \"12 m\"] to the building, or write dof = 1, the row of its horizontal displacement".into(),
+            );
+            return None;
+        }
+    }
+    match reader.get(view, "dof") {
+        Some(field) => read_dof(reader, &field),
         None => {
-            reader.missing(&view, "dof", "add dof = 1, the row of its horizontal displacement in the matrices, counted from 1");
+            reader.missing(view, "dof", "add dof = 1, the row of its horizontal displacement in the matrices, counted from 1");
             None
         }
-    };
-    let height = match reader.get(&view, "height") {
-        Some(field) => reader.positive(&field, Dimension::Length),
-        None => {
-            reader.missing(&view, "height", "add height = \"3 m\", above the base");
+    }
+}
+
+/// A displacement, from 0.
+pub(super) fn read_dof(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<usize> {
+    match reader.count(field)? {
+        0 => {
+            reader.bad(field, "displacements count from 1");
             None
         }
+        count => Some(count - 1),
+    }
+}
+
+fn read_height(reader: &mut Reader<'_>, view: &View<'_>) -> Option<f64> {
+    let Some(field) = reader.get(view, "height") else {
+        reader.missing(view, "height", "add height = \"3 m\", above the base");
+        return None;
     };
-    Some(Port {
-        name: name.to_owned(),
-        dof: dof? - 1,
-        height: height?,
-    })
+    reader.positive(&field, Dimension::Length)
+}
+
+/// The stiffness matrix, or the inverse of a flexibility matrix.
+///
+/// # Errors
+/// The problem in words.
+pub(super) fn stiffness_of(matrices: &Matrices) -> Result<std::borrow::Cow<'_, Matrix>, String> {
+    match (&matrices.stiffness, &matrices.flexibility) {
+        (Some(_), Some(_)) => Err("have both K and F, its inverse; keep one of them".into()),
+        (Some(stiffness), None) => Ok(std::borrow::Cow::Borrowed(stiffness)),
+        // In units of the file: one over those of K.
+        (None, Some(flexibility)) => {
+            let inverse = flexibility.inverse().map_err(|p| format!("F {p}"))?;
+            Ok(std::borrow::Cow::Owned(inverse))
+        }
+        (None, None) => Err("have no stiffness matrix K, nor its inverse F".into()),
+    }
 }
 
 /// The building of matrices in units with these factors.
@@ -255,16 +321,7 @@ fn assemble(
 ) -> Result<Read, String> {
     let named = |name: &str, problem: String| format!("{name} {problem}");
     let missing = |name: &str| format!("have no {name}");
-    let of_flexibility = match &matrices.flexibility {
-        Some(_) if matrices.stiffness.is_some() => {
-            return Err("have both K and F, its inverse; keep one of them".into());
-        }
-        // In units of the file: one over those of K.
-        Some(flexibility) => Some(flexibility.inverse().map_err(|p| named("F", p))?),
-        None => None,
-    };
-    let stiffness = of_flexibility.as_ref().or(matrices.stiffness.as_ref());
-    let stiffness = stiffness.ok_or_else(|| missing("stiffness matrix K, nor its inverse F"))?;
+    let stiffness = stiffness_of(matrices)?;
     let mass = matrices
         .mass
         .as_ref()
@@ -324,7 +381,10 @@ fn assemble(
         .map(|port| port.height - std::mem::replace(&mut below, port.height))
         .collect();
     let rayleigh = (!damping.is_empty())
-        .then(|| rayleigh(&mass, &stiffness, &damping))
+        .then(|| {
+            let mass: Vec<MatrixEntry> = mass.iter().enumerate().map(|(i, m)| (i, i, *m)).collect();
+            rayleigh(n, &mass, &stiffness, &damping)
+        })
         .flatten();
     let stated = !damping.is_empty();
     let [alpha, beta] = rayleigh.unwrap_or_default();
@@ -348,24 +408,23 @@ fn assemble(
 
 /// α and β if C = α M + β K, both ≥ 0: modes then stay apart, which is many times faster. Least squares of entries, each in
 /// parts of √(K_ii K_jj), so that units do not matter.
-fn rayleigh(
-    mass: &[f64],
-    stiffness: &[(usize, usize, f64)],
-    damping: &[(usize, usize, f64)],
+pub(super) fn rayleigh(
+    n: usize,
+    mass: &[MatrixEntry],
+    stiffness: &[MatrixEntry],
+    damping: &[MatrixEntry],
 ) -> Option<[f64; 2]> {
     /// Greatest remainder, in parts of the greatest entry.
     const REMAINDER: f64 = 1e-9;
-    let n = mass.len();
     let mut sizes = vec![0.0; n];
     for (row, column, value) in stiffness {
         if row == column {
             sizes[*row] = value.sqrt();
         }
     }
-    let mut entries: std::collections::BTreeMap<(usize, usize), [f64; 3]> = (0..n)
-        .map(|dof| ((dof, dof), [mass[dof], 0.0, 0.0]))
-        .collect();
-    for (place, list) in [(1, stiffness), (2, damping)] {
+    let mut entries: std::collections::BTreeMap<(usize, usize), [f64; 3]> =
+        std::collections::BTreeMap::new();
+    for (place, list) in [(0, mass), (1, stiffness), (2, damping)] {
         for (row, column, value) in list {
             entries.entry((*row, *column)).or_default()[place] += value;
         }

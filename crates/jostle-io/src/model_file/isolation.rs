@@ -22,7 +22,10 @@ pub(super) fn read(
     places: Option<&mut Vec<PlanPoint>>,
 ) -> Option<Isolation> {
     let field = reader.get(building, "isolation")?;
-    if let Some(base) = reader.get(building, "base") {
+    // Not a key of every building.
+    if building.has("base")
+        && let Some(base) = reader.get(building, "base")
+    {
         *reader.bad(&base, "cannot stand beside isolation") =
             Some("the bearings are the base; leave out base".into());
     }

@@ -172,7 +172,7 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, held_by: HeldBy) ->
             space_frame,
             yielding,
             element_names,
-            bearings: Vec::new(),
+            ..Tiers::default()
         },
         at,
     }
@@ -219,7 +219,7 @@ fn pairs(reader: &mut Reader<'_>, field: &Field<'_>, count: usize) -> Option<Vec
 }
 
 /// A plan for all floors, or a list of plans from the ground up, each a table with its size or its corners.
-fn read_plans(
+pub(super) fn read_plans(
     reader: &mut Reader<'_>,
     field: &Field<'_>,
     count: usize,

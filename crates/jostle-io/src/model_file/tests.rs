@@ -122,6 +122,14 @@ matrices = { stiffness = [[2.0]], mass = [1.0] }
 ports = { "1" = { dof = 1, height = 3 } }
 [[building]]
 kind = "given"
+plan = [1, 1]
+at = [0, 0]
+angle = 1
+isolation = { kind = "linear", stiffness = 1, mat_mass = 1 }
+matrices = { stiffness = [[2.0]], mass = [1.0] }
+ports = { "1" = { dofs = [1, 2, 3], at = [0, 0], height = 3 } }
+[[building]]
+kind = "given"
 mass = [1.0]
 periods = [1.0]
 shapes = [[1.0]]

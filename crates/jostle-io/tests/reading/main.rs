@@ -11,6 +11,7 @@ mod faults;
 mod fixture;
 mod formats;
 mod garbage;
+mod given_in_plan;
 mod grounds;
 mod hinges;
 mod layouts;

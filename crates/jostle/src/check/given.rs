@@ -2,7 +2,7 @@
 
 use super::{Faults, each};
 use crate::linear::sparse_cholesky::{NoPivot, Pattern, SparseFactor};
-use crate::model::{Base, Building, Given, MatrixEntry};
+use crate::model::{Base, Building, Given, MatrixEntry, Tiers, displacement_in_words};
 
 const MOST: usize = Given::MOST_DISPLACEMENTS;
 
@@ -54,14 +54,68 @@ pub(super) fn check_given(faults: &mut Faults, path: &str, given: &Given, buildi
     faults.require(building.base == Base::default(), at("base"), || {
         "is not possible for a building given by matrices; make the base part of its stiffness matrix".into()
     });
+    check_gravity(faults, path, building);
+}
+
+fn check_gravity(faults: &mut Faults, path: &str, building: &Building) {
     for (key, asked) in [
         ("gravity", building.gravity.preload),
         ("p_delta", building.gravity.p_delta),
     ] {
-        faults.require(!asked, at(key), || {
+        faults.require(!asked, format!("{path}.{key}"), || {
             "is not possible for a building given by matrices; make P-Delta part of its stiffness matrix".into()
         });
     }
+}
+
+/// Matrices over the floors of a building in plan.
+pub(super) fn check_floor_matrices(
+    faults: &mut Faults,
+    path: &str,
+    tiers: &Tiers,
+    building: &Building,
+) {
+    let Some(matrices) = &tiers.matrices else {
+        return;
+    };
+    let n = 3 * tiers.floors.len();
+    let at = |field: &str| format!("{path}.{field}");
+    faults.require((1..=MOST).contains(&n), at("matrices"), || {
+        format!(
+            "has {n} displacements of floors; between 3 and {MOST} are possible: leave out floors"
+        )
+    });
+    let before = faults.0.len();
+    for (field, rows) in [
+        ("stiffness", &matrices.stiffness),
+        ("damping", &matrices.damping),
+    ] {
+        let none = field == "damping" && rows.is_empty();
+        let fits = rows.len() == n
+            && rows
+                .iter()
+                .enumerate()
+                .all(|(row, own)| own.len() == row + 1);
+        faults.require(fits || none, at(field), || {
+            format!("needs the lower triangle of a matrix of {n} rows, three for each floor")
+        });
+        let mut values = rows.iter().flatten();
+        faults.require(values.all(|value| value.is_finite()), at(field), || {
+            "must be finite".into()
+        });
+    }
+    if faults.0.len() == before
+        && let Some(place) = matrices.loose()
+    {
+        faults.add(
+            at("stiffness"),
+            format!(
+                "must be positive definite: {} can move without resistance; hold the base of the model before its matrices are written, and check signs and units of rotations",
+                displacement_in_words(place)
+            ),
+        );
+    }
+    check_gravity(faults, path, building);
 }
 
 fn check_floors(faults: &mut Faults, path: &str, given: &Given) {

@@ -1,6 +1,6 @@
 //! Faults of buildings with plans, and of gaps between them.
 
-use super::{Faults, each, plan_frames, space_frame};
+use super::{Faults, each, given, plan_frames, space_frame};
 use crate::contact::LawKind;
 use crate::interface::faces_of_gap;
 use crate::interface::plan_contacts::MOST_POINTS;
@@ -49,7 +49,8 @@ pub(super) fn check_tiers(faults: &mut Faults, path: &str, tiers: &Tiers, buildi
     let n = tiers.floors.len();
     let at = |field: &str| format!("{path}.{field}");
     faults.require(n >= 1, at("mass"), || "needs at least one floor".into());
-    let has_frames = !tiers.frames.is_empty() || tiers.space_frame.is_some();
+    let has_frames =
+        !tiers.frames.is_empty() || tiers.space_frame.is_some() || tiers.matrices.is_some();
     for (field, count) in [
         ("stiffness", tiers.storeys.len()),
         ("storey_height", tiers.storey_heights.len()),
@@ -77,8 +78,13 @@ pub(super) fn check_tiers(faults: &mut Faults, path: &str, tiers: &Tiers, buildi
             is_inside_hull(floor.centre, &floor.plan),
             of_floor("mass_centre"),
             || {
-                "lies outside the plan; measure it from the same origin as the corners of the plan"
-                    .into()
+                match &tiers.matrices {
+                    None => "lies outside the plan; measure it from the same origin as the corners of the plan".into(),
+                    Some(_) => format!(
+                        "lies outside the plan, at {:.3?} m by the mass matrix; check the place of the reference point (at of its port) and the signs of the entries between displacements and the rotation",
+                        floor.centre
+                    ),
+                }
             },
         );
         let reach = floor.plan.iter().map(|corner| {
@@ -135,6 +141,7 @@ pub(super) fn check_tiers(faults: &mut Faults, path: &str, tiers: &Tiers, buildi
     }
     plan_frames::check_plan_frames(faults, path, tiers, building);
     space_frame::check_space_frame(faults, path, tiers, building);
+    given::check_floor_matrices(faults, path, tiers, building);
     let base = Base {
         isolation: None,
         ..building.base

@@ -341,9 +341,7 @@ impl Hysteresis {
     #[must_use]
     pub fn initial_tangent(&self) -> f64 {
         match self.rule {
-            HysteresisRule::Stop { clearance, .. } if clearance == 0.0 => {
-                0.5 * self.backbone.initial()
-            }
+            HysteresisRule::Stop { clearance: 0.0, .. } => 0.5 * self.backbone.initial(),
             HysteresisRule::Stop { .. }
             | HysteresisRule::InPlan {
                 law: CircularLaw::Ring,

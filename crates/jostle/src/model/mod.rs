@@ -5,6 +5,7 @@
 
 mod capacity;
 mod diagonal;
+mod floor_matrices;
 mod gap;
 mod given;
 mod integrator;
@@ -26,6 +27,8 @@ pub use capacity::{
     CapacityLine, MemberCapacity, RotationLimits, RotationMeasure, RuleCapacity, ShearCapacity,
 };
 pub use diagonal::{Diagonal, DiagonalKind, DiagonalPlace, Rise};
+pub(crate) use floor_matrices::displacement_in_words;
+pub use floor_matrices::{FloorMatrices, GivenFloor, GivenInPlan};
 pub use gap::{FloorPairs, Gap, LEVEL_TOLERANCE, Level, PlanContact};
 pub use given::{Given, MatrixEntry};
 pub use integrator::Integrator;

@@ -1,7 +1,7 @@
 //! A building in space: floors that move in both horizontal directions and turn about a vertical axis.
 
 use super::plan_spring::PlanSpring;
-use super::{LumpedFloor, PlanFrame, STANDARD_GRAVITY, SpaceFrame};
+use super::{FloorMatrices, LumpedFloor, PlanFrame, STANDARD_GRAVITY, SpaceFrame};
 
 /// A point or a vector in plan: x along the row, y across it \[m\].
 pub type PlanPoint = [f64; 2];
@@ -35,7 +35,7 @@ pub type PlanPoint = [f64; 2];
 pub struct Tiers {
     /// Floors from the ground up.
     pub floors: Vec<Tier>,
-    /// Storeys from the ground up, as many as floors; none where frames alone, plane ones or a space frame, hold the floors.
+    /// Storeys from the ground up, as many as floors; none where frames alone, plane ones or a space frame, or matrices hold the floors.
     pub storeys: Vec<TierStorey>,
     /// Storey heights from the ground up, > 0 \[m\].
     pub storey_heights: Vec<f64>,
@@ -43,6 +43,8 @@ pub struct Tiers {
     pub frames: Vec<PlanFrame>,
     /// Space frame that holds the floors, beside the springs of the storeys.
     pub space_frame: Option<SpaceFrame>,
+    /// Stiffness and damping over the motions of all floors, as another program has them, beside all that holds the floors.
+    pub matrices: Option<FloorMatrices>,
     /// Springs that yield, which hold the floors beside these.
     pub yielding: Vec<PlanSpring>,
     /// Names of the columns and walls to which such springs belong, as far as they have one.

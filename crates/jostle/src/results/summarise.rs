@@ -212,9 +212,8 @@ fn hinge_summary(building: &BuildingSystem, outcome: &Outcome) -> HingeSummary {
     let all: Vec<SpringSummary> = springs_of(building, outcome)
         .into_iter()
         .filter(|spring| {
-            !places
-                .get(spring.index)
-                .is_some_and(|place| !place.is_hinge())
+            let place = places.get(spring.index);
+            place.is_none_or(SpringPlace::is_hinge)
         })
         .collect();
     let mut summary = HingeSummary {

@@ -10,7 +10,7 @@ const COMPONENTS: [usize; 3] = [X, Y, THETA];
 /// Matrices to which an entry may belong.
 const PARTS: [Part; 3] = [Part::Elastic, Part::Undamped, Part::Dashpot];
 
-/// A symmetric matrix over three displacements of every floor, in parts; block tridiagonal without a space frame.
+/// A symmetric matrix over three displacements of every floor, in parts; block tridiagonal without a space frame or given matrices.
 pub(super) struct PlanMatrix {
     rows: Vec<Vec<[f64; 3]>>,
 }
@@ -45,11 +45,57 @@ impl PlanMatrix {
         }
     }
 
-    /// Adds a lower triangle of stiffness over all displacements.
-    pub(super) fn add_stiffness(&mut self, triangle: &[Vec<f64>]) {
+    /// Adds a lower triangle over all displacements.
+    pub(super) fn add_triangle(&mut self, triangle: &[Vec<f64>], part: Part) {
         for (row, own) in self.rows.iter_mut().zip(triangle) {
             for (entry, value) in row.iter_mut().zip(own) {
-                entry[Part::Elastic as usize] += value;
+                entry[part as usize] += value;
+            }
+        }
+    }
+
+    /// Adds Bᵀ A B, with the lower triangle of A over the motions of floors relative to what they stand on. That is the first of all that
+    /// moves, if it is a mat, or else the ground, which leaves A. Nothing if A is empty.
+    pub(super) fn add_above(
+        &mut self,
+        triangle: &[Vec<f64>],
+        mat: Option<&LumpedFloor>,
+        floors: &[LumpedFloor],
+        part: Part,
+    ) {
+        let Some(mat) = mat.filter(|_| !triangle.is_empty()) else {
+            return self.add_triangle(triangle, part);
+        };
+        let at = |row: usize, column: usize| triangle[row.max(column)][row.min(column)];
+        let n = triangle.len();
+        // A R, R being how a mat that turns moves the floors above.
+        let carried = |row: usize, component: usize| -> f64 {
+            let of_floor = floors.iter().enumerate().map(|(index, floor)| {
+                let moved = motion_at(floor.tier.centre, mat.tier.centre);
+                let own = (0..3).map(|r| at(row, 3 * index + r) * moved[r][component]);
+                own.sum::<f64>()
+            });
+            of_floor.sum()
+        };
+        let taken: Vec<[f64; 3]> = (0..n)
+            .map(|row| [0, 1, 2].map(|c| carried(row, c)))
+            .collect();
+        for component in 0..3 {
+            for other in 0..=component {
+                let terms = floors.iter().enumerate().map(|(index, floor)| {
+                    let moved = motion_at(floor.tier.centre, mat.tier.centre);
+                    let own = (0..3).map(|r| moved[r][component] * taken[3 * index + r][other]);
+                    own.sum::<f64>()
+                });
+                self.rows[component][other][part as usize] += terms.sum::<f64>();
+            }
+        }
+        for (row, own) in triangle.iter().enumerate() {
+            for (component, value) in taken[row].iter().enumerate() {
+                self.rows[3 + row][component][part as usize] -= value;
+            }
+            for (column, value) in own.iter().enumerate() {
+                self.rows[3 + row][3 + column][part as usize] += value;
             }
         }
     }

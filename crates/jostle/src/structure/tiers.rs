@@ -72,9 +72,13 @@ pub(super) fn discretize_tiers(
     let yielding = tiers.space_frame.as_ref().filter(|own| own.may_yield());
     let condensed = elastic.and_then(|frame| {
         let (stiffness, own) = condense(frame, &tiers.storey_heights, mat.as_ref(), &lumped)?;
-        matrix.add_stiffness(&stiffness);
+        matrix.add_triangle(&stiffness, Part::Elastic);
         Some(Arc::new(own))
     });
+    if let Some(given) = &tiers.matrices {
+        matrix.add_above(&given.stiffness, mat.as_ref(), &lumped, Part::Elastic);
+        matrix.add_above(&given.damping, mat.as_ref(), &lumped, Part::Dashpot);
+    }
     let nodes: Vec<usize> = mat
         .iter()
         .map(|_| foot)

@@ -1,6 +1,6 @@
 //! Results of assembly that are not finite, with their cause.
 
-use crate::model::{Building, ModelFault, Structure};
+use crate::model::{Building, ModelFault, Structure, displacement_in_words};
 use crate::structure::MemberPlace;
 use crate::system::{BuildingSystem, System};
 
@@ -103,8 +103,18 @@ fn cause(building: &Building) -> String {
                     (MemberPlace::InSpace(member.place).to_string(), least)
                 })
             });
+            let given = tiers.matrices.iter().flat_map(|own| {
+                // Forces per displacement, not moments per rotation.
+                let rows = own.stiffness.iter().enumerate();
+                let rows = rows.filter(|(place, _)| place % 3 < 2);
+                rows.map(|(place, row)| (displacement_in_words(place), row[place]))
+            });
             (
-                storeys.chain(columns).chain(in_space).collect(),
+                storeys
+                    .chain(columns)
+                    .chain(in_space)
+                    .chain(given)
+                    .collect(),
                 floors
                     .map(|(i, floor)| (format!("floor {}", i + 1), floor.mass))
                     .collect(),

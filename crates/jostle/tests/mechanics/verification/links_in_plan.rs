@@ -23,7 +23,7 @@ fn in_plan(name: &str, x: f64, mass: f64, storey: &TierStorey) -> Building {
         name: name.to_owned(),
         structure: Structure::Tiers(Tiers {
             floors: vec![Tier::uniform(mass, plan).expect("an area"); STOREYS],
-            storeys: vec![storey.clone(); STOREYS],
+            storeys: vec![*storey; STOREYS],
             storey_heights: vec![3.0; STOREYS],
             ..Tiers::default()
         }),
