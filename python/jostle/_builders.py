@@ -658,6 +658,7 @@ class Link(Part):
         hinge: yielding: rule and corners, as ``{"rule": "bilinear", "yield": "120 kN", "post_yield": 0.05}``.
         slack: cable: lengthening at which it becomes taut, ≥ 0; 0 by default.
         gap: stopper: shortening at which it is touched, ≥ 0; 0 by default.
+        at: among buildings with a plan both ends on the site, ``[["10 m", "4 m"], ["10.1 m", "4 m"]]``; the force acts between them.
         **units: the same with units in names, as in ``damping_kn_s_m=500``.
 
     Raises:
@@ -681,6 +682,7 @@ class Link(Part):
         hinge: Table | None = None,
         slack: Quantity | None = None,
         gap: Quantity | None = None,
+        at: Sequence[Sequence[Quantity]] | None = None,
         **units: Unpack[LinkUnits],
     ) -> None:
         super().__init__(
@@ -697,6 +699,7 @@ class Link(Part):
                 "hinge": hinge,
                 "slack": slack,
                 "gap": gap,
+                "at": at,
             },
             units,
         )
