@@ -40,7 +40,7 @@ pub fn export(export: &Export<'_>) -> Result<Vec<BuildingMatrices>, Vec<ModelFau
             (
                 !building.equations.springs.is_empty(),
                 "hinges",
-                "yields; matrices are elastic: leave out its hinges",
+                "yields or lifts off; matrices are elastic: leave out hinges, braces that yield and infill panels",
             ),
             (
                 building.support.is_some(),

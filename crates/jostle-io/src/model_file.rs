@@ -16,6 +16,7 @@ mod frame;
 mod gap;
 mod given;
 mod given_in_plan;
+mod given_modes;
 mod grounds;
 mod hinges;
 mod infill;
@@ -619,7 +620,7 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, files: &Files) -> Option<Part
     }
     grounds::read_own(reader, &view, &mut motion, &model, files);
     shear_failure::add_heads(&mut model, reader, &view);
-    given::soften_contacts(&mut model, reader, &view);
+    given_modes::soften_contacts(&mut model, reader, &view);
     capacity::fill(&mut model, &capacity, &reinforced);
     Some(Parts {
         model,

@@ -16,7 +16,7 @@ pub(super) struct Bays<'a> {
 }
 
 /// Force per elongation of what stands in a bay, from its diagonal \[N/m; m\]; `None` after a fault.
-type Stiffness<'a> = dyn Fn(f64) -> Option<f64> + 'a;
+pub(super) type Stiffness<'a> = dyn Fn(f64) -> Option<f64> + 'a;
 
 /// Reads the braces of a frame.
 pub(super) fn read_all(reader: &mut Reader<'_>, view: &View<'_>, bays: Bays<'_>) -> Vec<Diagonal> {

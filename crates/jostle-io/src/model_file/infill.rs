@@ -3,7 +3,7 @@
 use jostle::hysteresis::Hysteresis;
 use jostle::{Diagonal, DiagonalKind, Rise};
 
-use super::brace::{Bays, add, places, tables};
+use super::brace::{Bays, Stiffness, add, places, tables};
 use crate::keys::Section;
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
@@ -35,20 +35,13 @@ fn read(reader: &mut Reader<'_>, entry: &Field<'_>, bays: Bays<'_>) -> Option<Ve
         ),
     ];
     let of_masonry = masonry.map(|(key, dimension, _)| number(key, dimension));
-    let mut struts = if let Some(stiffness) = stiffness {
+    let stiffness_of: &Stiffness<'_> = if let Some(stiffness) = stiffness {
         if let Some((key, ..)) = masonry.iter().find(|(key, ..)| view.has(key)) {
             let field = reader.get(&view, key)?;
             *reader.bad(&field, "and stiffness are both given") = Some("leave out stiffness, or modulus, thickness and width: it is their product over the diagonal of the bay".into());
             return None;
         }
-        places(
-            reader,
-            &view,
-            DiagonalKind::Infill,
-            &Rise::BOTH,
-            bays,
-            &|_| stiffness,
-        )?
+        &move |_| stiffness
     } else {
         for ((key, _, example), value) in masonry.into_iter().zip(&of_masonry) {
             if value.is_none() {
@@ -59,23 +52,12 @@ fn read(reader: &mut Reader<'_>, entry: &Field<'_>, bays: Bays<'_>) -> Option<Ve
                 );
             }
         }
-        let [
-            Some(Some(modulus)),
-            Some(Some(thickness)),
-            Some(Some(width)),
-        ] = of_masonry
-        else {
-            return None;
-        };
-        places(
-            reader,
-            &view,
-            DiagonalKind::Infill,
-            &Rise::BOTH,
-            bays,
-            &|length| Some(modulus * thickness * width / length),
-        )?
+        let [modulus, thickness, width] = of_masonry.map(Option::flatten);
+        let rigidity = modulus? * thickness? * width?;
+        &move |diagonal| Some(rigidity / diagonal)
     };
+    let kind = DiagonalKind::Infill;
+    let mut struts = places(reader, &view, kind, &Rise::BOTH, bays, stiffness_of)?;
     for strut in &mut struts {
         strut.hysteresis = Hysteresis::without_tension(strut.stiffness).ok();
     }

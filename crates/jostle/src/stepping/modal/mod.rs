@@ -68,7 +68,9 @@ pub fn refusals(system: &System, integrator: Integrator) -> Vec<String> {
     for building in &system.buildings {
         let name = &building.name;
         if !building.equations.springs.is_empty() {
-            reasons.push(format!("\"{name}\" can yield: leave out its hinges"));
+            reasons.push(format!(
+                "\"{name}\" can yield or lift off: leave out hinges, braces that yield and infill panels"
+            ));
         }
         if building.support.is_some() {
             reasons.push(format!(
