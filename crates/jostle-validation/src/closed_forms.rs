@@ -30,13 +30,8 @@ pub fn rows() -> Vec<Row> {
 }
 
 fn node(x: f64, y: f64, support: Support) -> Node {
-    Node {
-        x,
-        y,
-        mass: if support == Support::Fixed { 0.0 } else { 1.0 },
-        rotary_inertia: 0.0,
-        support,
-    }
+    let mass = if support == Support::Fixed { 0.0 } else { 1.0 };
+    Node::at(x, y).with_mass(mass).held(support)
 }
 
 fn member(from: usize, to: usize, flexural_rigidity: f64) -> Member {
@@ -270,10 +265,8 @@ fn equal_storeys(storeys: usize) -> Vec<Row> {
     let mut nodes = vec![node(0.0, 0.0, Support::Fixed)];
     let mut springs = Vec::new();
     for floor in 1..=storeys {
-        nodes.push(Node {
-            mass,
-            ..node(0.0, 3.0 * floor as f64, Support::Guided)
-        });
+        let at = Node::at(0.0, 3.0 * floor as f64);
+        nodes.push(at.with_mass(mass).held(Support::Guided));
         springs.push(Spring::elastic([floor - 1, floor], stiffness));
     }
     let tower = building("tower", nodes, Vec::new(), springs, (1..=storeys).collect());

@@ -305,12 +305,9 @@ fn block_case(source: &str, case: &Value) -> Vec<Row> {
     let stored = at(inputs, "/isolation");
     let (weight, mass) = (number(stored, "/weight_n"), number(inputs, "/mass_kg"));
     let law = friction(stored);
-    let node = |support: Support, mass: f64| Node {
-        x: 0.0,
-        y: if mass > 0.0 { 1.0 } else { 0.0 },
-        mass,
-        rotary_inertia: 0.0,
-        support,
+    let node = |support: Support, mass: f64| {
+        let at = Node::at(0.0, if mass > 0.0 { 1.0 } else { 0.0 });
+        at.with_mass(mass).held(support)
     };
     let slider = Hysteresis::sliding(
         number(stored, "/stick_stiffness_n_m"),

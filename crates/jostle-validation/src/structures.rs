@@ -24,13 +24,11 @@ const HEIGHT: f64 = 3.0;
 pub(crate) fn explicit_frame(name: &str, frame: &Value) -> BuildingSystem {
     let mut stick_model = StickModel::default();
     for node in list(frame, "/nodes") {
-        stick_model.nodes.push(Node {
-            x: number(node, "/x"),
-            y: number(node, "/y"),
-            mass: number(node, "/m"),
-            rotary_inertia: number(node, "/J"),
-            support: Support::Free,
-        });
+        let at = Node::at(number(node, "/x"), number(node, "/y"));
+        let heavy = at.with_mass(number(node, "/m"));
+        stick_model
+            .nodes
+            .push(heavy.with_rotary_inertia(number(node, "/J")));
     }
     for node in list(frame, "/fixed_nodes") {
         stick_model.nodes[index(node)].support = Support::Fixed;
@@ -79,13 +77,7 @@ fn index(value: &Value) -> usize {
 
 /// One mass \[kg\], on a spring \[N/m\] unless it is free.
 fn single_mass(name: &str, mass: f64, stiffness: Option<f64>) -> BuildingSystem {
-    let node = |y, mass, support| Node {
-        x: 0.0,
-        y,
-        mass,
-        rotary_inertia: 0.0,
-        support,
-    };
+    let node = |y, mass, support| Node::at(0.0, y).with_mass(mass).held(support);
     let stick_model = StickModel {
         nodes: vec![
             node(0.0, 0.0, Support::Fixed),

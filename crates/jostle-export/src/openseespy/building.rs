@@ -88,14 +88,14 @@ impl Script<'_> {
             let mass = if node.support == Support::Fixed {
                 0.0
             } else {
-                node.mass
+                node.inertia[0]
             };
             let _ = writeln!(
                 self.nodes,
                 "    ({tag}, {:?}, {:?}, {mass:?}, {:?}),",
                 rounded(node.x + self.places[index]),
                 rounded(node.y),
-                node.rotary_inertia,
+                node.inertia[2],
             );
             let fixed: Vec<&str> = (0..COMPONENTS)
                 .map(|component| {

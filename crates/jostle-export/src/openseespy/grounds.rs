@@ -45,7 +45,7 @@ impl Script<'_> {
                 if node.support == Support::Fixed {
                     continue;
                 }
-                let masses = [(1, node.mass), (2, node.mass), (6, node.rotary_inertia)];
+                let masses = [1, 2, 6].into_iter().zip(node.inertia);
                 let mut dashpots = Vec::new();
                 for (component, (direction, mass)) in masses.into_iter().enumerate() {
                     if mass != 0.0 && !is_held(sticks, number, component) {

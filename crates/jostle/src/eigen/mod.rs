@@ -70,7 +70,6 @@ impl Mode {
         );
         let across = along(&equations.driven_across);
         let turning = along(&equations.driven_turning);
-        let turns = equations.polar_mass;
         // Sign: positive participation along x, or across where that is greater.
         let norm = inner(&equations.mass, &shape, &shape).sqrt();
         let sign = if across.abs() > x.abs() { across } else { x };
@@ -79,15 +78,17 @@ impl Mode {
             *value *= scale;
         }
         let (x, y, total) = (x * scale, y * scale, equations.total_mass());
+        // Nothing of a building in one plane moves across or turns.
+        let ratio = |participation: f64, moved: f64| match moved > 0.0 {
+            true => (participation * scale).powi(2) / moved,
+            false => 0.0,
+        };
         Self {
             circular_frequency: squared_frequency.sqrt(),
             effective_mass_ratio_x: x * x / equations.moved_mass[0],
             effective_mass_ratio_y: y * y / total,
-            effective_mass_ratio_across: (across * scale).powi(2) / equations.moved_mass[1],
-            effective_mass_ratio_torsion: match equations.driven_turning.is_empty() {
-                true => 0.0,
-                false => (turning * scale).powi(2) / turns,
-            },
+            effective_mass_ratio_across: ratio(across, equations.moved_mass[1]),
+            effective_mass_ratio_torsion: ratio(turning, equations.polar_mass),
             participation: x,
             floors: building.floor_dofs.iter().map(|&dof| shape[dof]).collect(),
             shape,

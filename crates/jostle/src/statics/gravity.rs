@@ -207,7 +207,7 @@ fn hung_on_nodes(
     let mut hung: Vec<f64> = stick_model
         .nodes
         .iter()
-        .map(|node| node.mass * gravity)
+        .map(|node| node.inertia[Y] * gravity)
         .collect();
     let nodes = &stick_model.nodes;
     let beams = stick_model.members.iter();

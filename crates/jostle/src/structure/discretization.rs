@@ -140,7 +140,7 @@ impl Discretization {
         // One metre up, so that it has a drift ratio, which nobody asks for.
         let wall = stick_model.add_node(0.0, 1.0);
         stick_model.nodes[wall].support = Support::Guided;
-        stick_model.nodes[wall].mass = mass;
+        stick_model.nodes[wall].add_mass(mass);
         stick_model.springs.push(Spring {
             dashpot: damping,
             proportional_damping: ProportionalDamping::None,
@@ -164,7 +164,7 @@ impl Discretization {
         let (Some(mat), true) = (self.mat, alpha > 0.0) else {
             return;
         };
-        if self.stick_model.in_plan {
+        if self.stick_model.plan_mat.is_some() {
             self.damp_relative_to_mat_in_plan(alpha);
             return;
         }
@@ -212,7 +212,7 @@ impl Discretization {
                 compression: 0.0,
             });
         }
-        sticks.nodes[mat].mass += isolation.mat_mass;
+        sticks.nodes[mat].add_mass(isolation.mat_mass);
         let mass = sticks.nodes.iter().map(|node| node.mass).sum();
         let weight = isolation.weight_of(mass);
         let ground = sticks.add_node(0.0, 0.0);
@@ -257,13 +257,7 @@ impl Discretization {
 impl StickModel {
     /// Adds a free node without mass and returns its index.
     pub(super) fn add_node(&mut self, x: f64, y: f64) -> usize {
-        self.nodes.push(Node {
-            x,
-            y,
-            mass: 0.0,
-            rotary_inertia: 0.0,
-            support: Support::Free,
-        });
+        self.nodes.push(Node::at(x, y));
         self.nodes.len() - 1
     }
 
@@ -300,7 +294,7 @@ impl StickModel {
             .collect();
         for (ends, half_mass) in line.windows(2).zip(half_masses) {
             for &end in ends {
-                self.nodes[end].mass += half_mass;
+                self.nodes[end].add_mass(half_mass);
             }
             self.members.push(Member {
                 ends: [ends[0], ends[1]],
@@ -394,7 +388,7 @@ impl StickModel {
             return ground;
         }
         let foot = self.add_node(x, 0.0);
-        self.nodes[foot].mass = base.mass;
+        self.nodes[foot].add_mass(base.mass);
         // A yielding horizontal spring is parallel to the hinge, which then has only the dashpot.
         let horizontal = match base.horizontal_hinge {
             Some(hysteresis) => {
@@ -555,7 +549,7 @@ pub(super) fn discretize_frame(
             });
         }
         for &joint in &joints {
-            stick_model.nodes[joint].mass += frame.floor_mass[storey] / joints.len() as f64;
+            stick_model.nodes[joint].add_mass(frame.floor_mass[storey] / joints.len() as f64);
         }
         discretization.floors.push(joints[0]);
         all_joints.push(joints.clone());
@@ -616,9 +610,9 @@ fn discretize_given(given: &Given) -> Discretization {
         let node = &mut stick_model.nodes[node];
         let mass = given.mass[dof] * given.scale(dof).powi(2);
         if place(dof).1 == X {
-            (node.support, node.mass) = (Support::Guided, mass);
+            *node = node.held(Support::Guided).with_mass(mass);
         } else {
-            (node.support, node.rotary_inertia) = (Support::Turning, mass);
+            *node = node.held(Support::Turning).with_rotary_inertia(mass);
         }
     }
     let lists = [&given.stiffness, &given.damping];
@@ -664,7 +658,7 @@ fn discretize_shear(shear: &Shear, base: &Base, springs: &[Hysteresis]) -> Discr
     // Floors do not turn, so that only the horizontal spring of a base has something to do.
     if let Some(stiffness) = base.horizontal_stiffness {
         let foot = stick_model.add_node(0.0, 0.0);
-        stick_model.nodes[foot].mass = base.mass;
+        stick_model.nodes[foot].add_mass(base.mass);
         stick_model.nodes[foot].support = Support::Guided;
         if base.horizontal_hinge.is_some() {
             spring_places.push(SpringPlace::Base {
@@ -690,7 +684,7 @@ fn discretize_shear(shear: &Shear, base: &Base, springs: &[Hysteresis]) -> Discr
     {
         height += storey_height;
         let floor = stick_model.add_node(0.0, height);
-        stick_model.nodes[floor].mass = *mass;
+        stick_model.nodes[floor].add_mass(*mass);
         stick_model.nodes[floor].support = Support::Guided;
         let hysteresis = springs.get(floors.len()).copied();
         stick_model.springs.push(Spring {

@@ -17,7 +17,7 @@ pub struct Equations {
     pub mass: Vec<f64>,
     /// M r: the mass on which horizontal ground acceleration acts \[kg\].
     pub driven_mass: Vec<f64>,
-    /// M r for vertical motion; used for participation only; zero for a building in plan \[kg\].
+    /// M r upwards: the mass that rises and sinks \[kg\].
     pub vertical_mass: Vec<f64>,
     /// M r across the row: the mass on which ground acceleration across acts; empty in one plane \[kg\].
     pub driven_across: Vec<f64>,
@@ -26,7 +26,7 @@ pub struct Equations {
     pub driven_turning: Vec<f64>,
     /// rᵀ M r of that rotation \[kg·m²\].
     pub polar_mass: f64,
-    /// rᵀ M r of a motion of everything along x, and across; both the total mass in one plane \[kg\].
+    /// rᵀ M r of a motion of everything along x, and across; the latter zero in one plane \[kg\].
     pub moved_mass: [f64; 2],
     /// K: stiffness of members and joints, which takes part in stiffness-proportional damping.
     pub stiffness: SparseSymmetric,
@@ -82,38 +82,19 @@ impl Equations {
         let n = path.len();
         let (mut mass, mut driven_mass, mut vertical_mass) =
             (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
-        let in_plan = if stick_model.in_plan { n } else { 0 };
-        let (mut driven_across, mut driven_turning) = (vec![0.0; in_plan], vec![0.0; in_plan]);
+        let across = if stick_model.moves_across() { n } else { 0 };
+        let (mut driven_across, mut driven_turning) = (vec![0.0; across], vec![0.0; across]);
         let (mut polar_mass, mut moved_mass) = (0.0, [0.0; 2]);
         let mut total_mass = 0.0;
         for (index, node) in stick_model.nodes.iter().enumerate() {
-            if let Some(Some(own)) = stick_model.frame_nodes.get(index) {
-                let masses = [node.mass, own.vertical_mass, node.rotary_inertia];
-                for (component, value) in masses.into_iter().enumerate() {
-                    // That of a node on a floor is part of the floor.
-                    let Some(dof) = path.dof(index, component) else {
-                        continue;
-                    };
-                    mass[dof] += value;
-                    if component == X {
-                        let [along, across, turning] = own.shares;
-                        driven_mass[dof] += value * along;
-                        driven_across[dof] += value * across;
-                        driven_turning[dof] += value * turning;
-                        polar_mass += value * turning * turning;
-                        moved_mass[0] += value * along * along;
-                        moved_mass[1] += value * across * across;
-                    }
-                }
-                if node.support != Support::Fixed && !own.counted_elsewhere {
-                    total_mass += node.mass;
-                }
+            if node.support == Support::Fixed {
                 continue;
             }
-            for (component, value) in [node.mass, node.mass, node.rotary_inertia]
-                .into_iter()
-                .enumerate()
-            {
+            total_mass += node.mass;
+            for (component, inertia) in node.inertia.into_iter().enumerate() {
+                let moved = node.influence[component];
+                moved_mass[0] += inertia * moved.along * moved.along;
+                moved_mass[1] += inertia * moved.across * moved.across;
                 let carried = stick_model.carried((index, component));
                 let [(place, share)] = *carried.entries() else {
                     continue;
@@ -122,41 +103,21 @@ impl Equations {
                 let Some(dof) = path.dof(place.0, place.1) else {
                     continue;
                 };
-                mass[dof] += value * (share * share);
-                match component {
-                    X => driven_mass[dof] += value,
-                    Y if stick_model.in_plan => driven_across[dof] += value,
-                    Y => vertical_mass[dof] += value * share,
-                    _ if stick_model.in_plan => {
-                        driven_turning[dof] += value;
-                        polar_mass += value;
-                    }
-                    _ => {}
+                mass[dof] += inertia * (share * share);
+                driven_mass[dof] += inertia * share * moved.along;
+                vertical_mass[dof] += inertia * share * moved.up;
+                if across > 0 {
+                    driven_across[dof] += inertia * share * moved.across;
+                    driven_turning[dof] += inertia * share * moved.turning;
+                    polar_mass += inertia * moved.turning * moved.turning;
                 }
-            }
-            if node.support != Support::Fixed {
-                total_mass += node.mass;
-                moved_mass = moved_mass.map(|moved| moved + node.mass);
-            }
-        }
-        for &(node, component, value) in &stick_model.one_way_masses {
-            if let Some(dof) = path.dof(node, component) {
-                mass[dof] += value;
-                let (driven, moved) = if component == X {
-                    (&mut driven_mass, &mut moved_mass[0])
-                } else {
-                    (&mut driven_across, &mut moved_mass[1])
-                };
-                driven[dof] += value;
-                *moved += value;
             }
         }
         let mut triplets = [Vec::new(), Vec::new(), Vec::new()];
         let mut base_shear = Row::default();
         // What elements of a matrix leave of a row at the ground is no force there: the base shear is the sum of all rows.
         let on_soil = stick_model.foundation.is_some();
-        let of_supports =
-            stick_model.elements.is_empty() && stick_model.frame_nodes.is_empty() || on_soil;
+        let of_supports = on_soil || stick_model.elements.is_empty() && !stick_model.moves_across();
         // Over a foundation, the base shear is what it takes from the building above.
         let sway = stick_model.foundation.as_ref();
         let sway = sway.and_then(|foundation| path.dof(foundation.node, X));
@@ -189,7 +150,7 @@ impl Equations {
                 }
                 _ => {}
             }
-            let [along, ..] = stick_model.horizontal_shares(a);
+            let along = stick_model.influence(a).along;
             if let (false, Some(_), Some(column)) = (
                 of_supports || along == 0.0 || part == Part::Dashpot,
                 path.dof(a.0, a.1),
@@ -346,7 +307,7 @@ fn yielding_springs(stick_model: &StickModel, path: &Path) -> Vec<YieldingSpring
         let row = stick_model.carried_row(&own.row);
         // What it pushes along x against the ground, or the foundation.
         let pushed = element::places(&row).map(|(place, share)| {
-            let [along, ..] = stick_model.horizontal_shares(place);
+            let along = stick_model.influence(place).along;
             let stands = place.1 == X && path.dof(place.0, place.1) == sway;
             if stands { -share * along } else { 0.0 }
         });

@@ -31,8 +31,9 @@ impl Discretization {
         } else {
             sticks.add_node(middle, 0.0)
         };
-        sticks.nodes[node].mass += foundation.mass;
-        sticks.nodes[node].rotary_inertia += foundation.rotary_inertia;
+        let own = &mut sticks.nodes[node];
+        own.add_mass(foundation.mass);
+        *own = own.with_rotary_inertia(foundation.rotary_inertia);
         for spring in &mut sticks.springs {
             let [lower, upper] = spring.ends.map(|end| sticks.nodes[end].y);
             spring.lever = Some(upper - lower);
@@ -89,8 +90,8 @@ impl Discretization {
                     sticks.add_dashpot(ground, &over_nodes(relative), of_mass);
                 }
             }
-            if own.rotary_inertia > 0.0 {
-                let of_inertia = alpha * own.rotary_inertia;
+            if own.inertia[THETA] > 0.0 {
+                let of_inertia = alpha * own.inertia[THETA];
                 let turned = over_nodes([((node, THETA), 1.0)]);
                 sticks.add_dashpot(ground, &turned, -of_inertia);
             }

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::linear::Row;
 use crate::model::{SharedColumn, SpacePlace};
-use crate::structure::element::{self, ElementStiffness, Part, THETA, X, Y};
+use crate::structure::element::{self, ElementStiffness, Part, THETA, X, Y, index_of};
 use crate::structure::stick_elements;
 use crate::structure::{AssembledBuilding, Discretization, Member, MemberEnd, SpringPlace};
 
@@ -580,7 +580,7 @@ impl<'a> Cuts<'a> {
         match (cut.rigid, cut.vertical) {
             (true, true) => self.carried_by_column(cut),
             // A rigid floor holds the beams of frames in plan, whatever their stiffness.
-            (_, false) if self.building.discretization.stick_model.in_plan => LinearForm::default(),
+            (_, false) if self.is_part_of_a_floor(cut) => LinearForm::default(),
             (true, false) => self.passed_through_beam(cut),
             (false, vertical) => {
                 let component = if vertical { Y } else { X };
@@ -591,6 +591,13 @@ impl<'a> Cuts<'a> {
                 form
             }
         }
+    }
+
+    /// Whether both ends move along the frame with a floor in plan.
+    fn is_part_of_a_floor(&self, cut: &Element) -> bool {
+        let ties = &self.building.discretization.stick_model.ties;
+        let mut ends = cut.ends.iter();
+        ends.all(|end| ties.contains_key(&index_of((*end, X))))
     }
 
     /// By vertical equilibrium of the column line above: it carries the shears of its beams and its own masses.
@@ -619,11 +626,11 @@ impl<'a> Cuts<'a> {
                 continue;
             };
             if let Some(dof) = equations.dof(element::place_of(place)) {
-                let mass = stick_model.vertical_mass(index) * share;
+                let mass = node.inertia[Y] * share;
                 form.acceleration.add(dof, -mass);
                 form.velocity.add(dof, -equations.alpha * mass);
             }
-            form.constant -= self.gravity * node.mass;
+            form.constant -= self.gravity * node.inertia[Y];
         }
         if self.gravity == 0.0 {
             form.constant = -cut.compression;
@@ -660,9 +667,10 @@ impl<'a> Cuts<'a> {
             }
             form.springs.add_times(1.0, &self.springs[index][X]);
             if let Some(dof) = equations.dof((index, X)) {
-                form.acceleration.add(dof, node.mass);
-                form.velocity.add(dof, equations.alpha * node.mass);
-                form.ground += node.mass;
+                let mass = node.inertia[X];
+                form.acceleration.add(dof, mass);
+                form.velocity.add(dof, equations.alpha * mass);
+                form.ground += mass;
             }
         }
         form.tidy()

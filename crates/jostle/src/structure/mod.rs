@@ -44,7 +44,7 @@ pub use space_joints::{JointNodes, JointedFrame, JointedMember};
 pub use spring_place::{BaseMotion, MemberEnd, SpringPlace};
 pub use step_equations::{StepEquations, solve_once};
 pub use stick_model::{
-    FrameNode, Hinge, Member, Node, PlanMat, RigidFoundation, Spring, StickModel, Support,
+    Hinge, Influence, Member, Node, PlanMat, RigidFoundation, Spring, StickModel, Support,
     YieldingElement,
 };
 pub use storey_forces::{StoreyForce, StoreyForces};

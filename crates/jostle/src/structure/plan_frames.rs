@@ -8,7 +8,7 @@ use super::element::{THETA, X, Y, index_of, over_nodes};
 use super::member_forces::FrameMember;
 use super::order::Turn;
 use super::spring_place::SpringPlace;
-use super::stick_model::{FrameNode, Node, StickModel, Support};
+use super::stick_model::{Influence, Node, StickModel, Support};
 use crate::model::{Frame, LEVEL_TOLERANCE, LumpedFloor, PlanFrame, PlanPoint, Tiers};
 
 /// Adds the frames of a building, whose ground, mat and floors are the nodes of the stick model so far. Feet are tied to the mat, if
@@ -28,7 +28,6 @@ pub(super) fn add_frames(
     let sticks = &mut discretization.stick_model;
     // Hinges of a space frame come before.
     let first_place = sticks.hinges.len();
-    sticks.frame_nodes.resize(sticks.nodes.len(), None);
     let shared = tiers.shared_columns();
     let (mut hinge_places, mut diagonal_places) = (Vec::new(), Vec::new());
     for (index, plan_frame) in tiers.frames.iter().enumerate() {
@@ -71,16 +70,8 @@ pub(super) fn add_frames(
         });
         discretization.members.extend(members);
     }
-    let mat = mat.into_iter();
-    let moving: Vec<_> = mat.chain(floors.iter().copied().zip(lumped)).collect();
-    sticks.eliminate_after_joints(moving.iter().map(|(node, _)| *node), floors[0]);
-    for (node, lumped) in &moving {
-        for (component, mass) in [X, Y].into_iter().zip(lumped.one_way) {
-            if mass > 0.0 {
-                sticks.one_way_masses.push((*node, component, mass));
-            }
-        }
-    }
+    let moving = mat.into_iter().map(|(node, _)| node);
+    sticks.eliminate_after_joints(moving.chain(floors.iter().copied()), floors[0]);
     // Hinges come before springs.
     let before = first_place..first_place;
     discretization.spring_places.splice(before, hinge_places);
@@ -126,11 +117,11 @@ impl StickModel {
     fn append(&mut self, frame: StickModel, place: &Place<'_>) -> Range<usize> {
         let (nodes, members) = (self.nodes.len(), self.members.len());
         for (index, node) in frame.nodes.into_iter().enumerate() {
-            let (own, floor) = self.frame_node(index, &node, place);
-            self.frame_nodes.push(Some(own));
+            let (node, floor) = self.node_in_plan(index, &node, place);
             if let Some(floor) = floor {
                 let components = [X, Y, THETA].map(|component| (floor, component));
-                let moved = over_nodes(components.into_iter().zip(own.shares));
+                let shares = node.influence[X].horizontal();
+                let moved = over_nodes(components.into_iter().zip(shares));
                 self.ties.insert(index_of((self.nodes.len(), X)), moved);
             }
             let turn = Turn {
@@ -175,13 +166,8 @@ impl StickModel {
         (places, others)
     }
 
-    /// A node of a frame, and the floor or the mat to which it belongs: its displacement along its line is that of the floor.
-    fn frame_node(
-        &self,
-        index: usize,
-        node: &Node,
-        place: &Place<'_>,
-    ) -> (FrameNode, Option<usize>) {
+    /// A node of a frame as it stands in the plan, and the floor or the mat with which it moves along its line.
+    fn node_in_plan(&self, index: usize, node: &Node, place: &Place<'_>) -> (Node, Option<usize>) {
         let height = |floor: &usize| self.nodes[*floor].y;
         let mut floors = place.floors.iter();
         let level = floors.position(|floor| node.y <= height(floor) + LEVEL_TOLERANCE);
@@ -196,17 +182,30 @@ impl StickModel {
                 place.lumped[level].tier.centre,
             ),
         };
-        let own = FrameNode {
-            shares: place.plan_frame.shares(centre),
-            at_mat: place
-                .mat
-                .map_or([0.0; 3], |(_, centre)| place.plan_frame.shares(centre)),
-            level,
-            counted_elsewhere: carrier.is_some() || on_floor || is_doubled,
-            vertical_mass: match is_doubled {
-                true => place.light.nodes[index].mass,
+        let [along, across, turning] = place.plan_frame.shares(centre);
+        let in_line = Influence {
+            along,
+            across,
+            turning,
+            up: 0.0,
+        };
+        let is_counted_elsewhere = carrier.is_some() || on_floor || is_doubled;
+        let own = Node {
+            mass: match is_counted_elsewhere {
+                true => 0.0,
                 false => node.mass,
             },
+            // The floor has the mass of what moves with it along the line; each of two frames that share a column moves all of it.
+            inertia: [
+                if carrier.is_some() { 0.0 } else { node.mass },
+                match is_doubled {
+                    true => place.light.nodes[index].mass,
+                    false => node.mass,
+                },
+                node.inertia[THETA],
+            ],
+            influence: [in_line, Influence::UP, Influence::NONE],
+            ..*node
         };
         (own, carrier)
     }

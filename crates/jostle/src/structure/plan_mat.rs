@@ -1,12 +1,14 @@
 //! The mat of an isolated building in plan, and its bearings.
 
 use super::discretization::{Discretization, Mat};
-use super::element::{Element, Part, Place, THETA, X, Y, index_of};
+use super::element::{Element, Part, Place, THETA, X, Y};
 use super::plan_matrix::PlanMatrix;
 use super::spring_place::SpringPlace;
-use super::stick_model::{PlanMat, StickModel, Support};
+use super::stick_model::{Influence, PlanMat, Support};
 use crate::hysteresis::{CircularLaw, ForceRow, Hysteresis};
-use crate::model::{Isolation, Isolator, LumpedFloor, PlanPoint, Tier, TierStorey, Tiers};
+use crate::model::{
+    Isolation, Isolator, LEVEL_TOLERANCE, LumpedFloor, PlanPoint, Tier, TierStorey, Tiers,
+};
 
 /// Adds bearings, dashpots and the stop between the nodes of the ground and of the mat of a building that stands on it.
 ///
@@ -19,7 +21,7 @@ pub(super) fn put_on_mat(
     discretization: &mut Discretization,
 ) {
     let sticks = &mut discretization.stick_model;
-    let mass = sticks.mass_once();
+    let mass = sticks.nodes.iter().map(|node| node.mass).sum();
     let weight = isolation.weight_of(mass);
     let dashpot = isolation.dashpot(mass);
     let bearings = tiers.bearing_points();
@@ -90,30 +92,6 @@ pub(super) fn put_on_mat(
     });
 }
 
-impl StickModel {
-    /// Mass of all nodes, that of nodes that belong to a floor or to another frame as well counted once \[kg\].
-    fn mass_once(&self) -> f64 {
-        let nodes = self.nodes.iter().enumerate();
-        let own = nodes.filter(|(node, _)| match self.frame_nodes.get(*node) {
-            Some(Some(frame)) => !frame.counted_elsewhere,
-            _ => true,
-        });
-        own.map(|(_, node)| node.mass).sum()
-    }
-
-    /// Masses of a floor or a mat along x, across, and about its centre \[kg, kg, kg·m²\].
-    fn masses_in_plan(&self, node: usize) -> [f64; 3] {
-        let own = &self.nodes[node];
-        let mut masses = [own.mass, own.mass, own.rotary_inertia];
-        for &(at, component, mass) in &self.one_way_masses {
-            if at == node {
-                masses[component] += mass;
-            }
-        }
-        masses
-    }
-}
-
 impl Discretization {
     /// Mass-proportional damping of the motion relative to the mat in plan: Tᵀ α M T instead of α M, with T q the motion of everything
     /// less that of the mat as a rigid body (theory, Eq. B6).
@@ -128,7 +106,7 @@ impl Discretization {
         let point = |node: usize, centre: PlanPoint| {
             LumpedFloor::rigid(&Tier {
                 mass: nodes[node].mass,
-                polar_mass: nodes[node].rotary_inertia,
+                polar_mass: nodes[node].inertia[THETA],
                 centre,
                 plan: Vec::new(),
             })
@@ -136,10 +114,7 @@ impl Discretization {
         let mut elements = Vec::new();
         let own = point(mat.node, mat.centre);
         let moved = |node: usize, centre: PlanPoint, factor: f64| TierStorey {
-            stiffness: self
-                .stick_model
-                .masses_in_plan(node)
-                .map(|mass| factor * mass),
+            stiffness: nodes[node].inertia.map(|inertia| factor * inertia),
             centre,
         };
         for (&floor, &centre) in self.floors.iter().zip(&self.centres) {
@@ -174,14 +149,20 @@ impl Discretization {
                 elements.push(Element::between(ends, Part::Dashpot, dashpot));
             }
         };
-        for (node, own) in sticks.frame_nodes.iter().enumerate() {
-            let (Some(own), value) = (own, alpha * sticks.nodes[node].mass) else {
+        let heights = self.floors.iter().map(|floor| sticks.nodes[*floor].y);
+        let heights: Vec<f64> = heights.collect();
+        for (node, own) in sticks.nodes.iter().enumerate() {
+            let (value, is_floor) = (alpha * own.inertia[X], own.influence == Influence::OF_FLOOR);
+            let level = heights
+                .iter()
+                .position(|top| own.y <= top + LEVEL_TOLERANCE);
+            let (Some(level), false) = (level, is_floor || value == 0.0) else {
                 continue;
             };
-            if sticks.ties.contains_key(&index_of((node, X))) || value == 0.0 {
-                continue;
-            }
-            let shares = own.at_mat;
+            // About the centre of the mat instead of that of the floor.
+            let [along, across, turning] = own.influence[X].horizontal();
+            let [x, y] = [0, 1].map(|axis| self.centres[level][axis] - mat.centre[axis]);
+            let shares = [along, across, turning + x * across - y * along];
             let sum: f64 = shares.iter().sum();
             // α m u² cancels. A dashpot between two displacements is minus the entry of the matrix, one to the ground the sum of a row.
             add([(ground, X), (node, X)], -value * sum);

@@ -11,7 +11,7 @@ use super::element::{Element, Part, Place, THETA, X, Y, over_nodes};
 use super::order::{Stage, Turn};
 use super::space_frame::{Assembly, Deformation, SpringMember, Unknown, planes};
 use super::spring_place::{MemberEnd, SpringPlace};
-use super::stick_model::{FrameNode, Hinge, Node, StickModel, Support};
+use super::stick_model::{Hinge, Influence, Node, StickModel, Support};
 use crate::linear::Row;
 use crate::model::{PlanAxis, SpaceFrame, SpaceMember, SpacePlace};
 
@@ -101,39 +101,29 @@ pub(super) fn add_space_joints(
 fn add_joints(assembly: &Assembly<'_>, sticks: &mut StickModel, floors: &[usize]) -> Range<usize> {
     let joints = &assembly.joints;
     // Columns that keep their length share their rise: it belongs to the highest floor.
-    let mut levels = vec![0; joints.count];
+    let mut highest = vec![0; joints.count];
     for (at, unknowns) in joints.unknowns.iter().enumerate() {
         for unknown in unknowns.iter().flatten().flatten() {
-            levels[*unknown] = levels[*unknown].max(at / joints.per_floor);
+            highest[*unknown] = highest[*unknown].max(at / joints.per_floor);
         }
     }
     let first = sticks.nodes.len();
-    for (unknown, level) in levels.into_iter().enumerate() {
-        let height = sticks.nodes[floors[level]].y;
-        sticks.add_turning(Stage::Joints, unknown, height, level);
+    for (unknown, floor) in highest.into_iter().enumerate() {
+        let height = sticks.nodes[floors[floor]].y;
+        sticks.add_turning(Stage::Joints, unknown, height);
     }
     first..sticks.nodes.len()
 }
 
 impl StickModel {
-    /// Adds a node without mass that has a single displacement, its rotation, and belongs to no floor.
-    fn add_turning(&mut self, stage: Stage, number: usize, height: f64, level: usize) -> usize {
+    /// Adds a node without mass that has a single displacement, its rotation, and that moves nothing else.
+    fn add_turning(&mut self, stage: Stage, number: usize, height: f64) -> usize {
         let index = self.nodes.len();
-        self.frame_nodes.resize(index, None);
+        let node = Node::at(0.0, height).held(Support::Turning);
         self.nodes.push(Node {
-            x: 0.0,
-            y: height,
-            mass: 0.0,
-            rotary_inertia: 0.0,
-            support: Support::Turning,
+            influence: [Influence::NONE; 3],
+            ..node
         });
-        self.frame_nodes.push(Some(FrameNode {
-            shares: [0.0; 3],
-            at_mat: [0.0; 3],
-            level,
-            counted_elsewhere: true,
-            vertical_mass: 0.0,
-        }));
         let turn = Turn {
             stage: Some(stage),
             height,
@@ -218,8 +208,7 @@ impl Builder<'_> {
                 let moving = self.assembly.moving(floor);
                 let at = self.sticks.nodes[moving.map_or(self.ground, |own| self.moving[own])];
                 let number = self.ends.len();
-                self.sticks
-                    .add_turning(Stage::Beams, number, at.y, floor.unwrap_or(0))
+                self.sticks.add_turning(Stage::Beams, number, at.y)
             };
             let joint_leads = (is_column == (end == MemberEnd::First)) == (slope > 0.0);
             let ends = if joint_leads {

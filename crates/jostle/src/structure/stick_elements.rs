@@ -4,7 +4,7 @@ use super::element::{
     Element, ElementStiffness, Part, Place, THETA, X, Y, index_of, over_nodes, places,
 };
 use super::stick_model::{
-    Hinge, Member, Node, RigidFoundation, Spring, StickModel, YieldingElement,
+    Hinge, Influence, Member, Node, RigidFoundation, Spring, StickModel, YieldingElement,
 };
 use crate::linear::Row;
 use crate::model::ProportionalDamping;
@@ -94,18 +94,16 @@ impl StickModel {
         tied.entries().first().map(|(_, lever)| *lever)
     }
 
-    /// What a unit force at a displacement adds to the forces along x and across \[–\], and to the torque about the centre of a floor
-    /// \[m\]. The floor is the one at its height, or else the next above. Vertical forces of frames in a plan add nothing.
-    pub(crate) fn horizontal_shares(&self, (node, component): Place) -> [f64; 3] {
-        match self.frame_nodes.get(node) {
-            Some(Some(own)) if component == X => own.shares,
-            Some(Some(_)) => [0.0; 3],
-            _ => {
-                let mut shares = [0.0; 3];
-                shares[component] = 1.0;
-                shares
-            }
-        }
+    /// Whether any of it moves across the row.
+    #[must_use]
+    pub fn moves_across(&self) -> bool {
+        let mut all = self.nodes.iter().flat_map(|node| node.influence);
+        all.any(|own| own.across != 0.0)
+    }
+
+    /// What a displacement of a node moves.
+    pub(crate) fn influence(&self, (node, component): Place) -> Influence {
+        self.nodes[node].influence[component]
     }
 }
 

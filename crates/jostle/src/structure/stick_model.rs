@@ -9,7 +9,7 @@ use crate::hysteresis::Hysteresis;
 use crate::linear::Row;
 use crate::model::ProportionalDamping;
 
-/// Lumped masses and the massless elements between them, in the plane.
+/// Lumped masses and the massless elements between them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StickModel {
     /// Points with or without mass.
@@ -30,14 +30,6 @@ pub struct StickModel {
     pub yielding: Vec<YieldingElement>,
     /// The mat of an isolated building in plan.
     pub plan_mat: Option<PlanMat>,
-    /// Whether nodes are floors in plan: their vertical displacement is then the one across the row, and their rotation is
-    /// about a vertical axis.
-    pub in_plan: bool,
-    /// Nodes of plane frames that stand in a plan: they move in the plane of their frame; joints and member ends of a space frame,
-    /// which no floor moves by itself. Empty without such frames, otherwise as long as the nodes; `None` is a floor or the ground.
-    pub frame_nodes: Vec<Option<FrameNode>>,
-    /// Masses that act on one displacement of a node alone: node, displacement, mass \[kg\].
-    pub one_way_masses: Vec<(usize, usize, f64)>,
     /// Displacements that move with others, 3 × node + component, as rows over those: joints of frames with rigid floors along their
     /// lines, and nodes that rise and sink with the rotation of a foundation.
     pub ties: BTreeMap<usize, Row>,
@@ -60,46 +52,124 @@ pub struct RigidFoundation {
     pub damping: [f64; 3],
 }
 
-/// A node of a plane frame that stands at a line of a plan.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FrameNode {
-    /// How far motions of the floor or the mat at its height, or of the next floor above, would move it along its line if it were part of
-    /// that floor: along x, across, and by rotation about the centre of the floor \[–, –, m\].
-    pub shares: [f64; 3],
-    /// The same for motions of the mat on which it stands; zero without one \[–, –, m\].
-    pub at_mat: [f64; 3],
-    /// Index of the floor at its height, or of the next one above.
-    pub level: usize,
-    /// Whether its mass is part of that of a floor, or of another frame that shares the column.
-    pub counted_elsewhere: bool,
-    /// Mass that rises and sinks with it, without what another frame that shares the column counts \[kg\].
-    pub vertical_mass: f64,
-}
-
-impl StickModel {
-    /// Mass that rises and sinks with a node \[kg\].
-    #[must_use]
-    pub fn vertical_mass(&self, node: usize) -> f64 {
-        match self.frame_nodes.get(node) {
-            Some(Some(own)) => own.vertical_mass,
-            _ => self.nodes[node].mass,
-        }
-    }
-}
-
-/// A point that moves by x (right), y (up) and θ (counter-clockwise).
+/// A point with three displacements: in the plane x (right), y (up) and θ (counter-clockwise); of a floor in plan x, across and θ.
+/// `influence` says which.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Node {
     /// Distance from the left end of the building \[m\].
     pub x: f64,
     /// Height above the base \[m\].
     pub y: f64,
-    /// Lumped mass, ≥ 0 \[kg\].
+    /// Mass that it adds to that of the building, ≥ 0; zero where another node counts it \[kg\].
     pub mass: f64,
-    /// Rotary inertia, ≥ 0 \[kg·m²\].
-    pub rotary_inertia: f64,
+    /// What resists each of its displacements, ≥ 0: two masses and a rotary inertia \[kg, kg, kg·m²\].
+    pub inertia: [f64; 3],
+    /// What each of its displacements moves.
+    pub influence: [Influence; 3],
     /// How it is held.
     pub support: Support,
+}
+
+impl Node {
+    /// A free point in the plane, without mass.
+    #[must_use]
+    pub fn at(x: f64, y: f64) -> Self {
+        Self {
+            x,
+            y,
+            mass: 0.0,
+            inertia: [0.0; 3],
+            influence: Influence::IN_PLANE,
+            support: Support::Free,
+        }
+    }
+
+    /// The same point, held.
+    #[must_use]
+    pub fn held(self, support: Support) -> Self {
+        Self { support, ..self }
+    }
+
+    /// The same point with more mass, which resists both of its translations \[kg\].
+    #[must_use]
+    pub fn with_mass(mut self, mass: f64) -> Self {
+        self.add_mass(mass);
+        self
+    }
+
+    /// The same point with more rotary inertia \[kg·m²\].
+    #[must_use]
+    pub fn with_rotary_inertia(mut self, inertia: f64) -> Self {
+        self.inertia[2] += inertia;
+        self
+    }
+
+    /// Adds mass that resists both of its translations \[kg\].
+    pub fn add_mass(&mut self, mass: f64) {
+        self.mass += mass;
+        self.inertia[0] += mass;
+        self.inertia[1] += mass;
+    }
+}
+
+/// Motion of the whole building that a displacement follows: what it moves along with a unit of it \[–, m\], and by virtual work what
+/// a unit force there adds to the force on the building in that direction. Displacements between joints, such as their
+/// rotations about horizontal axes, have none.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Influence {
+    /// Along the row \[–\].
+    pub along: f64,
+    /// Across the row \[–\].
+    pub across: f64,
+    /// Upwards \[–\].
+    pub up: f64,
+    /// About a vertical axis through the centre of mass of the floor at its height, or of the next above \[m; – for a
+    /// rotation\].
+    pub turning: f64,
+}
+
+impl Influence {
+    /// No motion of the whole building.
+    pub const NONE: Self = Self {
+        along: 0.0,
+        across: 0.0,
+        up: 0.0,
+        turning: 0.0,
+    };
+
+    /// A displacement along the row.
+    pub const ALONG: Self = Self {
+        along: 1.0,
+        ..Self::NONE
+    };
+
+    /// A displacement upwards.
+    pub const UP: Self = Self {
+        up: 1.0,
+        ..Self::NONE
+    };
+
+    /// Displacements of a point in the plane of the row.
+    pub const IN_PLANE: [Self; 3] = [Self::ALONG, Self::UP, Self::NONE];
+
+    /// Displacements of the centre of mass of a floor.
+    pub const OF_FLOOR: [Self; 3] = [
+        Self::ALONG,
+        Self {
+            across: 1.0,
+            ..Self::NONE
+        },
+        Self {
+            turning: 1.0,
+            ..Self::NONE
+        },
+    ];
+
+    /// Along the row, across, and about the vertical axis.
+    #[must_use]
+    pub fn horizontal(self) -> [f64; 3] {
+        [self.along, self.across, self.turning]
+    }
 }
 
 /// How a node is held.

@@ -73,7 +73,7 @@ fn force_about(
     floor: usize,
     centres: &[[f64; 2]],
 ) -> f64 {
-    let acts = stick_model.horizontal_shares(place);
+    let acts = stick_model.influence(place).horizontal();
     let [Some([x, y]), Some(axis)] = [centres.get(floor).or(centres.last()), centres.first()]
     else {
         return acts[direction];

@@ -10,8 +10,8 @@ use super::plan_matrix::PlanMatrix;
 use super::space_frame::{Assembly, condense};
 use super::space_joints::add_space_joints;
 use super::spring_place::SpringPlace;
-use super::stick_model::{Node, StickModel, Support, YieldingElement};
-use crate::model::{Gravity, Isolation, PlanPoint, ProportionalDamping, Tiers};
+use super::stick_model::{Influence, Node, StickModel, Support, YieldingElement};
+use crate::model::{Gravity, Isolation, LumpedFloor, PlanPoint, ProportionalDamping, Tiers};
 
 /// Motion of a plan point per displacement of a floor with its centre of mass at `centre`: rows x, across and rotation.
 pub(crate) fn motion_at(point: PlanPoint, centre: PlanPoint) -> [[f64; 3]; 3] {
@@ -25,33 +25,23 @@ pub(super) fn discretize_tiers(
     gravity: Gravity,
     isolation: Option<&Isolation>,
 ) -> Discretization {
-    let mut stick_model = StickModel {
-        in_plan: true,
-        ..StickModel::default()
-    };
+    let mut stick_model = StickModel::default();
     let lumped = tiers.lumped_floors();
     let mut height = 0.0;
-    let mut add = |height: f64, support, mass, rotary_inertia| {
+    let mut add = |node: Node| {
         stick_model.nodes.push(Node {
-            x: 0.0,
-            y: height,
-            mass,
-            rotary_inertia,
-            support,
+            influence: Influence::OF_FLOOR,
+            ..node
         });
         stick_model.nodes.len() - 1
     };
-    let ground = add(0.0, Support::Fixed, 0.0, 0.0);
+    let ground = add(Node::at(0.0, 0.0).held(Support::Fixed));
     let mat = isolation.map(|own| tiers.mat(own.mat_mass));
-    let foot = match &mat {
-        Some(mat) => add(0.0, Support::Free, mat.tier.mass, mat.tier.polar_mass),
-        None => ground,
-    };
+    let foot = mat.as_ref().map_or(ground, |mat| add(of_floor(0.0, mat)));
     let mut floors = Vec::with_capacity(tiers.floors.len());
-    let own = lumped.iter().map(|floor| &floor.tier);
-    for (floor, storey_height) in own.zip(&tiers.storey_heights) {
+    for (floor, storey_height) in lumped.iter().zip(&tiers.storey_heights) {
         height += storey_height;
-        floors.push(add(height, Support::Free, floor.mass, floor.polar_mass));
+        floors.push(add(of_floor(height, floor)));
     }
     // All that moves, from the ground up.
     let first = usize::from(mat.is_some());
@@ -139,6 +129,21 @@ pub(super) fn discretize_tiers(
         put_on_mat(tiers, isolation, &mat, places, &mut discretization);
     }
     discretization
+}
+
+/// The centre of mass of a floor. Columns between floors of frames that run along move with it across only, and the other way
+/// round; they are counted there.
+fn of_floor(height: f64, floor: &LumpedFloor) -> Node {
+    let LumpedFloor { tier, one_way } = floor;
+    Node {
+        mass: tier.mass,
+        inertia: [
+            tier.mass + one_way[0],
+            tier.mass + one_way[1],
+            tier.polar_mass,
+        ],
+        ..Node::at(0.0, height)
+    }
 }
 
 #[cfg(test)]

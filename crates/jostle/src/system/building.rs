@@ -20,7 +20,7 @@ use crate::simd;
 use crate::statics::{Collapse, Settled, under_gravity};
 use crate::structure::motion_at;
 use crate::structure::{
-    AssembledBuilding, Discretization, InnerLink, MemberForces, SpringPlace, Support,
+    AssembledBuilding, Discretization, Influence, InnerLink, MemberForces, SpringPlace, Support,
 };
 use crate::transfer::riccati::RiccatiSweep;
 
@@ -312,15 +312,14 @@ impl BuildingSystem {
     #[must_use]
     pub fn horizontal_masses(&self) -> Vec<(f64, f64)> {
         let sticks = &self.discretization.stick_model;
-        // Masses of frames in a plan are part of the floors.
-        let is_floor = |node: usize| !matches!(sticks.frame_nodes.get(node), Some(Some(_)));
         let mut counted = vec![false; self.equations.mass.len()];
         let nodes = sticks.nodes.iter().enumerate();
         nodes
             .filter_map(|(node, place)| {
-                let dof = self.equations.horizontal(node).filter(|_| is_floor(node))?;
-                let new = !std::mem::replace(&mut counted[dof], true);
-                new.then(|| (place.y, self.equations.mass[dof]))
+                let dof = self.equations.horizontal(node)?;
+                let along = place.influence[0].along;
+                let new = along != 0.0 && !std::mem::replace(&mut counted[dof], true);
+                new.then(|| (place.y, self.equations.mass[dof] * along * along))
             })
             .collect()
     }
@@ -465,11 +464,12 @@ impl BuildingSystem {
     /// Whether its floors move in both horizontal directions and turn.
     #[must_use]
     pub fn is_in_space(&self) -> bool {
-        self.structure.discretization.stick_model.in_plan
+        !self.structure.discretization.centres.is_empty()
     }
 
     fn modes_with_all_else_held(&self) -> Vec<ModeAlong> {
-        if !self.discretization.stick_model.frame_nodes.is_empty() {
+        let mut nodes = self.discretization.stick_model.nodes.iter();
+        if nodes.any(|node| node.influence != Influence::OF_FLOOR) {
             return self.modes_of_frames_along();
         }
         let equations = &self.equations;
@@ -649,7 +649,7 @@ fn rayleigh(ratio: f64, [low, high]: [f64; 2]) -> (f64, f64) {
 
 /// Lateral modes; all of a building in space. None where it can move without deforming.
 fn modes(structure: &AssembledBuilding, sweep: &RiccatiSweep) -> Vec<Mode> {
-    let modes = if structure.discretization.stick_model.in_plan {
+    let modes = if structure.discretization.stick_model.moves_across() {
         modes_dense(structure, |lower| {
             let (values, vectors) = symmetric::eigen(lower);
             Some(values.into_iter().zip(vectors).collect())
@@ -688,7 +688,7 @@ fn tracks(structure: &AssembledBuilding, floors: &[Floor]) -> Vec<Track> {
         .map(|(index, floor)| track((index, floor), floor.dof, Direction::Along))
         .collect();
     let discretization = &structure.discretization;
-    if discretization.stick_model.in_plan {
+    if discretization.stick_model.moves_across() {
         for direction in [Direction::Across, Direction::Turning] {
             let nodes = discretization.floors.iter().zip(floors).enumerate();
             tracks.extend(nodes.filter_map(|(index, (&node, floor))| {

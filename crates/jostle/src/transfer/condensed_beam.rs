@@ -105,10 +105,7 @@ impl CondensedBeam {
         let mut mass = vec![0.0; ENDS + numbers.len()];
         for (index, &node) in nodes.iter().enumerate().skip(2) {
             let node = &stick_model.nodes[node];
-            for (component, value) in [node.mass, node.mass, node.rotary_inertia]
-                .into_iter()
-                .enumerate()
-            {
+            for (component, value) in node.inertia.into_iter().enumerate() {
                 mass[number(3 * index + component)] += value;
             }
         }

@@ -195,8 +195,8 @@ impl Layout {
     pub(super) fn mass(&self, node: usize, mass_factor: f64) -> Transfer {
         let node = &self.stick_model.nodes[node];
         let mass = LumpedMass {
-            mass: node.mass,
-            rotary_inertia: node.rotary_inertia,
+            mass: node.inertia[X],
+            rotary_inertia: node.inertia[THETA],
         };
         mass.transfer(mass_factor, [0.0; 3])
     }

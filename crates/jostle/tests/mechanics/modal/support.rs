@@ -47,12 +47,10 @@ pub(crate) fn stored_frame(frame: &Value, compressed: f64) -> BuildingSystem {
     let entries = |key: &str| frame[key].as_array().expect("a list").iter();
     let index = |value: &Value| value.as_u64().expect("a node") as usize;
     let mut stick_model = StickModel::default();
-    stick_model.nodes.extend(entries("nodes").map(|node| Node {
-        x: number(node, "x"),
-        y: number(node, "y"),
-        mass: number(node, "m"),
-        rotary_inertia: number(node, "J"),
-        support: Support::Free,
+    stick_model.nodes.extend(entries("nodes").map(|node| {
+        Node::at(number(node, "x"), number(node, "y"))
+            .with_mass(number(node, "m"))
+            .with_rotary_inertia(number(node, "J"))
     }));
     for node in entries("fixed_nodes") {
         stick_model.nodes[index(node)].support = Support::Fixed;
@@ -101,13 +99,8 @@ pub(crate) fn stacks(stacks: &[&[(f64, f64)]]) -> BuildingSystem {
     let mut floors = Vec::new();
     for (line, floors_of_one) in stacks.iter().enumerate() {
         let mut node = |height: usize, mass, support| {
-            stick_model.nodes.push(Node {
-                x: 10.0 * line as f64,
-                y: 3.0 * height as f64,
-                mass,
-                rotary_inertia: 0.0,
-                support,
-            });
+            let at = Node::at(10.0 * line as f64, 3.0 * height as f64);
+            stick_model.nodes.push(at.with_mass(mass).held(support));
             stick_model.nodes.len() - 1
         };
         let mut below = node(0, 0.0, Support::Fixed);
@@ -157,12 +150,9 @@ pub(crate) fn framed(frame: Frame) -> BuildingSystem {
 
 /// Equal masses \[kg\] beside each other, each on a spring to the ground and joined to all others by springs \[N/m\].
 pub(crate) fn joined(masses: usize, mass: f64, grounded: f64, joining: f64) -> BuildingSystem {
-    let node = |x: usize, height: f64, mass, support| Node {
-        x: 2.0 * x as f64,
-        y: height,
-        mass,
-        rotary_inertia: 0.0,
-        support,
+    let node = |x: usize, height: f64, mass, support| {
+        let at = Node::at(2.0 * x as f64, height);
+        at.with_mass(mass).held(support)
     };
     let mut stick_model = StickModel::default();
     stick_model.nodes.push(node(0, 0.0, 0.0, Support::Fixed));

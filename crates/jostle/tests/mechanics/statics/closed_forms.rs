@@ -207,13 +207,7 @@ fn weight_takes_its_share_of_a_portal() {
 
 /// A beam with hinges at both ends and in the middle, where it carries a mass.
 fn clamped_beam(length: f64, mass: f64, moment: f64) -> BuildingSystem {
-    let node = |x: f64, mass: f64, support: Support| Node {
-        x,
-        y: 0.0,
-        mass,
-        rotary_inertia: 0.0,
-        support,
-    };
+    let node = |x: f64, mass: f64, support| Node::at(x, 0.0).with_mass(mass).held(support);
     let half = 0.5 * length;
     let stick_model = StickModel {
         nodes: vec![

@@ -242,7 +242,7 @@ fn a_stiff_frame_rocks_as_a_rigid_body() {
     for node in &own.discretization.stick_model.nodes {
         mass += node.mass;
         first += node.mass * node.y;
-        polar += node.rotary_inertia + node.mass * (node.y.powi(2) + (node.x - 4.5).powi(2));
+        polar += node.inertia[2] + node.mass * (node.y.powi(2) + (node.x - 4.5).powi(2));
     }
     let (kx, kt) = (
         place.springs.sway_stiffness,

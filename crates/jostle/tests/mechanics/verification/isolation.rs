@@ -18,13 +18,7 @@ use crate::verification::support::{
 
 /// A mass on a linear bearing between elastic stops.
 fn between_stops(mass: f64, stiffness: f64, stop: Stop) -> System {
-    let node = |y, mass, support| Node {
-        x: 0.0,
-        y,
-        mass,
-        rotary_inertia: 0.0,
-        support,
-    };
+    let node = |y, mass, support| Node::at(0.0, y).with_mass(mass).held(support);
     let stops = Side::BOTH.map(|side| Spring {
         hysteresis: Hysteresis::stop(stop.stiffness, stop.at, side).ok(),
         ..Spring::elastic([0, 1], 0.0)

@@ -240,13 +240,7 @@ pub(crate) fn column(outcome: &Outcome, column: Column) -> Vec<f64> {
 
 /// A mass \[kg\] that only slides, on a spring \[N/m\] unless it is free.
 pub(crate) fn slider(name: &str, mass: f64, stiffness: Option<f64>) -> BuildingSystem {
-    let node = |y, mass, support| Node {
-        x: 0.0,
-        y,
-        mass,
-        rotary_inertia: 0.0,
-        support,
-    };
+    let node = |y, mass, support| Node::at(0.0, y).with_mass(mass).held(support);
     let stick_model = StickModel {
         nodes: vec![
             node(0.0, 0.0, Support::Fixed),
