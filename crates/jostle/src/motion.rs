@@ -36,8 +36,8 @@ pub struct GroundMotion {
     pub grounds: Option<Box<Grounds>>,
 }
 
-/// Ground acceleration along x and across \[m/s²\].
-pub type Ground = [f64; 2];
+/// Ground acceleration along x, across, and upwards \[m/s²\].
+pub type Ground = [f64; 3];
 
 /// Direction of a ground motion in plan, and the motion at a right angle to it.
 #[derive(Clone, Debug, PartialEq)]
@@ -117,17 +117,18 @@ impl GroundMotion {
         other
     }
 
-    /// Ground acceleration along x and across at time `t`: a₁ cos φ − a₂ sin φ and a₁ sin φ + a₂ cos φ \[m/s²\].
+    /// Ground acceleration along x and across at time `t`: a₁ cos φ − a₂ sin φ and a₁ sin φ + a₂ cos φ; none upwards, which [`Grounds`]
+    /// have \[m/s²\].
     #[must_use]
     pub fn components(&self, t: f64) -> Ground {
         let first = self.acceleration(t);
         let Some(bearing) = &self.bearing else {
-            return [first, 0.0];
+            return [first, 0.0, 0.0];
         };
         let across = bearing.across.as_ref();
         let second = across.map_or(0.0, |motion| motion.acceleration(t));
         let (sin, cos) = libm::sincos(bearing.angle);
-        [first * cos - second * sin, first * sin + second * cos]
+        [first * cos - second * sin, first * sin + second * cos, 0.0]
     }
 
     /// Ground acceleration at time `t` \[m/s²\].

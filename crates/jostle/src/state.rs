@@ -146,7 +146,7 @@ impl State {
     /// that instant.
     #[must_use]
     pub fn at_rest(system: &System, ground_acceleration: f64) -> Self {
-        Self::resting(system, |_| [ground_acceleration, 0.0])
+        Self::resting(system, |_| [ground_acceleration, 0.0, 0.0])
     }
 
     /// The same on the grounds of a motion, which may differ.
@@ -162,7 +162,6 @@ impl State {
         let (mut displacement, mut acceleration) = (vec![0.0; n], vec![0.0; n]);
         let mut springs = Vec::new();
         for (index, building) in system.buildings.iter().enumerate() {
-            let [ground_acceleration, second] = ground_acceleration(index);
             let equations = &building.equations;
             for (value, rest) in displacement[building.range()]
                 .iter_mut()
@@ -172,23 +171,10 @@ impl State {
             }
             springs.extend(&building.rest.springs);
             springs.resize(building.spring_range().end, HysteresisMemory::default());
-            let masses = equations.driven_mass.iter().zip(&equations.mass);
-            for (value, (driven, mass)) in acceleration[building.range()].iter_mut().zip(masses) {
-                if *mass > 0.0 {
-                    *value = -driven / mass * ground_acceleration;
-                }
-            }
-            if second != 0.0
-                && let Some(driven) = equations.driven_by_second(true)
-            {
-                let masses = driven.iter().zip(&equations.mass);
-                let own = acceleration[building.range()].iter_mut();
-                for (value, (driven, mass)) in own.zip(masses) {
-                    if *mass > 0.0 {
-                        *value -= driven / mass * second;
-                    }
-                }
-            }
+            equations.stay_behind(
+                ground_acceleration(index),
+                &mut acceleration[building.range()],
+            );
         }
         Self {
             time: 0.0,

@@ -359,7 +359,7 @@ fn grounds_of_plans_have_both_components() {
     let motion = input.ground_motion().expect("a motion");
     assert_eq!(motion.under(0).at(t).acceleration, common);
     // In the directions of both components.
-    let turned = |[x, y]: [f64; 2]| [x * cos + y * sin, y * cos - x * sin];
+    let turned = |[x, y, _]: [f64; 3]| [x * cos + y * sin, y * cos - x * sin];
     let (here, there) = (turned(common), turned(motion.under(1).at(t).acceleration));
     for (a, b) in here.into_iter().zip(there) {
         assert!((a - b).abs() > 1e-4, "{here:?}, {there:?}");

@@ -150,7 +150,7 @@ across = "el-centro-1940-ns"
 "#;
     let input = read(&format!("{motion}{A}")).expect("a sound model");
     let motion = input.ground_motion().expect("a motion");
-    let [x, y] = motion.components(2.0);
+    let [x, y, _] = motion.components(2.0);
     let a = motion.acceleration(2.0);
     let (sin, cos) = 30.0_f64.to_radians().sin_cos();
     assert!((x - a * (cos - sin)).abs() < 1e-12 && (y - a * (sin + cos)).abs() < 1e-12);

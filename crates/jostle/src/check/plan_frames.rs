@@ -22,6 +22,19 @@ pub(super) fn check_plan_frames(
         return;
     }
     let before = faults.0.len();
+    let reached = tiers.frames.iter();
+    let reached = reached.map(|own| own.frame.storey_heights.len()).max();
+    let reached = reached.unwrap_or(0);
+    faults.require(
+        !building.gravity.preload || reached >= tiers.floors.len(),
+        format!("{path}.gravity"),
+        || {
+            format!(
+                "floor {} has no columns of frames that carry its weight; let frames reach it, or leave gravity out",
+                reached + 1
+            )
+        },
+    );
     for (index, frame) in tiers.frames.iter().enumerate() {
         let at = format!("{path}.frame[{index}]");
         check_one(faults, &at, frame, tiers);
@@ -35,9 +48,6 @@ pub(super) fn check_plan_frames(
             )
         });
     }
-    faults.require(!building.gravity.preload, format!("{path}.gravity"), || {
-        "is not possible with frames in a plan yet: forces of members are those of the motion; leave it out, or take p_delta alone".into()
-    });
     if faults.0.len() > before {
         return;
     }

@@ -22,9 +22,15 @@ pub(super) fn check_space_frame(
     };
     let before = faults.0.len();
     check_lines(faults, path, frame, tiers.floors.len());
-    faults.require(!building.gravity.preload, format!("{path}.gravity"), || {
-        "is not possible with a space frame yet: forces of members are those of the motion; leave it out, or take p_delta alone".into()
+    let mut columns = frame.members.iter();
+    let columns_are_rigid = columns.any(|own| {
+        matches!(own.place, SpacePlace::Column { .. }) && own.section.axial_rigidity.is_none()
     });
+    faults.require(
+        !building.gravity.preload || !columns_are_rigid,
+        format!("{path}.gravity"),
+        || "needs columns that shorten under the weight that they carry: take axial = \"flexible\", or leave gravity out".into(),
+    );
     for member in &frame.members {
         let section = &member.section;
         let shear = section.shear_rigidity.into_iter().flatten();

@@ -60,6 +60,12 @@ impl Mode {
             >= LATERAL_SHARE
     }
 
+    /// Whether it carries at least 1 % of the mass along the row.
+    #[must_use]
+    pub fn is_along(&self) -> bool {
+        self.effective_mass_ratio_x >= LATERAL_SHARE
+    }
+
     /// A mode from ω² and a shape of any scale.
     fn new(building: &AssembledBuilding, squared_frequency: f64, mut shape: Vec<f64>) -> Self {
         let equations = &building.equations;

@@ -34,8 +34,8 @@ pub struct OwnGround {
 /// Acceleration, velocity and displacement of a ground from rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GroundPoint {
-    /// Along the row, and across it or upwards \[m/s²\].
-    pub acceleration: [f64; 2],
+    /// Along the row, across it, and upwards \[m/s²\].
+    pub acceleration: Ground,
     /// Along the row and across it \[m/s\].
     pub velocity: [f64; 2],
     /// Along the row and across it \[m\].
@@ -189,16 +189,15 @@ impl GroundPath<'_> {
         let across = self.across.as_ref();
         let across = across.map_or([0.0; 3], |motion| motion.at(own, side));
         let (sin, cos) = self.turned;
-        let turned = |order: usize| -> Ground {
+        let turned = |order: usize| {
             let (first, second) = (along[order], across[order]);
             [first * cos - second * sin, first * sin + second * cos]
         };
-        let mut acceleration = turned(0);
-        if let Some(vertical) = self.vertical {
-            acceleration[1] = side.acceleration(vertical, own);
-        }
+        let [x, y] = turned(0);
+        let vertical = self.vertical;
+        let up = vertical.map_or(0.0, |motion| side.acceleration(motion, own));
         GroundPoint {
-            acceleration,
+            acceleration: [x, y, up],
             velocity: turned(1),
             displacement: turned(2),
         }
@@ -394,7 +393,7 @@ mod tests {
             }
             // Afterwards the ground goes on as it went.
             let (end, later) = (path.at(3.0), path.at(3.5));
-            assert_eq!(later.acceleration, [0.0; 2]);
+            assert_eq!(later.acceleration, [0.0; 3]);
             let drifted = end.displacement[0] + 0.5 * end.velocity[0];
             assert!((later.displacement[0] - drifted).abs() < 1e-12);
         }

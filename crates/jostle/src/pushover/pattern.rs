@@ -7,7 +7,7 @@ use crate::system::BuildingSystem;
 /// Shape of the horizontal load of a pushover.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum LoadPattern {
-    /// Mass times the shape of the first lateral mode, uncracked.
+    /// Mass times the shape of the first mode along the row, uncracked.
     #[default]
     FirstMode,
     /// Mass.
@@ -33,11 +33,12 @@ impl LoadPattern {
     /// Horizontal force at every degree of freedom of a building, of sum one \[–\]. It acts at the floors; masses
     /// of columns between floors are divided between the floors above and below by the lever rule.
     ///
-    /// `None` when there is no first mode or no mass.
+    /// `None` when there is no such mode or no mass.
     #[must_use]
     pub fn forces(self, building: &BuildingSystem) -> Option<Vec<f64>> {
         let equations = &building.equations;
-        let mode = building.lateral_modes().next();
+        // Of a building in plan, the first mode may move across.
+        let mode = building.lateral_modes().find(|mode| mode.is_along());
         let shape = match self {
             Self::FirstMode => Some(mode?),
             _ => None,

@@ -473,12 +473,15 @@ fn refused_grounds(solver: Solver, system: &System) -> Option<ModelFault> {
 
 /// What cannot be shaken vertically.
 fn refused_vertical(system: &System) -> Option<ModelFault> {
-    if system.is_in_space() {
+    let floats =
+        |own: &&BuildingSystem| own.has_columns_in_plan() && own.rest.displacement.is_empty();
+    if let Some(building) = system.buildings.iter().find(floats) {
         return Some(ModelFault {
             path: "motion.vertical".into(),
-            problem:
-                "vertical shaking is not possible for buildings with a plan yet; leave vertical out"
-                    .into(),
+            problem: format!(
+                "columns of \"{}\" carry the masses of its floors only under self weight; add gravity = true to the building, or leave vertical out",
+                building.name
+            ),
         });
     }
     let mut buildings = system.buildings.iter();

@@ -3,6 +3,8 @@
 use crate::hysteresis::{Hysteresis, HysteresisMemory};
 use crate::linear::{Row, SparseSymmetric};
 use crate::model::ProportionalDamping;
+use crate::motion::Ground;
+use crate::simd;
 use crate::structure::element::{self, Part, Place, X, Y, over_nodes};
 use crate::structure::path::Path;
 use crate::structure::stick_elements;
@@ -92,9 +94,6 @@ impl Equations {
             }
             total_mass += node.mass;
             for (component, inertia) in node.inertia.into_iter().enumerate() {
-                let moved = node.influence[component];
-                moved_mass[0] += inertia * moved.along * moved.along;
-                moved_mass[1] += inertia * moved.across * moved.across;
                 let carried = stick_model.carried((index, component));
                 let [(place, share)] = *carried.entries() else {
                     continue;
@@ -103,6 +102,9 @@ impl Equations {
                 let Some(dof) = path.dof(place.0, place.1) else {
                     continue;
                 };
+                let moved = node.influence[component];
+                moved_mass[0] += inertia * moved.along * moved.along;
+                moved_mass[1] += inertia * moved.across * moved.across;
                 mass[dof] += inertia * (share * share);
                 driven_mass[dof] += inertia * share * moved.along;
                 vertical_mass[dof] += inertia * share * moved.up;
@@ -192,15 +194,29 @@ impl Equations {
         }
     }
 
-    /// Masses on which the second component of the ground acceleration acts: across the row in space, upwards in one plane if it is
-    /// shaken vertically; `None` where nothing is \[kg\].
-    pub(crate) fn driven_by_second(&self, vertical: bool) -> Option<&[f64]> {
-        if !self.driven_across.is_empty() {
-            Some(&self.driven_across)
-        } else if vertical {
-            Some(&self.vertical_mass)
-        } else {
-            None
+    /// M r of the ground acceleration along the row, across, and upwards; empty where nothing moves that way \[kg\].
+    pub(crate) fn driven(&self) -> [&[f64]; 3] {
+        [&self.driven_mass, &self.driven_across, &self.vertical_mass]
+    }
+
+    /// Adds a share of a ground acceleration times these masses to loads, other than what it drives along the row.
+    pub(crate) fn add_across_and_up(&self, share: f64, ground: Ground, loads: &mut [f64]) {
+        let others = self.driven().into_iter().zip(ground).skip(1);
+        for (driven, component) in others.filter(|(own, c)| *c != 0.0 && !own.is_empty()) {
+            simd::add(loads, share * component, driven);
+        }
+    }
+
+    /// Adds what a change of the ground acceleration does to relative accelerations at once: M Δa = −M r Δa_g.
+    pub(crate) fn stay_behind(&self, change: Ground, acceleration: &mut [f64]) {
+        let all = self.driven().into_iter().zip(change);
+        for (driven, component) in all.filter(|(_, component)| *component != 0.0) {
+            let masses = driven.iter().zip(&self.mass);
+            for (value, (driven, mass)) in acceleration.iter_mut().zip(masses) {
+                if *mass > 0.0 {
+                    *value -= driven / mass * component;
+                }
+            }
         }
     }
 

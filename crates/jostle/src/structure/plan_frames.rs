@@ -9,16 +9,20 @@ use super::member_forces::FrameMember;
 use super::order::Turn;
 use super::spring_place::SpringPlace;
 use super::stick_model::{Influence, Node, StickModel, Support};
-use crate::model::{Frame, LEVEL_TOLERANCE, LumpedFloor, PlanFrame, PlanPoint, Tiers};
+use crate::model::{
+    Frame, LEVEL_TOLERANCE, LumpedFloor, PlanFrame, PlanPoint, SharedColumn, Tiers,
+};
 
 /// Adds the frames of a building, whose ground, mat and floors are the nodes of the stick model so far. Feet are tied to the mat, if
 /// there is one, as joints are to floors.
 ///
-/// Frames are eliminated one beside the other, and a floor after all joints at its height.
+/// Frames are eliminated one beside the other, and a floor after all joints at its height. `carry_weight`: their columns carry the
+/// floors' own masses.
 pub(super) fn add_frames(
     tiers: &Tiers,
     lumped: &[LumpedFloor],
     mat: Option<(usize, &LumpedFloor)>,
+    carry_weight: bool,
     discretization: &mut Discretization,
 ) {
     if tiers.frames.is_empty() {
@@ -31,7 +35,10 @@ pub(super) fn add_frames(
     let shared = tiers.shared_columns();
     let (mut hinge_places, mut diagonal_places) = (Vec::new(), Vec::new());
     for (index, plan_frame) in tiers.frames.iter().enumerate() {
-        let own = discretize(plan_frame, &plan_frame.frame);
+        let mut own = discretize(plan_frame, &plan_frame.frame);
+        if carry_weight {
+            carry_floors(tiers, &shared, index, &mut own.stick_model);
+        }
         let mut without_columns = plan_frame.frame.clone();
         for column in &mut without_columns.columns {
             column.line_mass = 0.0;
@@ -82,6 +89,34 @@ pub(super) fn add_frames(
 
 fn discretize(plan_frame: &PlanFrame, frame: &Frame) -> Discretization {
     discretize_frame(frame, &plan_frame.base, &plan_frame.hinges, [&[], &[]])
+}
+
+/// Lets the joints of a frame carry the floors' own masses: every column that reaches a floor has an equal share. What frames carry by
+/// themselves, on beams and at joints, stands in them already.
+fn carry_floors(tiers: &Tiers, shared: &[SharedColumn], frame: usize, sticks: &mut StickModel) {
+    let is_doubled = |place: [usize; 2]| shared.iter().any(|own| own.lines[1] == place);
+    let columns_of = |index: usize, storey: usize| {
+        let own = &tiers.frames[index];
+        let reaches = storey < own.frame.storey_heights.len();
+        (0..own.column_lines()).filter(move |line| reaches && !is_doubled([index, *line]))
+    };
+    let own = &tiers.frames[frame];
+    let mut height = 0.0;
+    for (storey, storey_height) in own.frame.storey_heights.iter().enumerate() {
+        height += storey_height;
+        let all = (0..tiers.frames.len()).map(|index| columns_of(index, storey).count());
+        let share = tiers.floors[storey].mass / all.sum::<usize>() as f64;
+        for line in columns_of(frame, storey) {
+            let along: f64 = own.frame.spans.iter().take(line).sum();
+            // Joints come before what stands beside them beyond hinges.
+            let mut nodes = sticks.nodes.iter_mut();
+            let joint = nodes
+                .find(|node| (node.x - along).abs() + (node.y - height).abs() <= LEVEL_TOLERANCE);
+            if let Some(joint) = joint {
+                joint.inertia[Y] += share;
+            }
+        }
+    }
 }
 
 /// Where a frame stands.
@@ -199,8 +234,8 @@ impl StickModel {
             inertia: [
                 if carrier.is_some() { 0.0 } else { node.mass },
                 match is_doubled {
-                    true => place.light.nodes[index].mass,
-                    false => node.mass,
+                    true => place.light.nodes[index].inertia[Y],
+                    false => node.inertia[Y],
                 },
                 node.inertia[THETA],
             ],

@@ -53,16 +53,19 @@ pub struct JointedFrame {
 }
 
 /// Adds a frame to a stick model in which the `ground` and all that moves, the mat and the floors, are nodes already; returns it with the
-/// places of its hinges.
+/// places of its hinges. `carried`: masses of the floors that its columns carry in equal shares; none unless it stands under its weight
+/// \[kg\].
 pub(super) fn add_space_joints(
     assembly: Assembly<'_>,
     sticks: &mut StickModel,
     ground: usize,
     moving: &[usize],
+    carried: &[f64],
 ) -> (JointedFrame, Vec<SpringPlace>) {
     let (frame, storey_heights) = (assembly.frame, assembly.heights);
     let floors = &moving[moving.len() - storey_heights.len()..];
     let joint_nodes = add_joints(&assembly, sticks, floors);
+    carry_floors(&assembly, sticks, joint_nodes.start, carried);
     sticks.eliminate_after_joints(moving.iter().copied(), floors[0]);
     let mut builder = Builder {
         assembly,
@@ -113,6 +116,25 @@ fn add_joints(assembly: &Assembly<'_>, sticks: &mut StickModel, floors: &[usize]
         sticks.add_turning(Stage::Joints, unknown, height);
     }
     first..sticks.nodes.len()
+}
+
+/// Lets joints on columns carry the masses of floors, in equal shares.
+fn carry_floors(assembly: &Assembly<'_>, sticks: &mut StickModel, first: usize, carried: &[f64]) {
+    for (floor, mass) in carried.iter().enumerate() {
+        let places = assembly.frame.members.iter().map(|member| member.place);
+        let columns = places.filter_map(|place| match place {
+            SpacePlace::Column { line, storey } if storey == floor => Some(line),
+            _ => None,
+        });
+        let columns: Vec<[usize; 2]> = columns.collect();
+        for line in &columns {
+            if let [Some(rise), ..] = assembly.joints.at(floor, *line) {
+                let node = &mut sticks.nodes[first + rise];
+                node.inertia[THETA] += mass / columns.len() as f64;
+                node.influence[THETA] = Influence::UP;
+            }
+        }
+    }
 }
 
 impl StickModel {

@@ -11,7 +11,9 @@ use super::space_frame::{Assembly, condense};
 use super::space_joints::add_space_joints;
 use super::spring_place::SpringPlace;
 use super::stick_model::{Influence, Node, StickModel, Support, YieldingElement};
-use crate::model::{Gravity, Isolation, LumpedFloor, PlanPoint, ProportionalDamping, Tiers};
+use crate::model::{
+    Gravity, Isolation, LumpedFloor, PlanPoint, ProportionalDamping, SpaceFrame, Tiers,
+};
 
 /// Motion of a plan point per displacement of a floor with its centre of mass at `centre`: rows x, across and rotation.
 pub(crate) fn motion_at(point: PlanPoint, centre: PlanPoint) -> [[f64; 3]; 3] {
@@ -57,10 +59,10 @@ pub(super) fn discretize_tiers(
             matrix.add_storey(&moving, first + index, &taken, Part::Undamped);
         }
     }
-    // Joints follow the floors until a hinge yields.
-    let elastic = tiers.space_frame.as_ref().filter(|own| !own.may_yield());
-    let yielding = tiers.space_frame.as_ref().filter(|own| own.may_yield());
-    let condensed = elastic.and_then(|frame| {
+    // Joints follow the floors until a hinge yields; what they carry moves them as well.
+    let follows = |own: &&SpaceFrame| !own.may_yield() && !gravity.preload;
+    let following = tiers.space_frame.as_ref().filter(follows);
+    let condensed = following.and_then(|frame| {
         let (stiffness, own) = condense(frame, &tiers.storey_heights, mat.as_ref(), &lumped)?;
         matrix.add_triangle(&stiffness, Part::Elastic);
         Some(Arc::new(own))
@@ -75,10 +77,14 @@ pub(super) fn discretize_tiers(
         .chain(floors.iter().copied())
         .collect();
     stick_model.elements = matrix.elements(ground, &nodes);
-    let (jointed, mut spring_places) = match yielding {
+    let jointed = tiers.space_frame.as_ref().filter(|own| !follows(own));
+    let (jointed, mut spring_places) = match jointed {
         Some(frame) => {
             let assembly = Assembly::new(frame, &tiers.storey_heights, mat.as_ref(), &lumped);
-            let (own, places) = add_space_joints(assembly, &mut stick_model, ground, &nodes);
+            let masses = tiers.floors.iter().map(|floor| floor.mass);
+            let carried: Vec<f64> = masses.filter(|_| gravity.preload).collect();
+            let (own, places) =
+                add_space_joints(assembly, &mut stick_model, ground, &nodes, &carried);
             (Some(Arc::new(own)), places)
         }
         None => (None, Vec::new()),
@@ -123,7 +129,7 @@ pub(super) fn discretize_tiers(
         ..Discretization::default()
     };
     let below = mat.as_ref().map(|mat| (foot, mat));
-    add_frames(tiers, &lumped, below, &mut discretization);
+    add_frames(tiers, &lumped, below, gravity.preload, &mut discretization);
     if let Some((isolation, mat)) = isolation.zip(mat) {
         let places = [ground, foot];
         put_on_mat(tiers, isolation, &mat, places, &mut discretization);

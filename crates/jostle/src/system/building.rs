@@ -7,9 +7,7 @@ use super::plan_mat::MatInPlan;
 use super::plan_storey::PlanStorey;
 use super::soil::FoundationPlace;
 use super::weakening::Weakening;
-use crate::eigen::{
-    LATERAL_SHARE, Mode, lateral_modes_along, modes_dense, symmetric, vertical_modes_along,
-};
+use crate::eigen::{Mode, lateral_modes_along, modes_dense, symmetric, vertical_modes_along};
 use crate::hysteresis::HysteresisMemory;
 use crate::linear::Row;
 use crate::model::{
@@ -114,7 +112,8 @@ impl Direction {
     pub fn of_ground(self, ground: Ground) -> f64 {
         match self {
             Self::Along => ground[0],
-            Self::Across | Self::Up => ground[1],
+            Self::Across => ground[1],
+            Self::Up => ground[2],
             Self::Turning => 0.0,
         }
     }
@@ -215,14 +214,19 @@ impl BuildingSystem {
         if !gravity.p_delta && !gravity.preload {
             return Ok(());
         }
+        let mut asked = gravity;
         if self.is_in_space() {
             // P-Delta is part of its matrices.
-            return match self.modes.is_empty() {
-                true => Err(Collapse::Movable),
-                false => Ok(()),
-            };
+            asked.p_delta = false;
+            asked.preload &= self.moves_vertically();
+            if self.modes.is_empty() {
+                return Err(Collapse::Movable);
+            }
+            if !asked.preload {
+                return Ok(());
+            }
         }
-        let (leaning, rest) = under_gravity(&self.structure, gravity)?;
+        let (leaning, rest) = under_gravity(&self.structure, asked)?;
         if let Some(leaning) = leaning {
             *self = Self::from_assembled(leaning);
         }
@@ -338,6 +342,12 @@ impl BuildingSystem {
             .collect()
     }
 
+    /// Whether columns of frames hold floors in plan.
+    pub(crate) fn has_columns_in_plan(&self) -> bool {
+        let own = &self.discretization;
+        !own.frames.is_empty() || own.space_frame.is_some() || own.jointed_frame.is_some()
+    }
+
     /// Whether any mass moves vertically.
     #[must_use]
     pub fn moves_vertically(&self) -> bool {
@@ -348,14 +358,17 @@ impl BuildingSystem {
     /// [`crate::State`].
     pub fn vertical_points(&self) -> impl Iterator<Item = (usize, usize)> {
         let nodes = self.discretization.stick_model.nodes.iter().enumerate();
-        let points = nodes.filter_map(|(node, place)| {
-            let dof = self.equations.vertical(node)?;
-            let at = |floor: &Floor| (floor.height - place.y).abs() <= LEVEL_TOLERANCE;
+        let places = nodes.flat_map(|(node, place)| {
+            let components = place.influence.iter().enumerate();
+            let rising = components.filter(|(_, own)| own.up > 0.0);
+            rising.map(move |(component, _)| (place.y, (node, component)))
+        });
+        places.filter_map(|(height, place)| {
+            let dof = self.equations.dof(place)?;
+            let at = |floor: &Floor| (floor.height - height).abs() <= LEVEL_TOLERANCE;
             let floor = self.floors.iter().position(at)?;
             (self.equations.vertical_mass[dof] > 0.0).then_some((floor, self.offset + dof))
-        });
-        let in_plane = !self.is_in_space();
-        points.filter(move |_| in_plane)
+        })
     }
 
     /// Sets the Rayleigh damping (theory, Eq. D1).
@@ -528,9 +541,7 @@ impl BuildingSystem {
         held.inner_links = links.collect();
         let sweep = RiccatiSweep::through(&held.equations);
         let modes = lateral_modes_along(&held, &sweep).unwrap_or_default();
-        let along = modes
-            .iter()
-            .filter(|mode| mode.effective_mass_ratio_x >= LATERAL_SHARE);
+        let along = modes.iter().filter(|mode| mode.is_along());
         along
             .map(|mode| ModeAlong::new(mode, &held.inner_links))
             .collect()

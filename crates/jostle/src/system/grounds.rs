@@ -171,9 +171,9 @@ impl<'a> RunGrounds<'a> {
         match (self.paths.get(building), self.points[0].get(building)) {
             (Some(path), Some(point)) => {
                 let after = path.at(t).acceleration;
-                [0, 1].map(|axis| after[axis] - point.acceleration[axis])
+                [0, 1, 2].map(|axis| after[axis] - point.acceleration[axis])
             }
-            _ => [0.0; 2],
+            _ => [0.0; 3],
         }
     }
 
@@ -211,7 +211,10 @@ impl<'a> RunGrounds<'a> {
         [
             joint.apart(|own| points[own].displacement),
             joint.apart(|own| points[own].velocity),
-            joint.apart(|own| points[own].acceleration),
+            joint.apart(|own| {
+                let [along, across, _] = points[own].acceleration;
+                [along, across]
+            }),
         ]
     }
 

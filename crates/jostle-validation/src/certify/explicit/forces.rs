@@ -73,7 +73,7 @@ pub(super) struct Forces {
     pub(super) acceleration: Vec<f64>,
     /// Rates of the forces of springs in series with dashpots.
     pub(super) rates: Vec<f64>,
-    pub(super) ground: [f64; 2],
+    pub(super) ground: [f64; 3],
 }
 
 impl Bodies {

@@ -305,9 +305,11 @@ impl Direct {
             }
             let [now, end] = [now, end].map(|ground| ground.of(index));
             self.audit.input -= 0.5 * (now[0] + end[0]) * driven_rise;
-            if let Some(driven) = equations.driven_by_second(run.plan.vertical) {
-                let moved = simd::dot(driven, rises);
-                self.audit.input -= 0.5 * (now[1] + end[1]) * moved;
+            for axis in [1, 2] {
+                let mean = 0.5 * (now[axis] + end[axis]);
+                if mean != 0.0 {
+                    self.audit.input -= mean * simd::dot(equations.driven()[axis], rises);
+                }
             }
             let strained = if equations.beta > 0.0 {
                 equations.stiffness.quadratic_form(rises)
@@ -584,23 +586,8 @@ impl Stepper for Direct {
     /// Buildings stay behind: M Δa = −M r Δa_g.
     fn change_ground(&mut self, run: &RunState<'_>, building: usize, change: Ground) {
         let own = &run.system.buildings[building];
-        let masses = own.equations.driven_mass.iter().zip(&own.equations.mass);
-        let accelerations = self.state.acceleration[own.range()].iter_mut();
-        for (value, (driven, mass)) in accelerations.zip(masses) {
-            if *mass > 0.0 {
-                *value -= driven / mass * change[0];
-            }
-        }
-        let Some(driven) = own.equations.driven_by_second(run.plan.vertical) else {
-            return;
-        };
-        let masses = driven.iter().zip(&own.equations.mass);
-        let accelerations = self.state.acceleration[own.range()].iter_mut();
-        for (value, (driven, mass)) in accelerations.zip(masses) {
-            if *mass > 0.0 {
-                *value -= driven / mass * change[1];
-            }
-        }
+        own.equations
+            .stay_behind(change, &mut self.state.acceleration[own.range()]);
     }
 }
 
@@ -620,8 +607,7 @@ fn unbalanced_load(
     let mut load = vec![0.0; system.len()];
     let mut largest = 0.0_f64;
     for (index, building) in system.buildings.iter().enumerate() {
-        let [ground, second] = grounds.of(index);
-        let upwards = if run.plan.vertical { second } else { 0.0 };
+        let [along, across, up] = grounds.of(index);
         let (range, equations) = (building.range(), &building.equations);
         let (u, v) = (
             &state.displacement[range.clone()],
@@ -647,12 +633,12 @@ fn unbalanced_load(
                 0.0
             } else {
                 STANDARD_GRAVITY * equations.vertical_mass[k]
-            } + upwards * equations.vertical_mass[k];
+            } + up * equations.vertical_mass[k];
             let across = match equations.driven_across.get(k) {
-                Some(driven) => driven * second,
+                Some(driven) => driven * across,
                 None => 0.0,
             };
-            let driven = equations.driven_mass[k] * ground + weight + across;
+            let driven = equations.driven_mass[k] * along + weight + across;
             load[dof] = -driven - inertia - resisted[k];
             largest = largest
                 .max(driven.abs())

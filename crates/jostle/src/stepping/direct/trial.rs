@@ -78,12 +78,9 @@ impl Direct {
                 out: &mut self.increment[range.clone()],
             };
             simd::in_wide_registers(range.len(), loads);
-            let second = end.of(index)[1] - now.of(index)[1];
-            if let Some(driven) = equations.driven_by_second(run.plan.vertical)
-                && second != 0.0
-            {
-                simd::add(&mut self.increment[range], -second, driven);
-            }
+            let (now, end) = (now.of(index), end.of(index));
+            let change = [0, 1, 2].map(|axis| end[axis] - now[axis]);
+            equations.add_across_and_up(-1.0, change, &mut self.increment[range]);
         }
         self.add_undamped_loads(run, slot);
         let weight = self.factors[slot].coefficients.unbalanced;

@@ -155,7 +155,7 @@ impl ModalStepper<'_> {
     /// Relative motion of a contact over a step if its faces go on as they accelerate now.
     fn drift(&self, run: &RunState<'_>, index: usize, step: f64) -> Drift {
         let closing = |watched: &[Vec<f64>; 2]| self.reduced.closing(index, &watched[0]);
-        let [along, across] = self.peaks.driven();
+        let [along, across, _] = self.peaks.driven();
         if run.grounds_at(0).is_split() {
             return self.drift_on_own_grounds(run, index, step);
         }
@@ -182,7 +182,7 @@ impl ModalStepper<'_> {
         let mut jerk = closing(&self.unloaded_jerk) + (moved_now - moved_then) / step;
         let rate_under = |building: usize| {
             let [then, now] = [then, now].map(|all| all.of(building));
-            [0, 1].map(|axis| (now[axis] - then[axis]) / step)
+            [0, 1, 2].map(|axis| (now[axis] - then[axis]) / step)
         };
         if let Some(plan) = &self.reduced.plan {
             for (share, side) in plan.sides_of(index) {

@@ -91,7 +91,7 @@ impl ModalStepper<'_> {
         let by_parts = |grounds: [Ground; 2], moved: [Ground; 2], area: Ground| {
             let ([then, now], [before, after]) = (grounds, moved);
             let mut input = 0.0;
-            for axis in 0..2 {
+            for axis in 0..3 {
                 let slope = (now[axis] - then[axis]) / step;
                 input += slope * area[axis] - (now[axis] * after[axis] - then[axis] * before[axis]);
             }

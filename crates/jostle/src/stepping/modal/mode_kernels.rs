@@ -566,7 +566,11 @@ mod tests {
         let (n, steps) = (lanes.len() * LANES, 5);
         let (q, v) = (list(n, 0.3), list(n, 0.9));
         let [along, across] = [2.0, 4.0].map(|seed| list(steps + 1, seed));
-        let ground: Vec<Ground> = along.into_iter().zip(across).map(Ground::from).collect();
+        let ground: Vec<Ground> = along
+            .into_iter()
+            .zip(across)
+            .map(|(x, y)| [x, y, 0.0])
+            .collect();
         let ahead = |wide: bool| {
             let mut modal = [(); 4].map(|()| vec![0.0; n * steps]);
             let mut sums = vec![Sums::default(); steps];

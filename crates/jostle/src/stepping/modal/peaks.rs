@@ -33,8 +33,8 @@ pub(super) struct Peaks {
     pub(super) near: Option<PlanNear>,
     pub(super) base_shear: Vec<f64>,
     /// Contribution of a unit ground acceleration along x to the accelerations of monitored quantities, and of its rate to
-    /// their rates; then the same across, empty in one plane.
-    driven: [Vec<f64>; 2],
+    /// their rates; then the same across, and upwards; empty where nothing moves that way.
+    driven: [Vec<f64>; 3],
     /// Share of both components of the ground acceleration in total accelerations of monitored quantities; empty unless
     /// buildings are in space.
     moved: [Vec<f64>; 2],
@@ -96,15 +96,15 @@ impl Peaks {
         tolerance: f64,
     ) -> Self {
         let (watched, listed) = (reduced.watched(), reduced.listed());
-        let (mut driven, mut spare) = (vec![0.0; listed], vec![0.0; listed]);
-        let participation = &reduced.participation[..];
-        reduced.show_all([participation, participation], [&mut driven, &mut spare]);
-        let mut across = Vec::new();
-        if !reduced.second().is_empty() {
-            across.resize(listed, 0.0);
-            let participation = reduced.second();
-            reduced.show_all([participation, participation], [&mut across, &mut spare]);
-        }
+        let mut spare = vec![0.0; listed];
+        let driven = reduced.participations().map(|participations| {
+            let mut shown = Vec::new();
+            if !participations.is_empty() {
+                shown.resize(listed, 0.0);
+                reduced.show_all([participations; 2], [&mut shown, &mut spare]);
+            }
+            shown
+        });
         Self {
             history: interval.map(|_| History::new(columns(system, grounds))),
             interval: interval.unwrap_or(0.0),
@@ -137,10 +137,10 @@ impl Peaks {
                 .as_ref()
                 .map(|plan| PlanNear::new(plan, &system.contacts, tolerance)),
             base_shear: vec![0.0; system.buildings.len()],
-            driven: [driven, across],
+            driven,
             moved: match reduced.across.is_empty() {
                 true => Default::default(),
-                false => [[1.0, 0.0], [0.0, 1.0]].map(|ground| {
+                false => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(|ground| {
                     let directions = reduced.directions.iter();
                     directions.map(|own| own.of_ground(ground)).collect()
                 }),
@@ -193,14 +193,14 @@ impl Peaks {
     }
 
     /// See the field.
-    pub(super) fn driven(&self) -> &[Vec<f64>; 2] {
+    pub(super) fn driven(&self) -> &[Vec<f64>; 3] {
         &self.driven
     }
 
     /// What the rate of the ground acceleration adds to the jerk without load: with it, the rate of the total acceleration
     /// of a monitored place.
     fn slope(&self, place: usize, direction: Direction, rate: Ground) -> f64 {
-        if self.driven[1].is_empty() {
+        if self.driven[1..].iter().all(Vec::is_empty) {
             return rate[0] * (1.0 - self.driven[0][place]);
         }
         direction.of_ground(rate) - self.driven_by(place, rate)
@@ -208,11 +208,9 @@ impl Peaks {
 
     /// What a ground acceleration contributes to the acceleration of a monitored quantity, with the opposite sign.
     pub(super) fn driven_by(&self, place: usize, ground: Ground) -> f64 {
-        let [along, across] = &self.driven;
-        let first = along[place] * ground[0];
-        across
-            .get(place)
-            .map_or(first, |share| first + share * ground[1])
+        let all = self.driven.iter().zip(ground);
+        let shares = all.filter_map(|(shares, component)| Some(shares.get(place)? * component));
+        shares.sum()
     }
 
     /// Updates peaks with a step.
@@ -438,9 +436,10 @@ impl Peaks {
             self.seen.fill(true);
             return true;
         }
-        let [g0, g1] = ground.map(|ground| ground.common);
+        // Alike grounds do not rise.
+        let [g0, g1] = ground.map(|ground| [ground.common[0], ground.common[1]]);
         let rate = [0, 1].map(|axis| (g1[axis] - g0[axis]) / step);
-        let [along, across] = &self.driven;
+        let [along, across, _] = &self.driven;
         let (limits, ends) = (&self.limits, [then.lists(), now.lists()]);
         let (beyond, seen) = (BEYOND * step, &mut self.seen);
         if across.is_empty() {
@@ -489,7 +488,7 @@ impl Peaks {
                 continue;
             }
             let ground = ground.map(|all| all.of(index));
-            let ground_rate = [0, 1].map(|axis| (ground[1][axis] - ground[0][axis]) / step);
+            let ground_rate = [0, 1, 2].map(|axis| (ground[1][axis] - ground[0][axis]) / step);
             let foot = |of: Watched<'_>| {
                 own.foot.map_or([0.0; 2], |foot| {
                     let at = own.watched.start + foot;

@@ -449,13 +449,9 @@ impl Reduced {
         Ok(())
     }
 
-    /// Γ of the second component of the ground motion: across, or upwards.
-    pub(super) fn second(&self) -> &[f64] {
-        if self.across.is_empty() {
-            &self.upwards
-        } else {
-            &self.across
-        }
+    /// Γ of the ground motion along the row, across, and upwards; empty where nothing moves that way.
+    pub(super) fn participations(&self) -> [&[f64]; 3] {
+        [&self.participation, &self.across, &self.upwards]
     }
 
     /// Number of contacts, without friction along their faces.
@@ -479,14 +475,11 @@ impl Reduced {
     /// Adds the loads of a ground acceleration to those of the modes of one building.
     pub(super) fn add_ground_loads(&self, building: usize, ground: Ground, loads: &mut [f64]) {
         let modes = self.buildings[building].modes.clone();
-        for (load, participation) in loads.iter_mut().zip(&self.participation[modes.clone()]) {
-            *load -= participation * ground[0];
-        }
-        if self.second().is_empty() {
-            return;
-        }
-        for (load, participation) in loads.iter_mut().zip(&self.second()[modes]) {
-            *load -= participation * ground[1];
+        for (participations, component) in self.participations().into_iter().zip(ground) {
+            let own = participations.get(modes.clone()).unwrap_or_default();
+            for (load, participation) in loads.iter_mut().zip(own) {
+                *load -= participation * component;
+            }
         }
     }
 
@@ -500,27 +493,22 @@ impl Reduced {
         }
     }
 
-    /// Σ Γ x of a list of modes, along x and across.
-    pub(super) fn driven(&self, list: &[f64]) -> [f64; 2] {
-        let along = simd::dot(&self.participation, list);
-        let across = if self.across.is_empty() {
-            0.0
-        } else {
-            simd::dot(&self.across, list)
-        };
-        [along, across]
+    /// Σ Γ x of a list of modes, along x, across, and upwards.
+    pub(super) fn driven(&self, list: &[f64]) -> Ground {
+        self.driven_by(0..self.modes(), list)
     }
 
     /// The same of one building.
-    pub(super) fn driven_of(&self, building: usize, list: &[f64]) -> [f64; 2] {
-        let modes = self.buildings[building].modes.clone();
-        let along = simd::dot(&self.participation[modes.clone()], &list[modes.clone()]);
-        let across = if self.second().is_empty() {
-            0.0
-        } else {
-            simd::dot(&self.second()[modes.clone()], &list[modes])
-        };
-        [along, across]
+    pub(super) fn driven_of(&self, building: usize, list: &[f64]) -> Ground {
+        self.driven_by(self.buildings[building].modes.clone(), list)
+    }
+
+    fn driven_by(&self, modes: Range<usize>, list: &[f64]) -> Ground {
+        self.participations()
+            .map(|participations| match participations.get(modes.clone()) {
+                Some(own) => simd::dot(own, &list[modes.clone()]),
+                None => 0.0,
+            })
     }
 
     /// The available registers.

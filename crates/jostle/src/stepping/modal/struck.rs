@@ -118,7 +118,7 @@ impl WithinStep {
         reduced.show(modal, [&mut latest.1, &mut self.spare]);
         for (index, building) in reduced.buildings.iter().enumerate() {
             let [g0, g1] = start.ground.map(|all| all.of(index));
-            let ground = [0, 1].map(|axis| g0[axis] + (g1[axis] - g0[axis]) * time / start.step);
+            let ground = [0, 1, 2].map(|axis| g0[axis] + (g1[axis] - g0[axis]) * time / start.step);
             for place in building.watched.clone() {
                 latest.1[place] += reduced.directions[place].of_ground(ground);
             }

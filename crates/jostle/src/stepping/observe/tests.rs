@@ -61,7 +61,7 @@ fn a_watch_more_is_followed_like_the_others() {
             state: &state,
             links: &[],
             grounds: &grounds,
-            ground: GroundsAt::common([0.0; 2]),
+            ground: GroundsAt::common([0.0; 3]),
         };
         if end > 0 {
             observer.after_step(&system, &reached, step);

@@ -183,7 +183,7 @@ impl<S: Stepper> Runner<'_, S> {
         let mut jumped = false;
         for building in 0..self.run.system.buildings.len() {
             let jump = self.run.grounds.jump(building, time);
-            if jump != [0.0; 2] {
+            if jump != [0.0; 3] {
                 self.stepper.change_ground(&self.run, building, jump);
                 jumped = true;
             }

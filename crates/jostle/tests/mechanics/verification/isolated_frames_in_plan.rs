@@ -555,7 +555,7 @@ fn moved_by_rates(
     step: f64,
 ) -> Row {
     let n = mass.len();
-    let rates = |state: &Row, ground: [f64; 2]| -> Row {
+    let rates = |state: &Row, ground: [f64; 3]| -> Row {
         let (u, v) = state.split_at(n);
         let accelerations = (0..n).map(|i| {
             let force: f64 = (0..n)

@@ -390,7 +390,7 @@ impl ByRates {
     }
 
     /// Rates of displacements, velocities and forces, and the power that slides away.
-    fn rates(&self, state: &[f64; 21], ground: [f64; 2]) -> [f64; 21] {
+    fn rates(&self, state: &[f64; 21], ground: [f64; 3]) -> [f64; 21] {
         let (u, v) = (&state[..6], &state[6..12]);
         let mut rates = [0.0; 21];
         rates[..6].copy_from_slice(v);

@@ -298,7 +298,7 @@ fn by_runge_kutta(
     type Vector = [f64; 3];
     let count = rows.len();
     let ground = |t: f64| {
-        let [x, y] = motion.components(t);
+        let [x, y, _] = motion.components(t);
         [x, y, 0.0]
     };
     let (mut u, mut v): (Vector, Vector) = ([0.0; 3], [0.0; 3]);
