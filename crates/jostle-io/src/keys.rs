@@ -514,7 +514,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Read, "content", Choice(RECORD_CONTENTS), "Accelerations that continue from line to line, pairs of time and acceleration that do, or one instant on a line; values by default with per_line."),
     optional(S::Read, "widths", Counts, "Widths of numbers without separators: one that repeats, or one for every number of a line."),
 
-    optional(S::Motion, "vertical", Kind::TextOrMotion, "For frames: vertical shaking, positive upwards: a record, or a table like [motion], such as `{ scale = 0.67 }` for that share of this motion. Without an amplitude or a scaling of its own it has the factor of this motion."),
+    optional(S::Motion, "vertical", Kind::TextOrMotion, "For frames, in plan and in space with gravity = true: vertical shaking, positive upwards: a record, or a table like [motion], such as `{ scale = 0.67 }` for that share of this motion. Without an amplitude or a scaling of its own it has the factor of this motion."),
     optional(S::Motion, "apparent_velocity", Quantity(D::Speed), "Speed of the waves along the row: the motion arrives at a building after position / this.").usual("an apparent velocity", 50.0, 1e5),
     default(S::Motion, "wave_angle", Quantity(D::Dimensionless), "0", "For buildings with a plan: angle from x to the direction in which the waves travel, counter-clockwise, such as \"30 deg\". Positions follow from the plans.").usual("an angle", 1e-4, 6.3).signed(),
     optional(S::Motion, "baseline", Choice(&Baseline::NAMES), "Correction of the velocity of records: by a straight line or a parabola from rest, taken from the acceleration; or none. Required if records of buildings differ and their final velocities do."),
@@ -551,7 +551,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Building, "damper", Tables(&[S::Damper, S::LinkLaw]), "Dampers and other links between two of its floors; a short form of link. They follow the links in results."),
     optional(S::Building, "position", Quantity(D::Length), "Place along the row, for apparent_velocity and coherency of [motion]; buildings with a plan have that of the centre of their plan.").usual("a position along the row", 1e-3, 1e5).signed(),
     optional(S::Building, "motion", Kind::TableOf(&[S::OwnMotion, S::Motion]), "The ground under this building, if it differs: arrival, a motion of its own, or a scale of the common one. A motion without an amplitude or a scaling of its own has the factor of the common one."),
-    default(S::Building, "gravity", Flag, "false", "Start the run from the displacements under self weight."),
+    default(S::Building, "gravity", Flag, "false", "Start the run from the displacements under self weight. With a plan, columns carry the floors' own masses in equal shares, which then rise and sink with them."),
     optional(S::Building, "codes", Kind::Table(S::BuildingCodes), "Factors of this building in the separation rules of codes, such as `{ behaviour_factor = 3.9 }`."),
     default(S::Building, "p_delta", Flag, "true with hinges, else false", "Include P-Delta from the weight above."),
 

@@ -243,9 +243,6 @@ pub(super) fn check_walls(faults: &mut Faults, model: &Model) {
                     format!("{path}.to"),
                     || "must be another point than from".into(),
                 );
-                faults.require(wall.is_rigid(), format!("{path}.stiffness"), || {
-                    "is not possible among buildings with a plan yet: walls are rigid there; leave it out".into()
-                });
             }
         }
     }

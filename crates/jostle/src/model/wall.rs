@@ -55,6 +55,17 @@ impl Wall {
         Some(vec![behind(from), behind(to), to, from])
     }
 
+    /// Direction in which it moves: its normal out of what is solid, or along the row without a face \[–\].
+    #[must_use]
+    pub fn direction(&self) -> [f64; 2] {
+        let Some([from, to]) = self.line else {
+            return [1.0, 0.0];
+        };
+        let along = [to[0] - from[0], to[1] - from[1]];
+        let length = libm::hypot(along[0], along[1]);
+        [-along[1] / length, along[0] / length]
+    }
+
     /// Whether it moves with the ground.
     #[must_use]
     pub fn is_rigid(&self) -> bool {

@@ -473,8 +473,11 @@ fn refused_grounds(solver: Solver, system: &System) -> Option<ModelFault> {
 
 /// What cannot be shaken vertically.
 fn refused_vertical(system: &System) -> Option<ModelFault> {
-    let floats =
-        |own: &&BuildingSystem| own.has_columns_in_plan() && own.rest.displacement.is_empty();
+    // Columns that cannot shorten move nothing upwards in any case.
+    let floats = |own: &&BuildingSystem| {
+        let could = own.moves_vertically() || own.discretization.space_frame.is_some();
+        could && own.has_columns_in_plan() && own.rest.displacement.is_empty()
+    };
     if let Some(building) = system.buildings.iter().find(floats) {
         return Some(ModelFault {
             path: "motion.vertical".into(),

@@ -177,7 +177,10 @@ impl Recorder {
             if let Some(support) = &building.support {
                 put(state.displacement[support.dof]);
                 put(state.velocity[support.dof]);
-                put(state.acceleration[support.dof] + ground.of(index)[0]);
+                let [along, across] = support.direction;
+                let own = ground.of(index);
+                let moved = along * own[0] + across * own[1];
+                put(state.acceleration[support.dof] + moved);
                 put(building.support_force(state));
             }
             let Some((mat, forces)) =

@@ -8,12 +8,12 @@ use super::member_forces::{FrameMember, MemberPlace};
 use super::space_frame::CondensedFrame;
 use super::space_joints::JointedFrame;
 use super::spring_place::{BaseMotion, MemberEnd, SpringPlace};
-use super::stick_model::{Hinge, Member, Node, Spring, StickModel, Support};
+use super::stick_model::{Hinge, Influence, Member, Node, Spring, StickModel, Support};
 use super::tiers::discretize_tiers;
 use crate::hysteresis::{Hysteresis, Side};
 use crate::model::{
     Base, Building, Frame, FrameHinges, Given, Hinges, Isolation, Joint, ProportionalDamping,
-    Section, SharedColumn, Shear, ShearEnds, ShearSpring, Structure,
+    Section, SharedColumn, Shear, ShearEnds, ShearSpring, Structure, Wall,
 };
 
 /// A stick model and where its floors and faces are. The default has no nodes.
@@ -131,27 +131,33 @@ impl Discretization {
         }
     }
 
-    /// A wall on its spring and dashpot, as a building of one floor.
+    /// A wall on its spring and dashpot, as a building of one floor that moves in a direction of the site.
     #[must_use]
-    pub(crate) fn of_wall(stiffness: f64, damping: f64, mass: f64) -> Self {
+    pub(crate) fn of_wall(stiffness: f64, wall: &Wall, [along, across]: [f64; 2]) -> Self {
         let mut stick_model = StickModel::default();
         let ground = stick_model.add_node(0.0, 0.0);
         stick_model.nodes[ground].support = Support::Fixed;
         // One metre up, so that it has a drift ratio, which nobody asks for.
-        let wall = stick_model.add_node(0.0, 1.0);
-        stick_model.nodes[wall].support = Support::Guided;
-        stick_model.nodes[wall].add_mass(mass);
+        let floor = stick_model.add_node(0.0, 1.0);
+        let node = &mut stick_model.nodes[floor];
+        node.support = Support::Guided;
+        node.add_mass(wall.mass);
+        node.influence[X] = Influence {
+            along,
+            across,
+            ..Influence::NONE
+        };
         stick_model.springs.push(Spring {
-            dashpot: damping,
+            dashpot: wall.damping,
             proportional_damping: ProportionalDamping::None,
-            ..Spring::elastic([ground, wall], stiffness)
+            ..Spring::elastic([ground, floor], stiffness)
         });
         Self {
             stick_model,
             foot: Some(ground),
-            floors: vec![wall],
-            left_face: vec![wall],
-            right_face: vec![wall],
+            floors: vec![floor],
+            left_face: vec![floor],
+            right_face: vec![floor],
             ..Self::default()
         }
     }

@@ -105,13 +105,15 @@ impl System {
         let mut walls = Vec::new();
         for wall in &model.walls {
             let place = wall.stiffness.map(|stiffness| {
-                let sticks = Discretization::of_wall(stiffness, wall.damping, wall.mass);
+                let direction = wall.direction();
+                let sticks = Discretization::of_wall(stiffness, wall, direction);
                 let mut own = BuildingSystem::new(&wall.name, sticks);
                 own.support = Some(SpringSupport {
                     dof: 0,
                     stiffness,
                     damping: wall.damping,
                     spring: None,
+                    direction,
                 });
                 buildings.push(own);
                 buildings.len() - 1
@@ -382,8 +384,13 @@ fn plan_contacts(
             let lever = arm[0] * face.normal[1] - arm[1] * face.normal[0];
             1.0 / (1.0 / floor.mass_along(face.normal) + lever * lever / tier.polar_mass)
         };
-        let masses = [own.get(*i), other.get(*j)];
-        let masses = masses.map(|floor| floor.map_or(f64::INFINITY, moving));
+        let wall = |side: usize| system.moving_wall(side.checked_sub(model.buildings.len())?);
+        let mass_of = |side: usize, floor: Option<&LumpedFloor>| match (floor, wall(side)) {
+            (Some(floor), _) => moving(floor),
+            (None, Some((_, wall))) => wall.equations.mass[0],
+            (None, None) => f64::INFINITY,
+        };
+        let masses = [mass_of(a, own.get(*i)), mass_of(b, other.get(*j))];
         let whole = match gap.in_plan.per_length {
             true if face.overlap > 0.0 => gap.law.stiffness * face.overlap,
             _ => gap.law.stiffness,
@@ -395,12 +402,28 @@ fn plan_contacts(
             };
             sticking_stiffness(&law, effective_mass(masses[0], masses[1]))
         });
+        // That of the floor beside a wall, which has none.
+        let height = [(a, *i), (b, *j)].into_iter().filter_map(|(side, floor)| {
+            let own = system.structures().get(side)?;
+            Some(own.floors.get(floor.checked_sub(1)?)?.height)
+        });
+        let height = height.fold(0.0, f64::max);
         for point in &face.points {
             let port = |building: usize, floor: usize, mass: f64, direction: PlanPoint| {
-                let own = system.buildings.get(building)?;
                 if building >= model.buildings.len() {
-                    return None;
+                    // Every point of a wall moves alike; friction along it moves nothing.
+                    let (building, own) = wall(building)?;
+                    let normal = own.support.as_ref()?.direction;
+                    let share = direction[0] * normal[0] + direction[1] * normal[1];
+                    return (share.abs() > SAME).then(|| Port {
+                        building,
+                        row: Row::single(own.offset).times(share),
+                        mass: point.share * mass,
+                        floor: None,
+                        height,
+                    });
                 }
+                let own = system.buildings.get(building)?;
                 let (row, height) = match (floor.checked_sub(1), &own.mat_in_plan) {
                     (Some(index), _) => {
                         let row = own.row_at(index, point.at, direction);

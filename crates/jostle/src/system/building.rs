@@ -79,6 +79,8 @@ pub struct SpringSupport {
     pub damping: f64,
     /// The spring that yields or slides, among those of the building.
     pub spring: Option<usize>,
+    /// Unit vector of the displacement on the site; that of a wall is its normal, out of what is solid \[–\].
+    pub direction: [f64; 2],
 }
 
 /// A floor of a building.
@@ -340,6 +342,16 @@ impl BuildingSystem {
                 STANDARD_GRAVITY * above.map(|(_, mass)| mass).sum::<f64>()
             })
             .collect()
+    }
+
+    /// How much of the ground acceleration along the row, across and upwards its displacements in a direction see \[–\].
+    pub(crate) fn ground_shares(&self, direction: Direction) -> [f64; 3] {
+        match (&self.support, self.discretization.mat) {
+            // A wall moves along its normal alone.
+            (Some(wall), None) => [wall.direction[0], wall.direction[1], 0.0],
+            _ => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+                .map(|unit| direction.of_ground(unit)),
+        }
     }
 
     /// Whether columns of frames hold floors in plan.
@@ -682,6 +694,7 @@ fn spring_support(structure: &AssembledBuilding) -> Option<SpringSupport> {
         spring: places
             .iter()
             .position(|place| *place == SpringPlace::Bearings),
+        direction: [1.0, 0.0],
     })
 }
 

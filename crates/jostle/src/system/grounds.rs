@@ -50,6 +50,9 @@ fn direction_of(system: &System, ports: &PortPair) -> [f64; 2] {
     if let Some(port) = ports.0.iter().flatten().next() {
         direction = [0.0; 2];
         let building = &system.buildings[port.building];
+        if let (Some(wall), None) = (&building.support, building.discretization.mat) {
+            return wall.direction.map(|share| share * port.row.entries()[0].1);
+        }
         let mat = building.mat_in_plan.as_ref().map(|mat| mat.dofs);
         for &(dof, weight) in port.row.entries() {
             let mut tracks = building.tracks.iter();

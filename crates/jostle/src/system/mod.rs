@@ -124,6 +124,12 @@ impl System {
         &self.links[..self.links.len() - self.soil_links]
     }
 
+    /// A wall that gives way, as a building of the system; `None` if it is rigid.
+    pub(crate) fn moving_wall(&self, wall: usize) -> Option<(usize, &BuildingSystem)> {
+        let building = self.walls.get(wall)?.building?;
+        Some((building, self.buildings.get(building)?))
+    }
+
     /// The buildings of the model, without walls.
     #[must_use]
     pub fn structures(&self) -> &[BuildingSystem] {

@@ -12,6 +12,7 @@ use super::floor_peaks::{columns_of_corners, floor_of};
 use super::plan_drifts::PlanDrifts;
 use super::sharp_peaks::SharpPeaks;
 use crate::history::{Column, Kind, Owner, Peak, Peaks};
+use crate::motion::Ground;
 use crate::state::State;
 use crate::system::{BuildingSystem, Direction, GroundsAt, RunGrounds, System};
 use watch::{Watch, watches};
@@ -51,8 +52,17 @@ struct OfBuilding {
 /// A displacement whose total acceleration is followed.
 struct Accelerated {
     dof: usize,
-    direction: Direction,
+    /// How much it sees of the ground acceleration along the row, across and upwards \[–\].
+    ground: [f64; 3],
     place: usize,
+}
+
+impl Accelerated {
+    /// What a ground acceleration adds to its total acceleration \[m/s²\].
+    fn moved_by(&self, ground: Ground) -> f64 {
+        let all = self.ground.into_iter().zip(ground);
+        all.map(|(share, component)| share * component).sum()
+    }
 }
 
 /// Places of the peaks of a mat in plan.
@@ -143,7 +153,7 @@ impl Observer {
         for (index, own) in self.buildings.iter().enumerate() {
             let ground = reached.ground.of(index);
             for (track, accelerated) in own.accelerations.iter().enumerate() {
-                let moved = accelerated.direction.of_ground(ground);
+                let moved = accelerated.moved_by(ground);
                 let total = state.acceleration[accelerated.dof] + moved;
                 let greatest = &mut self.peaks[accelerated.place].greatest.value;
                 *greatest = self.sharp.take(total, greatest.max(total.abs()));
@@ -163,7 +173,7 @@ impl Observer {
         for (index, own) in self.buildings.iter().enumerate() {
             let ground = grounds.of(index);
             for accelerated in &own.accelerations[..own.floors] {
-                let moved = accelerated.direction.of_ground(ground);
+                let moved = accelerated.moved_by(ground);
                 let total = state.acceleration[accelerated.dof] + moved;
                 self.peaks[accelerated.place].widen(total);
                 self.parts.take(floor_of_all, total.abs());
@@ -217,7 +227,7 @@ impl OfBuilding {
             let (dof, direction) = (track.dof, track.direction);
             accelerations.push(Accelerated {
                 dof,
-                direction,
+                ground: building.ground_shares(direction),
                 place: at(owner, Kind::Acceleration, direction),
             });
             let kinds = [Kind::Drift, Kind::Shear, Kind::Moment];
@@ -234,7 +244,7 @@ impl OfBuilding {
         let (support, base) = (Owner::Support(index), Owner::Building(index));
         let mut accelerated = |dof, direction| Accelerated {
             dof,
-            direction,
+            ground: building.ground_shares(direction),
             place: at(mat, Kind::Acceleration, direction),
         };
         let floors = accelerations.len();
@@ -280,7 +290,7 @@ impl OfBuilding {
             peaks[place].widen(building.support_force(state));
         }
         let Some(mat) = &self.mat else { return };
-        let ground = mat.across.direction.of_ground(reached.ground.of(index));
+        let ground = mat.across.moved_by(reached.ground.of(index));
         peaks[mat.across.place].widen(state.acceleration[mat.across.dof] + ground);
         if let Some([_, across, _]) = building.bearing_forces(state) {
             peaks[mat.force_across].widen(across);
