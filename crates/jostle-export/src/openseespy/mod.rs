@@ -74,7 +74,22 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
             "ground that differs under buildings with plans is not exported: their ties need the constraint handler Transformation, which does not let the script move supports; leave out arrival, position, apparent_velocity and [building.motion], or compare buildings in one plane".into(),
         );
     }
+    for (index, wall) in model.walls.iter().enumerate() {
+        if export.system.is_in_space() && !wall.is_rigid() {
+            refuse(
+                format!("wall[{index}].stiffness"),
+                "of a wall on the site is not exported yet; leave it out to compare with a rigid wall".into(),
+            );
+        }
+    }
     for (index, building) in model.buildings.iter().enumerate() {
+        if let (jostle::Structure::Tiers(_), true) = (&building.structure, building.gravity.preload)
+        {
+            refuse(
+                format!("building[{index}].gravity"),
+                "of buildings with a plan is not exported yet; leave it out to compare".into(),
+            );
+        }
         if let Some(Isolation {
             isolator: Isolator::Pendulum { friction, .. },
             ..
