@@ -3,6 +3,7 @@
 mod column_capacity_by_hand;
 mod hysteresis;
 mod joint_shear;
+mod kinds;
 mod layers;
 mod member_cost;
 mod member_forces;
