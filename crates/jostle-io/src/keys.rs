@@ -921,7 +921,8 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::LinkHinge, "cracking", Quantity(D::Force), "Force at the first corner; not for bilinear.").usual("a force at cracking", 100.0, 1e9),
     optional(S::LinkHinge, "yield", Quantity(D::Force), "Force at yield.").usual("a yield force", 100.0, 1e9),
     optional(S::LinkHinge, "post_cracking", Quantity(D::Dimensionless), "Ratio of the stiffness after the first corner to the stiffness of the link.").usual("a ratio of stiffnesses", 1e-6, 1.0).signed(),
-    optional(S::LinkHinge, "post_yield", Quantity(D::Dimensionless), "Ratio of the stiffness after yield to the stiffness of the link.").usual("a ratio of stiffnesses", 1e-6, 1.0).signed(),
+    optional(S::LinkHinge, "post_yield", Quantity(D::Dimensionless), "Ratio of the stiffness after yield to the stiffness of the link; less than 0 with residual, for a force that falls.").usual("a ratio of stiffnesses", 1e-6, 1.0).signed(),
+    optional(S::LinkHinge, "residual", Quantity(D::Dimensionless), "pinched: share of the yield force at which a force that falls after yield stays.").usual("a share of the yield force", 1e-3, 1.0),
 
     required(S::Wall, "name", Text, "Name by which gaps and links know it."),
     optional(S::Wall, "from", Kind::PlanPoints, "Among buildings with a plan: one end of its face, on the site. The wall is solid on the right of the way to the other end.").usual("a place on the site", 1e-3, 1e7).possible(0.0, 1e8).signed(),

@@ -25,10 +25,15 @@ const NEVER: f64 = 1e30;
 /// Three points of one side of a backbone, as magnitudes.
 fn corners(curve: &BackboneSide) -> [Corner; 3] {
     let limit = curve.yielding.deformation;
+    let last = curve
+        .end_of_fall()
+        .map_or(FAR * limit, |end| end.deformation);
     let deformations = if curve.cracking.deformation < limit {
-        [curve.cracking.deformation, limit, FAR * limit]
+        [curve.cracking.deformation, limit, last]
+    } else if curve.post_yield < 0.0 {
+        [0.5 * limit, limit, last]
     } else {
-        [limit, 2.0 * limit, FAR * limit]
+        [limit, 2.0 * limit, last]
     };
     deformations.map(|deformation| Corner {
         deformation,

@@ -434,6 +434,7 @@ fn key_of(quantity: Quantity) -> Option<&'static str> {
         Quantity::Yielding => Some("yield"),
         Quantity::PostCracking => Some("post_cracking"),
         Quantity::PostYield => Some("post_yield"),
+        Quantity::Residual => Some("residual"),
         Quantity::Initial | Quantity::Rule => None,
     }
 }
@@ -648,13 +649,22 @@ pub(super) fn read_spring(
     let yielding = number("yield", force, examples[1]);
     let post_cracking = number("post_cracking", Dimension::Dimensionless, "0.3");
     let post_yield = number("post_yield", Dimension::Dimensionless, "0.02");
+    // Only tables of links and braces have it.
+    let residual = match view.has("residual").then(|| reader.get(&view, "residual")) {
+        Some(Some(field)) => Some(reader.quantity(&field, Dimension::Dimensionless)?),
+        _ => None,
+    };
     let rule = rule?;
     let corners = corners_of(rule, [cracking, yielding, post_cracking, post_yield])?;
     // A stiffness that is not positive is a separate fault.
     let stiffness = stiffness.filter(|stiffness| *stiffness > 0.0)?;
-    let spring = Backbone::from_forces(stiffness, corners, corners)
-        .and_then(|backbone| Hysteresis::new(rule, backbone));
-    match spring {
+    let backbone = match residual {
+        Some(residual) => {
+            Backbone::falling(stiffness, corners, corners, corners.post_yield, residual)
+        }
+        None => Backbone::from_forces(stiffness, corners, corners),
+    };
+    match backbone.and_then(|backbone| Hysteresis::new(rule, backbone)) {
         Ok(spring) => Some(spring),
         Err(faults) => {
             let of_one_side = |fault: &SpringFault| fault.side != Some(Side::Negative);

@@ -96,11 +96,23 @@ pub struct BackboneSide {
     pub yielding: Corner,
     /// Slope between them, > 0 \[N·m/rad or N/m\].
     pub post_cracking: f64,
-    /// Slope after yield, ≥ 0 \[N·m/rad or N/m\].
+    /// Slope after yield; below zero, the force falls to `residual` \[N·m/rad or N/m\].
     pub post_yield: f64,
+    /// Force that stays after a fall, > 0; not used where the slope after yield is at least zero \[N·m or N\].
+    pub residual: f64,
 }
 
 impl BackboneSide {
+    /// Where a falling line ends; `None` where it does not fall.
+    #[must_use]
+    pub fn end_of_fall(&self) -> Option<Corner> {
+        let lost = self.residual - self.yielding.force;
+        (self.post_yield < 0.0).then(|| Corner {
+            deformation: self.yielding.deformation + lost / self.post_yield,
+            force: self.residual,
+        })
+    }
+
     /// Force at a deformation, both as magnitudes.
     #[must_use]
     pub fn force_at(&self, deformation: f64) -> f64 {
@@ -112,15 +124,19 @@ impl BackboneSide {
         } else if deformation <= yielding.deformation {
             cracking.force + self.post_cracking * (deformation - cracking.deformation)
         } else {
-            yielding.force + self.post_yield * (deformation - yielding.deformation)
+            let force = yielding.force + self.post_yield * (deformation - yielding.deformation);
+            match self.post_yield < 0.0 {
+                true => force.max(self.residual),
+                false => force,
+            }
         }
     }
 }
 
 /// Trilinear or bilinear curve of first loading; the sides may differ, the initial stiffness is common.
 ///
-/// Valid by construction: every number is finite; stiffnesses decrease from corner to corner and are never
-/// negative.
+/// Valid by construction: every number is finite; stiffnesses decrease from corner to corner, and are negative after yield only for
+/// [`Backbone::falling`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Backbone {
     initial: f64,
@@ -140,6 +156,8 @@ pub enum Quantity {
     PostCracking,
     /// Stiffness ratio after yield.
     PostYield,
+    /// Share of the yield force that a falling line leaves.
+    Residual,
     /// The rule itself, or its exponent.
     Rule,
 }
@@ -152,6 +170,7 @@ impl fmt::Display for Quantity {
             Self::Yielding => "yield",
             Self::PostCracking => "post_cracking",
             Self::PostYield => "post_yield",
+            Self::Residual => "residual",
             Self::Rule => "rule",
         })
     }
@@ -194,9 +213,73 @@ impl Backbone {
                 },
                 post_cracking,
                 post_yield: given.post_yield * initial,
+                residual: 0.0,
             }
         };
         Self::finite(initial, [side(positive), side(negative)])
+    }
+
+    /// As [`Backbone::from_forces`] with a line that falls after yield, on both sides: `slope` < 0 and > −1 is its slope as a ratio to the initial
+    /// stiffness, and `residual` the share of the yield force at which it ends, greater than 0 and less than 1 \[–\]. The force stays there. The slopes after yield that
+    /// the corners state are not used.
+    ///
+    /// # Errors
+    /// All errors, never empty.
+    pub fn falling(
+        initial: f64,
+        positive: Corners,
+        negative: Corners,
+        slope: f64,
+        residual: f64,
+    ) -> Result<Self, Vec<SpringFault>> {
+        let [positive, negative] = [positive, negative].map(|own| Corners {
+            post_yield: 0.0,
+            ..own
+        });
+        let mut faults = Vec::new();
+        let mut require = |good: bool, quantity, problem: String| {
+            if !good {
+                faults.push(SpringFault {
+                    quantity,
+                    side: None,
+                    problem,
+                });
+            }
+        };
+        require(
+            slope > -1.0 && slope < 0.0,
+            Quantity::PostYield,
+            format!(
+                "of a line that falls to a residual force must lie between -1 and 0, found {slope}; leave residual out for a line that rises"
+            ),
+        );
+        require(
+            residual > 0.0 && residual < 1.0,
+            Quantity::Residual,
+            format!(
+                "must be greater than 0 and less than 1, a share of the yield force; found {residual}"
+            ),
+        );
+        match Self::from_forces(initial, positive, negative) {
+            Err(mut others) => {
+                others.append(&mut faults);
+                Err(others)
+            }
+            Ok(_) if !faults.is_empty() => Err(faults),
+            Ok(mut own) => {
+                for side in &mut own.sides {
+                    side.post_yield = slope * initial;
+                    side.residual = residual * side.yielding.force;
+                }
+                Ok(own)
+            }
+        }
+    }
+
+    /// Whether the force falls after yield.
+    #[must_use]
+    pub fn falls(&self) -> bool {
+        self.sides.iter().any(|side| side.post_yield < 0.0)
     }
 
     /// From an initial stiffness > 0 \[N·m/rad or N/m\] and the deformations at the corners \[rad or m\].
@@ -223,6 +306,7 @@ impl Backbone {
                 },
                 post_cracking,
                 post_yield: given.post_yield * initial,
+                residual: 0.0,
             }
         };
         Self::finite(initial, [side(positive), side(negative)])

@@ -192,11 +192,21 @@ fn ahead(backbone: &Backbone, memory: &HysteresisMemory, towards: Side) -> Line 
             slope: curve.post_cracking,
             end: Some((signed(curve.yielding), Next::Backbone)),
         },
-        Branch::Backbone => Line {
-            through: signed(curve.yielding),
-            slope: curve.post_yield,
-            end: None,
-        },
+        Branch::Backbone => {
+            let peak = memory.peaks[towards.index()];
+            match curve.end_of_fall().map(signed) {
+                Some(end) if peak >= sign * end.deformation => Line {
+                    through: end,
+                    slope: 0.0,
+                    end: None,
+                },
+                end => Line {
+                    through: signed(curve.yielding),
+                    slope: curve.post_yield,
+                    end: end.map(|end| (end, Next::Backbone)),
+                },
+            }
+        }
         Branch::Reloading => {
             let peak = memory.peaks[towards.index()];
             let target = signed(Corner {

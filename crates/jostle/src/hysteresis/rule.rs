@@ -170,6 +170,15 @@ impl Hysteresis {
             }
             _ => {}
         }
+        if backbone.falls() && !matches!(rule, HysteresisRule::Pinched(_)) {
+            refuse(
+                Quantity::PostYield,
+                None,
+                format!(
+                    "must be at least 0 with the rule {name}: only springs with the rule pinched lose force"
+                ),
+            );
+        }
         let one_second_slope = matches!(
             rule,
             HysteresisRule::Normal | HysteresisRule::DegradingTrilinear
