@@ -12,6 +12,7 @@ use crate::linear::sort_by;
 use crate::model::{Gap, LinkLaw, Model, Solver};
 use crate::motion::GroundMotion;
 use crate::results::capacity;
+use crate::results::contact_constants::crushed_notes;
 use crate::results::foundation::{foundation_summary, foundation_warnings, soil_energy};
 use crate::results::friction::friction_warnings;
 use crate::results::ground::{closing_of_grounds, ground_summary};
@@ -698,6 +699,7 @@ fn notes(run: &Run) -> Vec<String> {
             "direct steps do not estimate single impacts: instants and speeds of gentle ones may be off by more than the tolerance".to_owned(),
         );
     }
+    notes.extend(crushed_notes(run.model, run.system, &run.outcome.state));
     notes.dedup();
     notes
 }
