@@ -249,6 +249,13 @@ impl ForceLaw {
         )
     }
 
+    /// Whether the force, while the motion does not reverse, lies between those at both ends of a step: it follows the
+    /// indentation along lines that meet at corners, which a cubic through the slopes at the ends would overshoot.
+    #[must_use]
+    pub(crate) fn stays_between_ends(&self) -> bool {
+        matches!(self, Self::Crushing(_))
+    }
+
     /// Whether the stiffness grows so steeply that most of an impact happens in a small part of it.
     #[must_use]
     pub(crate) fn stiffens_steeply(&self) -> bool {

@@ -61,7 +61,7 @@ impl Episode {
                     value: law.follow(turn.value, 0.0, &self.memory).force,
                     at: turn.at,
                 };
-            } else {
+            } else if !law.stays_between_ends() {
                 let curve = Cubic::new(self.force, slopes[0], trial.force, slopes[1], step);
                 peak = curve.peak(start, step).unwrap_or(peak);
                 smooth = Some(curve);
