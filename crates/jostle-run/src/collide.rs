@@ -344,3 +344,65 @@ pub fn collision_json(collided: &CollidedLaw) -> Value {
         "dissipated_j": collision.dissipated,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn options(law: &str, damping: &str) -> CollideOptions {
+        CollideOptions {
+            law: law.into(),
+            m1: "100 t".into(),
+            m2: "70 t".into(),
+            speed: "0.5 m/s".into(),
+            stiffness: Some("200 MN/m".into()),
+            damping: Some(damping.into()),
+            ..CollideOptions::default()
+        }
+    }
+
+    /// e = exp(−πζ/√(1 − ζ²)) with ζ = c/(2√(k m)).
+    #[test]
+    fn a_dashpot_rebounds_by_its_damping_ratio() {
+        let found = collide(&options("kelvin", "1.1 MN.s/m")).unwrap_or_else(|e| panic!("{e}"));
+        let mass = 1e5 * 7e4 / 1.7e5_f64;
+        let ratio = 1.1e6 / (2.0 * (2e8 * mass).sqrt());
+        let due = (-std::f64::consts::PI * ratio / (1.0 - ratio * ratio).sqrt()).exp();
+        let own = &found.laws[0];
+        assert!((own.collision.realised_restitution() - due).abs() < 1e-9);
+        assert!(
+            found.stiffnesses.contains("restitution 0.5415"),
+            "{}",
+            found.stiffnesses
+        );
+        let json = collision_json(own);
+        assert_eq!(json["damping_n_s_m"], 1.1e6);
+        assert_eq!(json["restitution"], Value::Null);
+    }
+
+    #[test]
+    fn dashpots_that_do_not_fit_are_refused() {
+        let refused = |law: &str, damping: &str| {
+            let error = collide(&options(law, damping))
+                .map(drop)
+                .expect_err("it is wrong");
+            error.to_string()
+        };
+        let found = refused("hertz-damp", "1 MN.s/m");
+        assert!(
+            found.starts_with("--damping: belongs to the laws kelvin"),
+            "{found}"
+        );
+        let found = refused("kelvin", "-1 MN.s/m");
+        assert!(
+            found.starts_with("--damping: must not be negative"),
+            "{found}"
+        );
+        let found = refused("kelvin", "9 MN.s/m");
+        assert!(
+            found.contains("they never part; use --law kelvin-no-tension"),
+            "{found}"
+        );
+        assert!(collide(&options("kelvin-no-tension", "9 MN.s/m")).is_ok());
+    }
+}

@@ -23,9 +23,9 @@ mod rubber;
 mod runge_kutta;
 
 pub use advice::{
-    JANKOWSKI_HERTZ, Rod, RodCollision, Slab, SlabMaterial, StiffnessRange, USUAL_HERTZ,
-    advised_range, effective_radius, hertz_of_force, hertz_peak_force, hertz_stiffness,
-    rod_collision, spring_of_duration, spring_of_force,
+    JANKOWSKI_HERTZ, LATERAL_FACTORS, Rod, RodCollision, Slab, SlabMaterial, StiffnessRange,
+    USUAL_HERTZ, advised_range, effective_radius, hertz_of_force, hertz_peak_force,
+    hertz_stiffness, rod_collision, spring_of_duration, spring_of_force,
 };
 pub use bilinear::{Bilinear, BilinearConstants, BilinearShape};
 pub use collision::{CollisionPoint, FreeCollision};
