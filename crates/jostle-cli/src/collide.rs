@@ -81,9 +81,9 @@ fn describe(text: &mut String, collisions: &Collisions, args: &CollideArgs) -> s
         "realised" => "realised",
         _ => "in the published formulas",
     };
-    let loses = match &args.damping {
-        Some(damping) => format!("dashpot {damping}"),
-        None => format!("restitution {} ({by_coefficient})", collisions.restitution),
+    let loses = match (&args.damping, collisions.restitution) {
+        (None, Some(e)) => format!("restitution {e} ({by_coefficient})"),
+        (damping, _) => format!("dashpot {}", damping.as_deref().unwrap_or_default()),
     };
     let heading = format!(
         "{} t against {} t at {} m/s, {loses}",

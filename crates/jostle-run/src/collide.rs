@@ -198,7 +198,7 @@ pub fn collide(options: &CollideOptions) -> Result<Collisions, RunError> {
     Ok(Collisions {
         masses,
         speed,
-        restitution,
+        restitution: options.damping.is_none().then_some(restitution),
         stiffnesses,
         laws,
     })

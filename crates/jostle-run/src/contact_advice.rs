@@ -241,7 +241,7 @@ pub(crate) fn contact_boxes(model: &Model, system: &System, summary: &Summary) -
             law: gap.law.kind.full_name(),
             is_hertzian: gap.law.kind.is_hertzian(),
             stiffness: gap.law.stiffness,
-            restitution: gap.law.restitution,
+            restitution: (!gap.law.kind.has_given_constants()).then_some(gap.law.restitution),
             hertz: [advice.hertz.value, advice.hertz.low, advice.hertz.high],
             restitution_range: [advice.restitution.low, advice.restitution.high],
             masses: advice.masses_kg,

@@ -51,6 +51,10 @@ pub struct State {
 }
 
 /// Whether a contact is open or closed.
+#[allow(
+    clippy::large_enum_variant,
+    reason = "a box would allocate at every impact"
+)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ContactPhase {
     /// The gap is open.

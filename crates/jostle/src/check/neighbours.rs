@@ -325,7 +325,7 @@ fn check_shape(faults: &mut Faults, path: &str, law: &ContactLaw) {
             let second = constants.second_stiffness;
             let at = format!("{path}.second_stiffness");
             faults.positive(second, at.clone(), "N/m");
-            faults.require(!(second >= law.stiffness), at, || {
+            faults.require(second < law.stiffness, at, || {
                 format!(
                     "must be less than stiffness, {} N/m, found {second} N/m; a contact that does not yield is law = \"linear\"",
                     law.stiffness
