@@ -883,7 +883,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Gap, "floors", FloorPairs, "\"common\"", "Contact locations: every pair of floors at equal height, \"all\" floors against floors or columns, listed pairs of floors or heights, or heights.").any("heights are compared with those of the floors"),
     default(S::Gap, "level_tolerance", Quantity(D::Length), "\"1 mm\"", "Floors whose heights differ by no more than this can touch.").usual("a tolerance of levels", 1e-5, 1.0).possible(0.0, 20.0),
     default(S::Gap, "law", Choice(LAWS), "\"hertz-damp\"", "Contact law."),
-    default(S::Gap, "stiffness", ContactStiffness, "\"2e9 N/m^1.5\" for Hertz laws", "Contact stiffness: N/m^1.5 for hertz, hertz-damp, ye, jankowski and bilinear, N/m for the others. For rubber, the secant stiffness at 0.8 of the thickness; for restitution, the stiffness of lasting contact.").usual("a contact stiffness", 1e5, 1e13),
+    default(S::Gap, "stiffness", ContactStiffness, "\"2e9 N/m^1.5\" for Hertz laws", "Contact stiffness: N/m^1.5 for hertz, hertz-damp, ye, jankowski and bilinear, N/m for the others and for bilinear with second_stiffness. For rubber, the secant stiffness at 0.8 of the thickness; for restitution, the stiffness of lasting contact.").usual("a contact stiffness", 1e5, 1e13),
     default(S::Gap, "restitution", Quantity(D::Dimensionless), "0.65", "Coefficient of restitution.").usual("a coefficient of restitution", 1e-3, 1.0),
     default(S::Gap, "restitution_is", Choice(RESTITUTION_IS), "\"input\"", "\"input\": e goes into the published formula. \"realised\": damping is calibrated so that free masses rebound with e."),
 
