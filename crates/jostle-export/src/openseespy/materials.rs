@@ -320,7 +320,10 @@ impl Materials {
                     "ElasticPPGap damage",
                     vec![law.stiffness, -law.force, gap, law.hardening],
                 ),
-                None,
+                Some(
+                    "Faces crush as in jostle, but impacts are counted here where they come closer than the original gap: \
+                     jostle counts from the crushed face, and fewer.",
+                ),
             ),
             ForceLaw::Bilinear(_) => {
                 return Err(
