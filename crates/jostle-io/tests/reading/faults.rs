@@ -690,7 +690,7 @@ fn parameters_belong_to_their_law() {
         ),
         (
             "law = \"bilinear\"\nstiffness = \"400 MN/m\"\nsecond_stiffness = \"120 MN/m\"\nyield = 0",
-            "gap[0].yield: must be greater than 0, found 0 m",
+            "gap[0].yield: must be greater than zero, found 0 m",
         ),
         (
             "law = \"bilinear\"\nstiffness = \"400 MN/m\"\nsecond_stiffness = \"120 MN/m\"",
@@ -726,7 +726,7 @@ fn parameters_belong_to_their_law() {
         ),
         (
             "law = \"linear\"\nstiffness = \"200 MN/m\"\ncrush = { force = 0 }",
-            "gap[0].crush.force: must be greater than 0, found 0 N",
+            "gap[0].crush.force: must be greater than zero, found 0 N",
         ),
         (
             "law = \"linear\"\nstiffness = \"200 MN/m\"\ncrush = { force = \"600 kN\", hardening = 1 }",
