@@ -14,7 +14,7 @@ from ._animation import Animation
 from ._builders import Frame, Gap, Given, Link, Shear, Soil, SpaceFrame, Wall
 from ._collide import Collision, ContactLaw, collide, collide_all, contact_laws
 from ._compare import Comparison, compare
-from ._contact_advice import ContactAdvice, StiffnessEstimate, StiffnessRange, WaveEstimate, contact_advice
+from ._contact_advice import ContactAdvice, LateralRule, StiffnessEstimate, StiffnessRange, WaveEstimate, contact_advice
 from ._errors import (
     AnalysisError,
     Fault,
@@ -74,6 +74,7 @@ __all__ = [
     "InterruptedWarning",
     "JostleError",
     "JostleWarning",
+    "LateralRule",
     "Link",
     "LinkedFloors",
     "Matrices",

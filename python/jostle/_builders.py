@@ -569,11 +569,19 @@ class Gap(Part):
         restitution: coefficient of restitution, 0.65 by default.
         restitution_is: ``"input"`` (default): it goes into the published formula. ``"realised"``: damping is
             calibrated so that free masses rebound with it.
+        damping: of ``"kelvin"``, ``"kelvin-no-tension"`` and ``"modified-kelvin"`` with
+            ``variant="mahmoud-jankowski"``: dashpot of every contact instead of ``restitution``, the same whatever the
+            masses; between plans that of a whole face.
         variant: of the law ``"modified-kelvin"``: ``"ye"`` (default), damping proportional to the indentation, or
             ``"mahmoud-jankowski"``, damping in the approach only.
         yield_share: of the law ``"bilinear"``: yield indentation ÷ greatest design indentation, 0.1 by default.
         design_speed: of the law ``"bilinear"``: impact speed for which its stiffnesses are computed; by default that of
             each impact.
+        second_stiffness: of the law ``"bilinear"``: stiffness beyond yield, in N/m, instead of ``restitution``;
+            ``stiffness`` is then the first one, in N/m.
+        yield_: of the law ``"bilinear"`` with ``second_stiffness``: indentation at which it yields.
+        crush: of the law ``"linear"``: the face crushes, as ``{"force": "600 kN", "hardening": 0.05}``, and stays
+            crushed: the gap is wider afterwards.
         thickness: of the law ``"rubber"``: thickness of the bumper.
         exponent: of the law ``"rubber"``: exponent of the compression, 2.65 by default.
         stiffness_per_length: between plans, instead of ``stiffness``: that of a face per metre of its length.
@@ -602,9 +610,13 @@ class Gap(Part):
         stiffness: Quantity | None = None,
         restitution: float | None = None,
         restitution_is: _RestitutionIs | None = None,
+        damping: Quantity | None = None,
         variant: _Variant | None = None,
         yield_share: float | None = None,
         design_speed: Quantity | None = None,
+        second_stiffness: Quantity | None = None,
+        yield_: Quantity | None = None,
+        crush: Table | None = None,
         thickness: Quantity | None = None,
         exponent: float | None = None,
         stiffness_per_length: Quantity | None = None,
@@ -625,9 +637,13 @@ class Gap(Part):
                 "stiffness": stiffness,
                 "restitution": restitution,
                 "restitution_is": restitution_is,
+                "damping": damping,
                 "variant": variant,
                 "yield_share": yield_share,
                 "design_speed": design_speed,
+                "second_stiffness": second_stiffness,
+                "yield": yield_,
+                "crush": crush,
                 "thickness": thickness,
                 "exponent": exponent,
                 "stiffness_per_length": stiffness_per_length,

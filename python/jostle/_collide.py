@@ -93,8 +93,9 @@ def collide(
     m2: Quantity,
     speed: Quantity,
     stiffness: Quantity | None = None,
-    restitution: float = 0.65,
+    restitution: float | None = None,
     restitution_is: str = "input",
+    damping: Quantity | None = None,
     variant: str | None = None,
     yield_share: float | None = None,
     design_speed: Quantity | None = None,
@@ -109,8 +110,10 @@ def collide(
         m2: the other one; ``float("inf")`` is not accepted, use a large mass for a wall [kg].
         speed: closing speed at first contact, > 0 [m/s].
         stiffness: in N/m^1.5 for the Hertz family, in N/m for the others; 2e9 N/m^1.5 by default.
-        restitution: coefficient of restitution, 0 to 1.
+        restitution: coefficient of restitution, 0 to 1; 0.65 by default.
         restitution_is: ``"input"``: it goes into the published formula; ``"realised"``: free masses rebound with it.
+        damping: of ``kelvin``, ``kelvin-no-tension`` and ``modified-kelvin`` after Mahmoud and Jankowski: dashpot instead
+            of ``restitution``, ≥ 0 [N·s/m].
         variant: of ``modified-kelvin``: ``"ye"`` or ``"mahmoud-jankowski"``.
         yield_share: of ``bilinear``: yield indentation ÷ greatest indentation.
         design_speed: of ``bilinear``: speed for which its stiffnesses are computed.
@@ -118,12 +121,14 @@ def collide(
         exponent: of ``rubber``: exponent of the compression.
 
     Raises:
-        ModelError: a value outside its range; the message gives the range.
+        ModelError: a value outside its range; the message gives the range. Both ``damping`` and ``restitution``.
         AnalysisError: a user-defined law whose contact does not end.
     """
     if isinstance(law, ContactLaw):
         masses = [in_si(name, value, "mass") for name, value in (("m1", m1), ("m2", m2))]
         return _of_own(law, masses, in_si("speed", speed, "speed"))
+    if damping is not None and restitution is not None:
+        raise ModelError("damping: cannot be combined with restitution; leave one of them out")
     found = _collide(
         law,
         m1=m1,
@@ -132,6 +137,7 @@ def collide(
         stiffness=stiffness,
         restitution=restitution,
         restitution_is=restitution_is,
+        damping=damping,
         variant=variant,
         yield_share=yield_share,
         design_speed=design_speed,

@@ -73,6 +73,23 @@ class WaveEstimate:
 
 
 @dataclass(frozen=True)
+class LateralRule:
+    """The rule of many studies: contact as a multiple of the lateral stiffness of the stiffer neighbour.
+
+    Attributes:
+        of: name of the stiffer neighbour.
+        lateral: force on its struck floor ÷ displacement of that floor [N/m].
+        low: ten times that [N/m].
+        high: a hundred times that [N/m].
+    """
+
+    of: str
+    lateral: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
 class ContactAdvice:
     """Advice on the contacts of one gap.
 
@@ -86,6 +103,7 @@ class ContactAdvice:
         estimates: estimates of stiffness.
         hertz: recommended stiffness of the Hertz laws [N/m^1.5].
         linear: recommended stiffness of the linear laws [N/m]; ``None`` without the size of the slabs.
+        lateral: what the habit of many studies gives for linear laws; ``None`` without a model.
         restitution: recommended restitution [–].
         notes: what was assumed, and what to heed.
     """
@@ -99,6 +117,7 @@ class ContactAdvice:
     estimates: tuple[StiffnessEstimate, ...]
     hertz: StiffnessRange
     linear: StiffnessRange | None
+    lateral: LateralRule | None
     restitution: StiffnessRange
     notes: tuple[str, ...]
 
@@ -204,6 +223,14 @@ def _advice(one: dict[str, Any]) -> ContactAdvice:
         ),
         hertz=StiffnessRange(**one["hertz"]),
         linear=None if one["linear"] is None else StiffnessRange(**one["linear"]),
+        lateral=None
+        if one["lateral"] is None
+        else LateralRule(
+            one["lateral"]["of"],
+            one["lateral"]["lateral_n_m"],
+            one["lateral"]["low_n_m"],
+            one["lateral"]["high_n_m"],
+        ),
         restitution=StiffnessRange(**one["restitution"]),
         notes=tuple(one["notes"]),
     )

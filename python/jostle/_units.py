@@ -156,6 +156,15 @@ class GapUnits(TypedDict, total=False):
     design_speed_m_s: float
     design_speed_cm_s: float
 
+    damping_n_s_m: float
+    damping_kn_s_m: float
+    damping_mn_s_m: float
+    second_stiffness_n_m: float
+    second_stiffness_kn_m: float
+    second_stiffness_mn_m: float
+    yield_m: float
+    yield_cm: float
+    yield_mm: float
     width_m: Numbers
     width_cm: Numbers
     width_mm: Numbers

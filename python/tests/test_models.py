@@ -282,7 +282,8 @@ def test_every_key_of_the_model_file_is_a_keyword() -> None:
         return set(table["properties"]) - {"kind"}
 
     def keywords(part: type) -> set[str]:
-        return set(inspect.signature(part).parameters) - {"units"}
+        # What is a word of Python itself, such as yield, ends with an underscore.
+        return {name.rstrip("_") for name in inspect.signature(part).parameters} - {"units"}
 
     frame, in_plan, shear, space, given = schema["building"]["items"]["oneOf"]
     assert keywords(Frame) == keys(frame)
@@ -407,6 +408,37 @@ def test_keywords_reach_the_model() -> None:
     gap = Gap("5 mm", law="bilinear", yield_share=0.2, design_speed_m_s=0.5)
     model = Model([a, b], gap, motion=jostle.Motion.el_centro().lasting("4 s"))
     assert jostle.run(model, record_interval=None).summary["buildings"][0]["hinges"]["yielded"] > 0
+
+
+def test_contact_constants_reach_the_model() -> None:
+    common: dict[str, Any] = {"mass": "40 t", "storeys": 1, "storey_height": 3}
+    a = Shear("a", **common, stiffness="10 MN/m")
+    b = Shear("b", **common, stiffness="90 MN/m")
+
+    def contact(gap: Gap) -> dict[str, Any]:
+        model = Model([a, b], gap, motion=jostle.Motion.el_centro().lasting("4 s"))
+        gaps = jostle.run(model, record_interval=None).summary["gaps"]
+        return {**gaps[0], **gaps[0]["contacts"][0]}
+
+    dashpot = Gap("5 mm", law="kelvin", stiffness_mn_m=90, damping_mn_s_m=1.1)
+    assert 0 < contact(dashpot)["equivalent_restitution"] < 1
+    crushed = contact(
+        Gap("5 mm", law="linear", stiffness_mn_m=200, crush={"force": "200 kN", "hardening": 0.05})
+    )
+    assert crushed["crushed_depth_m"] > 0
+    assert crushed["free_restitution"] is None
+    constants = Gap(
+        "5 mm", law="bilinear", stiffness_mn_m=400, second_stiffness_mn_m=120, yield_mm=1.5
+    )
+    assert contact(constants)["law"] == "bilinear (constants given)"
+    found = jostle.collide(
+        "kelvin", m1="40 t", m2="60 t", speed="0.4 m/s", stiffness=1e8, damping="1.1 MN.s/m"
+    )
+    ratio = 1.1e6 / (2 * np.sqrt(1e8 * 24e3))
+    expected = np.exp(-np.pi * ratio / np.sqrt(1 - ratio**2))
+    assert found.realised_restitution == pytest.approx(expected, rel=1e-9)
+    with pytest.raises(ModelError, match="cannot be combined with restitution"):
+        jostle.collide("kelvin", m1=1, m2=1, speed=1, damping=1, restitution=0.5)
 
 
 @pytest.mark.parametrize(

@@ -174,6 +174,9 @@ pub(crate) struct CollideArgs {
     /// input: used in the published formula; realised: damping is calibrated so that free masses rebound with it
     #[arg(long, value_name = "MEANING", default_value = "input", value_parser = ["input", "realised"])]
     pub(crate) restitution_is: String,
+    /// Dashpot instead of --restitution, for kelvin, kelvin-no-tension and modified-kelvin (mahmoud-jankowski)
+    #[arg(long, value_name = "QUANTITY", conflicts_with_all = ["restitution", "restitution_is", "all"])]
+    pub(crate) damping: Option<String>,
     /// Variant of modified-kelvin
     #[arg(long, default_value = "ye", value_parser = ["ye", "mahmoud-jankowski"])]
     pub(crate) variant: String,

@@ -2,6 +2,7 @@
 
 mod base;
 mod hinges;
+mod losses;
 mod motion;
 
 use std::fmt::Write;
@@ -24,6 +25,7 @@ use jostle_report::{SitePlace, site_svg};
 use jostle_run::{BOLD, LOUD, styled};
 use jostle_run::{FileKind, Opened, finding_with_remedy};
 use jostle_run::{counted, grouped, mm};
+use losses::losses;
 use motion::{describe_grounds, describe_work};
 
 /// Folder of results by default, and the name of the drawing of the site in it.
@@ -399,10 +401,10 @@ fn describe(
         };
         writeln!(
             text,
-            "  {} with {:.3e} {unit}; free masses rebound with {:.3}",
+            "  {} with {:.3e} {unit}; {}",
             gap.law.kind.name(),
             gap.law.stiffness,
-            gap.law.free_restitution()
+            losses(gap, &contacts)
         )?;
         if system.is_in_space() {
             describe_places(text, model, index, &places)?;

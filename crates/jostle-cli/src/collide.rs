@@ -47,6 +47,7 @@ impl CollideArgs {
             stiffness: self.stiffness.clone(),
             restitution: self.restitution.clone(),
             restitution_is: self.restitution_is.clone(),
+            damping: self.damping.clone(),
             variant: self.variant.clone(),
             yield_share: self.yield_share.clone(),
             design_speed: self.design_speed.clone(),
@@ -76,17 +77,19 @@ fn curves(collisions: &Collisions) -> String {
 
 fn describe(text: &mut String, collisions: &Collisions, args: &CollideArgs) -> std::fmt::Result {
     let [m1, m2] = collisions.masses;
+    let by_coefficient = match args.restitution_is.as_str() {
+        "realised" => "realised",
+        _ => "in the published formulas",
+    };
+    let loses = match (&args.damping, collisions.restitution) {
+        (None, Some(e)) => format!("restitution {e} ({by_coefficient})"),
+        (damping, _) => format!("dashpot {}", damping.as_deref().unwrap_or_default()),
+    };
     let heading = format!(
-        "{} t against {} t at {} m/s, restitution {} ({})",
+        "{} t against {} t at {} m/s, {loses}",
         m1 * 1e-3,
         m2 * 1e-3,
-        collisions.speed,
-        collisions.restitution,
-        if args.restitution_is == "realised" {
-            "realised"
-        } else {
-            "in the published formulas"
-        }
+        collisions.speed
     );
     writeln!(text, "{}", styled(BOLD, &heading))?;
     writeln!(text, "{}\n", styled(DIM, &collisions.stiffnesses))?;

@@ -122,6 +122,8 @@ fn features() -> Vec<Feature> {
         Feature { name: "friction along faces", gap: "friction = 0.4\n", ..USUAL },
         Feature { name: "contact law `restitution`", gap: "law = \"restitution\"\nrestitution = 0.65\n", ..USUAL },
         Feature { name: "contact law `rubber`", gap: "law = \"rubber\"\nstiffness = \"80 MN/m\"\nthickness = \"40 mm\"\n", ..USUAL },
+        Feature { name: "contact dashpot", gap: "law = \"kelvin-no-tension\"\nstiffness = \"400 MN/m\"\ndamping = \"1.1 MN.s/m\"\n", ..USUAL },
+        Feature { name: "crushing gap", gap: "law = \"linear\"\nstiffness = \"200 MN/m\"\ncrush = { force = \"600 kN\", hardening = 0.05 }\n", ..USUAL },
         Feature { name: "rigid wall", more: "[[gap]]\nbetween = [\"wall\", \"A\"]\nwidth = 0.02\nlaw = \"hertz\"\nstiffness = 2e9\n", ..USUAL },
         Feature { name: "wall that gives way", more: "[[wall]]\nname = \"moat\"\nstiffness = \"120 MN/m\"\nmass = \"25 t\"\n[[gap]]\nbetween = [\"moat\", \"A\"]\nwidth = 0.02\nlaw = \"hertz\"\nstiffness = 2e9\n", ..USUAL },
         link("linear link between neighbours", "[[link]]\nbetween = [\"A\", \"B\"]\nfloors = [[1, 1]]\nstiffness = \"20 MN/m\"\n"),

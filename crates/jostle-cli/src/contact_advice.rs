@@ -147,6 +147,14 @@ fn describe(text: &mut String, advice: &ContactAdvice) -> std::fmt::Result {
         )?;
     }
     writeln!(text)?;
+    if let Some(rule) = &advice.lateral {
+        writeln!(
+            text,
+            "Many studies take 10 to 100 times the lateral stiffness of the stiffer neighbour for linear laws. Here \"{}\" yields to a push on this floor\n\
+             with {:.2e} N/m, which gives {:.1e} to {:.1e} N/m. It is a habit, not a measurement.",
+            rule.of, rule.lateral_n_m, rule.low_n_m, rule.high_n_m
+        )?;
+    }
     for note in &advice.notes {
         writeln!(text, "{note}")?;
     }

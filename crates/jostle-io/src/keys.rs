@@ -109,6 +109,8 @@ pub(crate) enum Section {
     /// Reinforcement in rows.
     Bars,
     Gap,
+    /// How the faces of a gap crush.
+    Crush,
     Link,
     /// A link inside one building.
     Damper,
@@ -881,13 +883,17 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Gap, "floors", FloorPairs, "\"common\"", "Contact locations: every pair of floors at equal height, \"all\" floors against floors or columns, listed pairs of floors or heights, or heights.").any("heights are compared with those of the floors"),
     default(S::Gap, "level_tolerance", Quantity(D::Length), "\"1 mm\"", "Floors whose heights differ by no more than this can touch.").usual("a tolerance of levels", 1e-5, 1.0).possible(0.0, 20.0),
     default(S::Gap, "law", Choice(LAWS), "\"hertz-damp\"", "Contact law."),
-    default(S::Gap, "stiffness", ContactStiffness, "\"2e9 N/m^1.5\" for Hertz laws", "Contact stiffness: N/m^1.5 for hertz, hertz-damp, ye, jankowski and bilinear, N/m for the others. For rubber, the secant stiffness at 0.8 of the thickness; for restitution, the stiffness of lasting contact.").usual("a contact stiffness", 1e5, 1e13),
+    default(S::Gap, "stiffness", ContactStiffness, "\"2e9 N/m^1.5\" for Hertz laws", "Contact stiffness: N/m^1.5 for hertz, hertz-damp, ye, jankowski and bilinear, N/m for the others and for bilinear with second_stiffness. For rubber, the secant stiffness at 0.8 of the thickness; for restitution, the stiffness of lasting contact.").usual("a contact stiffness", 1e5, 1e13),
     default(S::Gap, "restitution", Quantity(D::Dimensionless), "0.65", "Coefficient of restitution.").usual("a coefficient of restitution", 1e-3, 1.0),
     default(S::Gap, "restitution_is", Choice(RESTITUTION_IS), "\"input\"", "\"input\": e goes into the published formula. \"realised\": damping is calibrated so that free masses rebound with e."),
 
+    optional(S::Gap, "damping", Quantity(D::Damping), "kelvin, kelvin-no-tension, and modified-kelvin with variant = \"mahmoud-jankowski\": dashpot of every contact instead of restitution, the same whatever the masses; between plans that of a whole face.").usual("a dashpot coefficient", 100.0, 1e10),
     default(S::Gap, "variant", Choice(LAW_VARIANTS), "\"ye\"", "modified-kelvin: ye, damping proportional to the indentation; mahmoud-jankowski, damping in the approach only."),
     default(S::Gap, "yield_share", Quantity(D::Dimensionless), "0.1", "bilinear: yield indentation ÷ greatest design indentation.").usual("a share", 1e-4, 1.0),
     optional(S::Gap, "design_speed", Quantity(D::Speed), "bilinear: impact speed for which its stiffnesses are computed; without it, the speed of each impact.").usual("an impact speed", 0.01, 20.0),
+    optional(S::Gap, "second_stiffness", Quantity(D::Stiffness), "bilinear: stiffness beyond yield, instead of restitution; stiffness is then the first one, in N/m.").usual("a contact stiffness", 1e5, 1e13),
+    optional(S::Gap, "yield", Quantity(D::Length), "bilinear, with second_stiffness: indentation at which it yields.").usual("a yield indentation", 1e-6, 0.1),
+    optional(S::Gap, "crush", Kind::Table(S::Crush), "linear: the face crushes, such as `{ force = \"600 kN\", hardening = 0.05 }`, and stays crushed: the gap is wider afterwards."),
     optional(S::Gap, "thickness", Quantity(D::Length), "rubber: thickness of the bumper.").usual("a bumper thickness", 0.001, 1.0).possible(0.0, 10.0),
     default(S::Gap, "exponent", Quantity(D::Dimensionless), "2.65", "rubber: exponent of the compression.").usual("an exponent", 0.5, 10.0),
     optional(S::Gap, "stiffness_per_length", ContactStiffness, "Between plans, instead of stiffness: that of a face per metre of its length.").usual("a contact stiffness per length", 1e4, 1e13),
@@ -896,6 +902,9 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Gap, "friction", Quantity(D::Dimensionless), "0", "Between plans: coefficient of friction along faces, at least 0 and below 1; concrete on concrete has some 0.4.").usual("a coefficient of friction", 1e-3, 1.0),
     optional(S::Gap, "tangential_stiffness", Quantity(D::Stiffness), "Between plans with friction: stiffness of a whole face against sliding while it sticks; without it, 0.89 times that against pressing.").usual("a tangential stiffness", 1e4, 1e13),
     default(S::Gap, "minimum_separation", Quantity(D::Time), "0", "Impacts of one contact closer in time than this count as one.").usual("a time", 1e-5, 10.0),
+
+    required(S::Crush, "force", Quantity(D::Force), "Force at which the face begins to crush; between plans that of a whole face.").usual("a crushing force", 1e3, 1e9),
+    default(S::Crush, "hardening", Quantity(D::Dimensionless), "0", "Stiffness while it crushes ÷ stiffness, from 0 to below 1.").usual("a hardening ratio", 1e-4, 1.0),
 
     required(S::Link, "between", Neighbours, "Names of the left and the right neighbour; \"wall\" is a rigid wall at an end of the row. One building twice: links between its own floors."),
     default(S::Link, "floors", FloorPairs, "\"common\"", "Points that are joined, as for gaps. Inside one building: pairs of its floors, such as [[0, 1], [1, 2]]; 0 is its base.").any("heights are compared with those of the floors"),

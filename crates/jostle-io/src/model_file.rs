@@ -10,6 +10,7 @@ mod brace;
 mod building;
 mod capacity;
 mod codes;
+mod contact_law;
 mod damper;
 mod floor_spectra;
 mod frame;

@@ -173,6 +173,11 @@ const TABLES: &[(Section, &str, &str)] = &[
         "One or more for each pair of neighbours, and for walls; see [Contacts and links](contacts-and-links.md).",
     ),
     (
+        Section::Crush,
+        "`crush` of a gap",
+        "With the law `linear`; see [Contact laws](contact.md).",
+    ),
+    (
         Section::Link,
         "`[[link]]`",
         "Springs, dampers and sliders between neighbours, or between floors of one building; see [Dampers between two towers](how-to/dampers-between-towers.md).",

@@ -44,6 +44,8 @@ pub(crate) fn describe(model: &Model, system: &System) -> Value {
             .contacts
             .iter()
             .filter(|contact| contact.gap == index);
+        let free = contacts.clone();
+        let free = free.filter_map(|contact| contact.free_restitution(&gap.law));
         let contacts = contacts.map(|contact| {
             json!({
                 "floors": system.floors_of(&contact.ports),
@@ -56,8 +58,8 @@ pub(crate) fn describe(model: &Model, system: &System) -> Value {
             "width_m": gap.width(),
             "law": gap.law.kind.name(),
             "stiffness": gap.law.stiffness,
-            "restitution": gap.law.restitution,
-            "free_restitution": gap.law.free_restitution(),
+            "restitution": (!gap.law.kind.has_given_constants()).then_some(gap.law.restitution),
+            "free_restitution": free.reduce(f64::min),
             "contacts": contacts.collect::<Vec<_>>(),
         })
     });

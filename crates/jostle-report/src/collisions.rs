@@ -24,9 +24,9 @@ pub struct Collisions {
     pub masses: [f64; 2],
     /// Closing speed at first contact \[m/s\].
     pub speed: f64,
-    /// Coefficient of restitution asked for \[–\].
-    pub restitution: f64,
-    /// How the stiffnesses of the two families compare, for people.
+    /// Coefficient of restitution asked for; `None` where a dashpot is given \[–\].
+    pub restitution: Option<f64>,
+    /// How the stiffnesses of the two families compare, and what a given dashpot stands for, for people.
     pub stiffnesses: String,
     /// Laws in order.
     pub laws: Vec<CollidedLaw>,
@@ -92,7 +92,12 @@ pub fn render_collisions(collisions: &Collisions) -> String {
                 header.head { div {
                     p.kicker { (message::collision_of_two_free_masses()) }
                     h1 { (title) }
-                    p { (message::input_restitution(format::plain(collisions.restitution, 3), &collisions.stiffnesses)) }
+                    p {
+                        @match collisions.restitution {
+                            Some(e) => (message::input_restitution(format::plain(e, 3), &collisions.stiffnesses)),
+                            None => (collisions.stiffnesses),
+                        }
+                    }
                 } (theme_button()) }
                 main {
                     section { h2 { (message::numbers()) } (table(collisions)) }

@@ -16,8 +16,8 @@ pub struct ContactBox {
     pub is_hertzian: bool,
     /// Stiffness in use \[N/m^1.5 or N/m\].
     pub stiffness: f64,
-    /// Restitution in use \[–\].
-    pub restitution: f64,
+    /// Restitution in use; `None` where constants stand in its place \[–\].
+    pub restitution: Option<f64>,
     /// Stiffness by Hertz's formula with the effective radius, and its plausible range \[N/m^1.5\].
     pub hertz: [f64; 3],
     /// Plausible range of the restitution \[–\].
@@ -56,7 +56,7 @@ pub(crate) fn contact_boxes(page: &Page) -> Markup {
                                     td.number { (power(row.stiffness)) }
                                     td.number { (power(row.hertz[0])) }
                                     td.number { (power(row.hertz[1])) " – " (power(row.hertz[2])) }
-                                    td.number { (format::plain(row.restitution, 3)) }
+                                    td.number { (row.restitution.map_or(format::NOTHING.into(), |e| format::plain(e, 3))) }
                                     td.number { (format::plain(row.restitution_range[0], 2)) " – " (format::plain(row.restitution_range[1], 2)) }
                                     td.number {
                                         @for (side, mass) in row.masses.iter().enumerate() {

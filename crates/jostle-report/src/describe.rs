@@ -1,6 +1,6 @@
 //! The model, the analysis and the energy balance of the run as text and small tables.
 
-use jostle::contact::RestitutionIs;
+use jostle::contact::{ContactLaw, LawKind, RestitutionIs};
 use jostle::model::{
     Building, Damping, FloorPairs, Frame, Gap, Link, LinkLaw, Shear, Solver, Structure,
 };
@@ -380,7 +380,8 @@ fn contact(gap: &Gap, summary: &GapSummary) -> Facts {
             format!("{} {unit}", format::plain(law.stiffness, 3)),
         ),
     ];
-    if law.kind.is_dissipative() {
+    facts.extend(constants(law));
+    if law.kind.uses_restitution() {
         let meaning = match law.restitution_is {
             RestitutionIs::Input => message::put_into_the_formula(),
             RestitutionIs::Realised => message::realised_by_free_masses(),
@@ -390,11 +391,48 @@ fn contact(gap: &Gap, summary: &GapSummary) -> Facts {
             format!("{} ({meaning})", format::plain(law.restitution, 3)),
         ));
     }
-    facts.push((
-        message::free_masses_rebound(),
-        format::fixed(summary.free_restitution, 3),
-    ));
+    let least = summary.contacts.iter();
+    let least = least.filter_map(|own| own.equivalent_restitution);
+    if let Some(e) = least.reduce(f64::min) {
+        facts.push((message::as_restitution(), format::fixed(e, 3)));
+    }
+    let deepest = summary
+        .contacts
+        .iter()
+        .filter_map(|own| own.crushed_depth_m);
+    if let Some(depth) = deepest.reduce(f64::max) {
+        facts.push((message::crushed_by(), format::millimetres(depth)));
+    }
+    if let Some(free) = summary.free_restitution {
+        facts.push((message::free_masses_rebound(), format::fixed(free, 3)));
+    }
     facts
+}
+
+/// Constants that the law states instead of a coefficient of restitution.
+fn constants(law: &ContactLaw) -> Facts {
+    let exact = |value: f64, unit: &str| format!("{} {unit}", format::plain(value, 3));
+    match law.kind {
+        LawKind::Dashpot(own) => vec![(message::dashpot(), exact(own.damping, "N·s/m"))],
+        LawKind::BilinearGiven(own) => vec![
+            (
+                message::second_stiffness(),
+                exact(own.second_stiffness, "N/m"),
+            ),
+            (
+                message::yield_indentation(),
+                format::millimetres(own.yield_indentation),
+            ),
+        ],
+        LawKind::Crushing(own) => vec![
+            (message::crushing_force(), exact(own.force, "N")),
+            (
+                message::crushing_hardening(),
+                format::plain(own.hardening, 3),
+            ),
+        ],
+        _ => Facts::new(),
+    }
 }
 
 fn motion(page: &Page) -> Facts {

@@ -117,14 +117,14 @@ fn restitution_note(page: &Page) -> Markup {
                 (message::restitution_is_separation_speed_impact()) " "
                 @for (i, gap) in summary.gaps.iter().enumerate() {
                     @if i > 0 { ", " }
-                    b { (format::fixed(gap.free_restitution, 3)) }
+                    b { (gap.free_restitution.map_or(format::NOTHING.into(), |e| format::fixed(e, 3))) }
                     @if summary.gaps.len() > 1 { " (" (gap.between[0]) "–" (gap.between[1]) ")" }
                 }
                 " " (message::under_this_contact_law())
             }
-            @if let Some((gap, law)) = published {
+            @if let Some((Some(free), law)) = published.map(|(gap, law)| (gap.free_restitution, law)) {
                 p {
-                    (message::the_coefficient_in_the_published(format::plain(law.restitution, 3), format::fixed(gap.free_restitution, 3)))
+                    (message::the_coefficient_in_the_published(format::plain(law.restitution, 3), format::fixed(free, 3)))
                 }
             }
         }

@@ -1,7 +1,8 @@
 //! Two free masses under contact laws.
 
 use jostle::contact::{
-    BilinearShape, FreeCollision, ModifiedKelvin, RubberBumper, effective_mass, hertz_indentation,
+    BilinearShape, Dashpot, DashpotLaw, FreeCollision, ModifiedKelvin, RubberBumper,
+    effective_mass, hertz_indentation,
 };
 use jostle::{ContactLaw, LawKind, RestitutionIs};
 use jostle_io::{Dimension, LAW_NAMES, parse_quantity};
@@ -34,6 +35,9 @@ pub struct CollideOptions {
     pub restitution: String,
     /// `input` or `realised`.
     pub restitution_is: String,
+    /// Dashpot instead of the restitution, ≥ 0, for `kelvin`, `kelvin-no-tension` and `modified-kelvin` after Mahmoud and
+    /// Jankowski.
+    pub damping: Option<String>,
     /// `ye` or `mahmoud-jankowski`, for `modified-kelvin`.
     pub variant: String,
     /// Yield indentation over the greatest design indentation, above 0 and below 0.5, for `bilinear`.
@@ -58,6 +62,7 @@ impl Default for CollideOptions {
             stiffness: None,
             restitution: "0.65".into(),
             restitution_is: MEANINGS[0].into(),
+            damping: None,
             variant: VARIANTS[0].into(),
             yield_share: "0.1".into(),
             design_speed: None,
@@ -147,6 +152,10 @@ pub fn collide(options: &CollideOptions) -> Result<Collisions, RunError> {
     } else {
         RestitutionIs::Input
     };
+    let kinds = match &options.damping {
+        Some(text) => vec![given_dashpot(options, &kinds, text)?],
+        None => kinds,
+    };
     let mut laws = Vec::new();
     for kind in kinds {
         let law = ContactLaw {
@@ -166,22 +175,75 @@ pub fn collide(options: &CollideOptions) -> Result<Collisions, RunError> {
             )));
         }
         let numbers = law.between(masses[0], masses[1]);
+        let ratio = numbers.damping_ratio(effective_mass(masses[0], masses[1]));
+        if numbers.jumps_at_release() && ratio.is_some_and(|ratio| ratio >= 1.0) {
+            return Err(RunError::Argument(format!(
+                "--damping: damps these masses beyond critical, ζ = {:.2}: under kelvin, which may pull, they never part; use --law kelvin-no-tension, or less",
+                ratio.unwrap_or_default()
+            )));
+        }
         laws.push(CollidedLaw {
             law,
             collision: FreeCollision::new(&numbers, masses[0], masses[1], speed),
         });
     }
-    let stiffnesses = format!(
-        "Stiffness {:.4e} N/m^1.5 for the Hertz family, {:.4e} N/m for the others: the same secant at the greatest elastic Hertz indentation.",
-        stiffness.hertz, stiffness.linear
-    );
+    let dashpot = laws
+        .first()
+        .map_or_else(String::new, |own| dashpot_words(own, masses));
+    let stiffnesses = dashpot
+        + &format!(
+            "Stiffness {:.4e} N/m^1.5 for the Hertz family, {:.4e} N/m for the others: the same secant at the greatest elastic Hertz indentation.",
+            stiffness.hertz, stiffness.linear
+        );
     Ok(Collisions {
         masses,
         speed,
-        restitution,
+        restitution: options.damping.is_none().then_some(restitution),
         stiffnesses,
         laws,
     })
+}
+
+/// The law of these with a dashpot in place of its restitution.
+fn given_dashpot(
+    options: &CollideOptions,
+    kinds: &[LawKind],
+    text: &str,
+) -> Result<LawKind, RunError> {
+    let law = match kinds {
+        [LawKind::Kelvin] => DashpotLaw::Kelvin,
+        [LawKind::KelvinNoTension] => DashpotLaw::KelvinNoTension,
+        [LawKind::ModifiedKelvin(ModifiedKelvin::MahmoudJankowski)] => DashpotLaw::Approach,
+        _ => {
+            return Err(RunError::Argument(format!(
+                "--damping: belongs to the laws kelvin, kelvin-no-tension and modified-kelvin with --variant mahmoud-jankowski, not to {}",
+                if options.all { "--all" } else { &options.law }
+            )));
+        }
+    };
+    let damping = parse_quantity(text, Dimension::Damping)
+        .map_err(|error| RunError::Argument(format!("--damping: {error}")))?;
+    if damping < 0.0 {
+        return Err(RunError::Argument(format!(
+            "--damping: must not be negative, found {text}"
+        )));
+    }
+    Ok(LawKind::Dashpot(Dashpot { law, damping }))
+}
+
+/// What a given dashpot stands for between these masses \[kg\]; empty without one.
+fn dashpot_words(own: &CollidedLaw, masses: [f64; 2]) -> String {
+    let LawKind::Dashpot(dashpot) = own.law.kind else {
+        return String::new();
+    };
+    let numbers = own.law.between(masses[0], masses[1]);
+    let ratio = numbers.damping_ratio(effective_mass(masses[0], masses[1]));
+    let ratio = ratio.unwrap_or_default();
+    format!(
+        "Dashpot {:.4e} N.s/m: damping ratio {ratio:.4}, which is that of restitution {:.4} in the published formula. ",
+        dashpot.damping,
+        dashpot.law.equivalent_restitution(ratio)
+    )
 }
 
 fn kinds(options: &CollideOptions, shape: BilinearShape, bumper: RubberBumper) -> Vec<LawKind> {
@@ -265,7 +327,11 @@ pub fn collision_json(collided: &CollidedLaw) -> Value {
         "variant": variant,
         "stiffness": law.stiffness,
         "stiffness_unit": if law.kind.is_hertzian() { "N/m^1.5" } else { "N/m" },
-        "restitution": law.restitution,
+        "restitution": (!law.kind.has_given_constants()).then_some(law.restitution),
+        "damping_n_s_m": match law.kind {
+            LawKind::Dashpot(dashpot) => Some(dashpot.damping),
+            _ => None,
+        },
         "impact_speed_m_s": collision.impact_speed,
         "separation_speed_m_s": collision.separation_speed,
         "realised_restitution": collision.realised_restitution(),
@@ -277,4 +343,66 @@ pub fn collision_json(collided: &CollidedLaw) -> Value {
         "impulse_n_s": collision.impulse,
         "dissipated_j": collision.dissipated,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn options(law: &str, damping: &str) -> CollideOptions {
+        CollideOptions {
+            law: law.into(),
+            m1: "100 t".into(),
+            m2: "70 t".into(),
+            speed: "0.5 m/s".into(),
+            stiffness: Some("200 MN/m".into()),
+            damping: Some(damping.into()),
+            ..CollideOptions::default()
+        }
+    }
+
+    /// e = exp(−πζ/√(1 − ζ²)) with ζ = c/(2√(k m)).
+    #[test]
+    fn a_dashpot_rebounds_by_its_damping_ratio() {
+        let found = collide(&options("kelvin", "1.1 MN.s/m")).unwrap_or_else(|e| panic!("{e}"));
+        let mass = 1e5 * 7e4 / 1.7e5_f64;
+        let ratio = 1.1e6 / (2.0 * (2e8 * mass).sqrt());
+        let due = (-std::f64::consts::PI * ratio / (1.0 - ratio * ratio).sqrt()).exp();
+        let own = &found.laws[0];
+        assert!((own.collision.realised_restitution() - due).abs() < 1e-9);
+        assert!(
+            found.stiffnesses.contains("restitution 0.5415"),
+            "{}",
+            found.stiffnesses
+        );
+        let json = collision_json(own);
+        assert_eq!(json["damping_n_s_m"], 1.1e6);
+        assert_eq!(json["restitution"], Value::Null);
+    }
+
+    #[test]
+    fn dashpots_that_do_not_fit_are_refused() {
+        let refused = |law: &str, damping: &str| {
+            let error = collide(&options(law, damping))
+                .map(drop)
+                .expect_err("it is wrong");
+            error.to_string()
+        };
+        let found = refused("hertz-damp", "1 MN.s/m");
+        assert!(
+            found.starts_with("--damping: belongs to the laws kelvin"),
+            "{found}"
+        );
+        let found = refused("kelvin", "-1 MN.s/m");
+        assert!(
+            found.starts_with("--damping: must not be negative"),
+            "{found}"
+        );
+        let found = refused("kelvin", "9 MN.s/m");
+        assert!(
+            found.contains("they never part; use --law kelvin-no-tension"),
+            "{found}"
+        );
+        assert!(collide(&options("kelvin-no-tension", "9 MN.s/m")).is_ok());
+    }
 }

@@ -1,10 +1,12 @@
 //! Stiffness and restitution for the contacts of a gap, estimated from slabs, material and colliding masses.
 
 use jostle::contact::{
-    HERTZ_DURATION, JANKOWSKI_HERTZ, Rod, Slab, SlabMaterial, USUAL_HERTZ, effective_mass,
-    hertz_indentation, hertz_of_force, hertz_peak_force, hertz_stiffness, rod_collision,
-    spring_of_duration, spring_of_force,
+    HERTZ_DURATION, JANKOWSKI_HERTZ, LATERAL_FACTORS, Rod, Slab, SlabMaterial, USUAL_HERTZ,
+    effective_mass, hertz_indentation, hertz_of_force, hertz_peak_force, hertz_stiffness,
+    rod_collision, spring_of_duration, spring_of_force,
 };
+use jostle::interface::Contact;
+use jostle::statics::stiffness_at;
 use jostle::{Model, Summary, System};
 use jostle_io::{Dimension, parse_concrete, parse_quantity};
 use jostle_report::ContactBox;
@@ -76,6 +78,8 @@ pub struct ContactAdvice {
     pub hertz: RangeAdvice,
     /// Recommended stiffness of the linear laws and its range; `null` without the size of the slabs \[N/m\].
     pub linear: Option<RangeAdvice>,
+    /// What the habit of many studies gives for linear laws; `null` without a model, and where no building can be pushed.
+    pub lateral: Option<LateralAdvice>,
     /// Recommended restitution and its range \[–\].
     pub restitution: RangeAdvice,
     /// What was assumed, and what to heed.
@@ -91,6 +95,19 @@ pub struct RangeAdvice {
     pub low: f64,
     /// Highest plausible value.
     pub high: f64,
+}
+
+/// The rule of many studies: contact as a multiple of the lateral stiffness of the stiffer neighbour.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LateralAdvice {
+    /// Name of the stiffer neighbour.
+    pub of: String,
+    /// Force on its struck floor ÷ displacement of that floor, the rest of the building free to follow \[N/m\].
+    pub lateral_n_m: f64,
+    /// Ten times that \[N/m\].
+    pub low_n_m: f64,
+    /// A hundred times that \[N/m\].
+    pub high_n_m: f64,
 }
 
 /// The collision of two floors as elastic rods with distributed mass.
@@ -178,7 +195,29 @@ fn of_contact(known: &Known, model: &Model, system: &System, gap: usize) -> Opti
         .struck_masses()
         .map(|mass| mass.is_finite().then_some(mass));
     let given = known.masses.map(|given| given.map(Some));
-    Some(known.advise(names, Some(contact.height), given.unwrap_or(masses)))
+    let advice = known.advise(names, Some(contact.height), given.unwrap_or(masses));
+    Some(ContactAdvice {
+        lateral: lateral(system, contact),
+        ..advice
+    })
+}
+
+/// Multiples of the lateral stiffness of the stiffer building beside a contact.
+fn lateral(system: &System, contact: &Contact) -> Option<LateralAdvice> {
+    let ports = contact.ports.0.iter().flatten();
+    let pushed = ports.filter_map(|port| {
+        let building = &system.buildings[port.building];
+        let at = port.row.moved_down(building.offset);
+        Some((&building.name, stiffness_at(building.alone(), &at)?))
+    });
+    let (name, stiffness) = pushed.max_by(|(_, a), (_, b)| a.total_cmp(b))?;
+    let [low, high] = LATERAL_FACTORS.map(|factor| factor * stiffness);
+    Some(LateralAdvice {
+        of: name.clone(),
+        lateral_n_m: stiffness,
+        low_n_m: low,
+        high_n_m: high,
+    })
 }
 
 /// Contact data of a run for its report: what is used, and what masses and the greatest impact speed suggest.
@@ -202,7 +241,7 @@ pub(crate) fn contact_boxes(model: &Model, system: &System, summary: &Summary) -
             law: gap.law.kind.full_name(),
             is_hertzian: gap.law.kind.is_hertzian(),
             stiffness: gap.law.stiffness,
-            restitution: gap.law.restitution,
+            restitution: (!gap.law.kind.has_given_constants()).then_some(gap.law.restitution),
             hertz: [advice.hertz.value, advice.hertz.low, advice.hertz.high],
             restitution_range: [advice.restitution.low, advice.restitution.high],
             masses: advice.masses_kg,
@@ -341,6 +380,7 @@ impl Known {
             estimates,
             hertz,
             linear,
+            lateral: None,
             restitution: RangeAdvice {
                 value: USUAL_RESTITUTION,
                 low: USUAL_RESTITUTION - RESTITUTION_CHANGE,

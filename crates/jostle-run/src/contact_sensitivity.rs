@@ -5,7 +5,7 @@ use jostle::results::contact_sensitivity::{
     BuildingChange, ContactSensitivity, ContactVariant, GapSpread, RangeEnd, VariantResult,
 };
 use jostle::results::summary::{BuildingSummary, FloorSummary};
-use jostle::{LawKind, Model, Summary, System};
+use jostle::{Model, Summary, System};
 
 use crate::observer::{Observer, Stage};
 use crate::run::Ran;
@@ -58,12 +58,13 @@ fn change(model: &mut Model, system: &System, variant: ContactVariant) {
     for (index, gap) in model.gaps.iter_mut().enumerate() {
         let range = advised_stiffness(system, index, gap);
         let law = &mut gap.law;
-        law.stiffness = match variant.stiffness {
+        let stiffness = match variant.stiffness {
             None => law.stiffness,
             Some(RangeEnd::Low) => range.map_or(0.5 * law.stiffness, |range| range.low),
             Some(RangeEnd::High) => range.map_or(2.0 * law.stiffness, |range| range.high),
         };
-        if !matches!(law.kind, LawKind::Linear | LawKind::Hertz) {
+        *law = law.with_stiffness(stiffness);
+        if law.kind.uses_restitution() {
             let least = law
                 .least_restitution()
                 .max(LEAST_RESTITUTION.min(law.restitution));

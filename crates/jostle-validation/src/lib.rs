@@ -8,6 +8,7 @@ pub mod certify;
 pub mod chopra;
 pub mod closed_forms;
 pub mod collisions;
+pub mod contact_constants;
 pub mod differing_ground;
 pub mod direct_steps;
 pub mod document;
@@ -65,7 +66,7 @@ pub struct Family {
 type Make = fn(Extent) -> Vec<Row>;
 
 /// Title, explanation and rows of every family.
-const FAMILIES: [(&str, &str, Make); 26] = [
+const FAMILIES: [(&str, &str, Make); 27] = [
     (
         "Closed forms",
         "Statics, frequencies, damping coefficients and single Newmark steps against formulas and an independent \
@@ -108,6 +109,14 @@ const FAMILIES: [(&str, &str, Make); 26] = [
          struts that bear compression alone above a soft storey. Expected values: an integrator of eighth order, restarted at the \
          points of the record and at changes of contact; agrees with OpenSees to 5·10⁻⁹ m at equal steps.",
         |_| members::rows(),
+    ),
+    (
+        "Contact constants",
+        "Two oscillators and a contact with constants as papers print them, through model files: a dashpot, with and without \
+         tension, two stiffnesses with a yield indentation, a face that crushes and stays crushed. Expected values: an integrator \
+         of eighth order, restarted at the points of the record and at changes of contact; at equal steps OpenSees agrees to \
+         5·10⁻⁹ m for the dashpot with tension and the face that crushes. Forces of the two last laws under given indentations.",
+        |_| contact_constants::rows(),
     ),
     (
         "Space frames",

@@ -24,7 +24,7 @@ pub fn figure() -> String {
     loops_svg(&Collisions {
         masses: [MASS, MASS],
         speed: SPEED,
-        restitution: 0.65,
+        restitution: Some(0.65),
         stiffnesses: String::new(),
         laws: laws.to_vec(),
     })

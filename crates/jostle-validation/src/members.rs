@@ -14,7 +14,7 @@ use crate::row::Row;
 const RUNS: [(f64, f64); 2] = [(1e-3, 1e-3), (1e-5, 1e-5)];
 
 /// The references take g as 9.80665 m/s², the built-in record 9.81 m/s².
-const GRAVITY: f64 = 9.80665 / 9.81;
+pub(crate) const GRAVITY: f64 = 9.80665 / 9.81;
 
 const CASES: [(&str, &str); 3] = [
     (
@@ -129,8 +129,9 @@ damping = {{ alpha = {alpha:?}, beta = 0 }}
     text
 }
 
-fn compare(name: &str, case: &Value, tolerance: f64, close: f64) -> Vec<Row> {
-    let input = model(&file(&case["input"], tolerance));
+/// The summary of a run of a model file.
+pub(crate) fn summary_of(file: &str) -> Summary {
+    let input = model(file);
     let system = System::assemble(&input.model).expect("a sound model");
     let motion = input.ground_motion().expect("the record is built in");
     let plan = Plan::choose(&system, &motion, &input.model.analysis).expect("a sound plan");
@@ -146,7 +147,11 @@ fn compare(name: &str, case: &Value, tolerance: f64, close: f64) -> Vec<Row> {
         without_contact: None,
         wall: Default::default(),
     };
-    let summary = Summary::new(&run);
+    Summary::new(&run)
+}
+
+fn compare(name: &str, case: &Value, tolerance: f64, close: f64) -> Vec<Row> {
+    let summary = summary_of(&file(&case["input"], tolerance));
     let with = |what: &str| format!("{what}, tolerance {tolerance:e}");
     let mut rows = Vec::new();
     let (mut expected, mut got) = (Vec::new(), Vec::new());

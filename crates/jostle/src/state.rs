@@ -45,9 +45,16 @@ pub struct State {
     pub links: Vec<LinkMemory>,
     /// Contacts, in the order of the system.
     pub contacts: Vec<ContactPhase>,
+    /// Depth to which they are crushed by impacts that have ended, in the order of the system: their gaps are wider by it
+    /// \[m\].
+    pub crushed: Vec<f64>,
 }
 
 /// Whether a contact is open or closed.
+#[allow(
+    clippy::large_enum_variant,
+    reason = "a box would allocate at every impact"
+)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ContactPhase {
     /// The gap is open.
@@ -131,6 +138,15 @@ impl Episode {
 }
 
 impl ContactPhase {
+    /// Where its face begins to push: how far this impact has crushed it \[m\].
+    #[inline]
+    pub(crate) fn face(&self) -> f64 {
+        match self {
+            Self::Open => 0.0,
+            Self::Closed(episode) => episode.memory.crushed,
+        }
+    }
+
     /// Contact force now \[N\].
     #[must_use]
     pub fn force(&self) -> f64 {
@@ -188,7 +204,18 @@ impl State {
                 vec![LinkMemory::default(); system.links.len()]
             },
             contacts: vec![ContactPhase::Open; system.contacts.len()],
+            crushed: vec![0.0; system.contacts.len()],
         }
+    }
+
+    /// Depth to which a contact is crushed now \[m\].
+    #[must_use]
+    pub fn crushed_depth(&self, contact: usize) -> f64 {
+        let now = match self.contacts.get(contact) {
+            Some(ContactPhase::Closed(episode)) => episode.memory.crushed,
+            Some(ContactPhase::Open) | None => 0.0,
+        };
+        now + self.crushed.get(contact).copied().unwrap_or(0.0)
     }
 
     /// Memories of all links; those of linear ones are empty.

@@ -13,6 +13,32 @@ fn collide(arguments: &[&str]) -> Value {
     serde_json::from_str(&printed(&output)).expect("JSON and nothing else")
 }
 
+/// A dashpot instead of the coefficient: e = exp(−πζ/√(1 − ζ²)), and both together are refused.
+#[test]
+fn a_dashpot_takes_the_place_of_restitution() {
+    let given = [
+        "--law",
+        "kelvin",
+        "--stiffness",
+        "93.5 MN/m",
+        "--damping",
+        "0.4 MN.s/m",
+    ];
+    let got = collide(&given);
+    let mass = 30e3 * 50e3 / 80e3_f64;
+    let ratio = 0.4e6 / (2.0 * (93.5e6 * mass).sqrt());
+    let due = (-std::f64::consts::PI * ratio / (1.0 - ratio * ratio).sqrt()).exp();
+    let found = got["realised_restitution"].as_f64().expect("a number");
+    assert!((found - due).abs() < 1e-9, "{found}, {due}");
+    assert_eq!(got["damping_n_s_m"], 0.4e6);
+    assert!(got["restitution"].is_null());
+    let folder = folder();
+    let both = [&["collide"], &BODIES[..], &given, &["--restitution", "0.5"]].concat();
+    let output = jostle(folder.path(), &both);
+    assert!(!output.status.success());
+    assert!(complained(&output).contains("cannot be used with"));
+}
+
 /// Closed forms with 40 digits, see the validation data (A03 and A05).
 #[test]
 fn one_law_gives_the_numbers_of_the_closed_forms() {

@@ -55,7 +55,7 @@ fn area(backbone: &Backbone) -> f64 {
 }
 
 impl Materials {
-    /// Every material: tag, name, arguments.
+    /// Every material: tag, name, arguments. A word after the name follows its arguments.
     pub(super) fn iter(&self) -> impl Iterator<Item = (usize, &'static str, &[f64])> {
         let numbered = self.list.iter().enumerate();
         numbered.map(|(index, (name, arguments))| (index + 1, *name, &arguments[..]))
@@ -260,6 +260,9 @@ impl Materials {
         const IMPACT_SPEED: &str = "Hertzdamp divides by the closing rate at the end of the first closed step, not at first \
              contact: its damping depends on the step and converges with it. It is in tension where damping exceeds \
              the spring force; jostle cuts the force at zero. Its tangent has the wrong sign, which is harmless at small steps.";
+        const FIRST_ORDER: &str = "ImpactMaterial adds the first stiffness times the whole increment of the step that closes the gap, \
+             its open part too: it tends to jostle's law with the first order of the step. At 0.2 ms, 0.05 ms and 0.02 ms the \
+             impulse of an example was 1.4, 0.4 and 0.2 % off, the peak force 0.2, 0.04 and 0.03 %.";
         Ok(match contact.law {
             ForceLaw::Hertz { stiffness, damping } => (
                 self.add("Hertzdamp", vec![stiffness, damping, gap, 1.5]),
@@ -314,11 +317,22 @@ impl Materials {
                         gap,
                     ],
                 ),
-                None,
+                Some(FIRST_ORDER),
+            ),
+            // Crushed material stays crushed: the gap widens.
+            ForceLaw::Crushing(law) => (
+                self.add(
+                    "ElasticPPGap damage",
+                    vec![law.stiffness, -law.force, gap, law.hardening],
+                ),
+                Some(
+                    "Faces crush as in jostle, but impacts are counted here where they come closer than the original gap: \
+                     jostle counts from the crushed face, and fewer.",
+                ),
             ),
             ForceLaw::Bilinear(_) => {
                 return Err(
-                    "OpenSees' ImpactMaterial has the same stiffnesses at every impact; give the law a design_speed",
+                    "OpenSees' ImpactMaterial has the same stiffnesses at every impact; give the law a design_speed, or second_stiffness and yield",
                 );
             }
             ForceLaw::Restitution { .. } => {

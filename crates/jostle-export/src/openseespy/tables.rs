@@ -87,8 +87,10 @@ impl Script<'_> {
             &self.members,
         )?;
         let mut materials = String::new();
-        for (tag, name, arguments) in self.materials.iter() {
-            let arguments: Vec<String> = arguments
+        for (tag, whole, arguments) in self.materials.iter() {
+            let (name, word) = whole.split_once(' ').unzip();
+            let name = name.unwrap_or(whole);
+            let mut arguments: Vec<String> = arguments
                 .iter()
                 .map(|value| {
                     if name == "Parallel" {
@@ -98,6 +100,7 @@ impl Script<'_> {
                     }
                 })
                 .collect();
+            arguments.extend(word.map(|word| format!("\"{word}\"")));
             writeln!(
                 materials,
                 "    (\"{name}\", {tag}, {}),",

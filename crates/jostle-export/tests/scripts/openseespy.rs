@@ -181,6 +181,53 @@ fn what_opensees_does_not_have_is_refused_by_field() {
     assert_eq!(path_of(&input), "analysis.integrator");
 }
 
+/// The first material of a contact of the paper's frames under a law, and the remarks of its script.
+fn material_of(kind: jostle::LawKind, stiffness: f64) -> (Vec<String>, String) {
+    let mut input = builtin_model("paper").expect("built in");
+    let law = &mut input.model.gaps[0].law;
+    (law.kind, law.stiffness) = (kind, stiffness);
+    let text = export(&input).expect("it can be exported").text;
+    let materials = table(&text, "MATERIALS");
+    let contact = &table(&text, "CONTACTS")[0];
+    let own = materials.iter().find(|row| row[1] == contact[3]);
+    let own = own.expect("its material").iter();
+    (own.map(|word| word.to_string()).collect(), text.clone())
+}
+
+#[test]
+fn constants_of_contacts_are_exported() {
+    use jostle::contact::{BilinearConstants, Crush, Dashpot, DashpotLaw};
+    let (crushing, _) = material_of(
+        jostle::LawKind::Crushing(Crush {
+            force: 6e5,
+            hardening: 0.05,
+        }),
+        2e8,
+    );
+    assert_eq!(crushing[0], "\"ElasticPPGap\"");
+    assert_eq!(crushing[6], "\"damage\"");
+    let numbers: Vec<f64> = crushing[2..6].iter().map(|value| number(value)).collect();
+    assert_eq!(numbers, [2e8, -6e5, -0.1, 0.05]);
+    let constants = BilinearConstants {
+        second_stiffness: 1.2e8,
+        yield_indentation: 1.5e-3,
+    };
+    let (bilinear, text) = material_of(jostle::LawKind::BilinearGiven(constants), 4e8);
+    assert_eq!(bilinear[0], "\"ImpactMaterial\"");
+    let numbers: Vec<f64> = bilinear[2..].iter().map(|value| number(value)).collect();
+    assert_eq!(numbers, [4e8, 1.2e8, -1.5e-3, -0.1]);
+    assert!(text.contains("first order of the step"));
+    let dashpot = Dashpot {
+        law: DashpotLaw::Kelvin,
+        damping: 1.1e6,
+    };
+    let (kelvin, text) = material_of(jostle::LawKind::Dashpot(dashpot), 2e8);
+    assert_eq!(kelvin[0], "\"ViscoelasticGap\"");
+    let numbers: Vec<f64> = kelvin[2..].iter().map(|value| number(value)).collect();
+    assert_eq!(numbers, [2e8, 1.1e6, -0.1]);
+    assert!(!text.contains("first order of the step"));
+}
+
 #[test]
 fn the_damping_of_hertzdamp_is_that_of_the_law() {
     let input = builtin_model("paper").expect("built in");

@@ -1,28 +1,19 @@
 //! `[[gap]]`: the gap between two neighbours, or beside a wall, and its contact law.
 
-use jostle::contact::ModifiedKelvin;
 use jostle::interface::narrowest_gap;
 use jostle::{
-    Building, ContactLaw, FloorPairs, Gap, LawKind, Model, PlanContact, PlanPoint, RestitutionIs,
-    Structure, Wall,
+    Building, ContactLaw, FloorPairs, Gap, Model, PlanContact, PlanPoint, RestitutionIs, Structure,
+    Wall,
 };
 
 use super::between::{MOST_CONTACTS, floors, neighbours, tolerance};
-use crate::keys::{LAW_VARIANTS, LAWS, RESTITUTION_IS, Section};
+use super::contact_law::{
+    CONCRETE_RESTITUTION, CONCRETE_STIFFNESS, DEFAULT_LAW, contact_law, optional,
+};
+use crate::keys::Section;
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
 use crate::tree::Value;
-
-/// Law where none is named.
-const DEFAULT_LAW: LawKind = LawKind::HertzDamp;
-/// Contact stiffness of the Hertz laws for colliding concrete floors \[N/m^1.5\].
-const CONCRETE_STIFFNESS: f64 = 2e9;
-
-/// Stiffness of lasting contact under the momentum law \[N/m\].
-const LASTING_STIFFNESS: f64 = 1e9;
-
-/// Restitution of colliding concrete \[–\].
-const CONCRETE_RESTITUTION: f64 = 0.65;
 
 /// Most gaps.
 const MOST_GAPS: usize = 10_000;
@@ -167,7 +158,7 @@ fn read(
     let (in_plan, per_length) = plan_contact(reader, &view, in_space);
     let floors = floors(reader, &view);
     let level_tolerance = tolerance(reader, &view);
-    let mut law = law(reader, &view, in_plan.per_length);
+    let mut law = contact_law(reader, &view, in_plan.per_length);
     if let Some(stiffness) = per_length.and_then(|field| {
         let dimension = if law.kind.is_hertzian() {
             Dimension::HertzStiffnessPerLength
@@ -254,138 +245,4 @@ fn widths(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Vec<f64>> {
         .map(|entry| reader.quantity(entry, Dimension::Length))
         .collect();
     widths.into_iter().collect()
-}
-
-fn law(reader: &mut Reader<'_>, view: &View<'_>, per_length: bool) -> ContactLaw {
-    let named = reader
-        .get(view, "law")
-        .map(|field| reader.choice(&field, LAWS, &[]));
-    let known = named.flatten().and_then(LawKind::from_name);
-    let kind = known.unwrap_or(DEFAULT_LAW);
-    let law_is_bad = matches!(named, Some(None));
-    let kind = with_parameters(reader, view, kind, law_is_bad);
-    let stiffness = match per_length {
-        true => None,
-        false => stiffness(reader, view, kind, law_is_bad),
-    };
-    let restitution = match reader.get(view, "restitution") {
-        Some(field) => reader.quantity(&field, Dimension::Dimensionless),
-        None => None,
-    };
-    let restitution_is = match reader.get(view, "restitution_is") {
-        Some(field) => reader.choice(&field, RESTITUTION_IS, &[]),
-        None => None,
-    };
-    ContactLaw {
-        kind,
-        stiffness: stiffness.unwrap_or(if kind == LawKind::Restitution {
-            LASTING_STIFFNESS
-        } else {
-            CONCRETE_STIFFNESS
-        }),
-        restitution: restitution.unwrap_or(CONCRETE_RESTITUTION),
-        restitution_is: restitution_is
-            .and_then(RestitutionIs::from_name)
-            .unwrap_or_default(),
-    }
-}
-
-fn optional(
-    reader: &mut Reader<'_>,
-    view: &View<'_>,
-    key: &'static str,
-    dimension: Dimension,
-) -> Option<f64> {
-    let field = reader.get(view, key)?;
-    reader.quantity(&field, dimension)
-}
-
-/// Keys that only some laws have.
-fn with_parameters(
-    reader: &mut Reader<'_>,
-    view: &View<'_>,
-    mut kind: LawKind,
-    law_is_bad: bool,
-) -> LawKind {
-    match &mut kind {
-        LawKind::ModifiedKelvin(variant) => {
-            let named = reader.get(view, "variant");
-            let named = named.and_then(|field| reader.choice(&field, LAW_VARIANTS, &[]));
-            *variant = named
-                .and_then(ModifiedKelvin::from_name)
-                .unwrap_or(*variant);
-        }
-        LawKind::Bilinear(shape) => {
-            let share = optional(reader, view, "yield_share", Dimension::Dimensionless);
-            shape.yield_share = share.unwrap_or(shape.yield_share);
-            shape.design_speed = optional(reader, view, "design_speed", Dimension::Speed);
-        }
-        LawKind::Rubber(bumper) => {
-            match optional(reader, view, "thickness", Dimension::Length) {
-                Some(thickness) => bumper.thickness = thickness,
-                None if reader.get(view, "thickness").is_none() => {
-                    reader.missing(view, "thickness", "add thickness = \"50 mm\"");
-                }
-                None => {}
-            }
-            let exponent = optional(reader, view, "exponent", Dimension::Dimensionless);
-            bumper.exponent = exponent.unwrap_or(bumper.exponent);
-        }
-        LawKind::Linear
-        | LawKind::Kelvin
-        | LawKind::KelvinNoTension
-        | LawKind::Hertz
-        | LawKind::HertzDamp
-        | LawKind::Ye
-        | LawKind::Jankowski
-        | LawKind::Restitution => {}
-    }
-    if !law_is_bad {
-        for (key, owner) in [
-            ("variant", "modified-kelvin"),
-            ("yield_share", "bilinear"),
-            ("design_speed", "bilinear"),
-            ("thickness", "rubber"),
-            ("exponent", "rubber"),
-        ] {
-            if kind.name() != owner
-                && let Some(field) = reader.get(view, key)
-            {
-                *reader.bad(
-                    &field,
-                    format!("belongs to the law {owner}, not to {}", kind.name()),
-                ) = Some(format!("leave it out, or write law = \"{owner}\""));
-            }
-        }
-    }
-    kind
-}
-
-/// The contact stiffness in the unit of the law.
-fn stiffness(
-    reader: &mut Reader<'_>,
-    view: &View<'_>,
-    kind: LawKind,
-    law_is_bad: bool,
-) -> Option<f64> {
-    let Some(field) = reader.get(view, "stiffness") else {
-        if !kind.is_hertzian() && kind != LawKind::Restitution && !law_is_bad {
-            reader.missing(
-                view,
-                "stiffness",
-                format!("the law {} has no usual stiffness; add stiffness = \"500 MN/m\", for example some ten times the stiffness of a storey", kind.name()),
-            );
-        }
-        return None;
-    };
-    // With an unknown law, either unit may be right.
-    if law_is_bad {
-        return None;
-    }
-    let dimension = if kind.is_hertzian() {
-        Dimension::HertzStiffness
-    } else {
-        Dimension::Stiffness
-    };
-    reader.quantity(&field, dimension)
 }

@@ -64,6 +64,9 @@ hinges = { rule = "normal" }
 [soil]
 coupling = { stiffness = [[1]] }
 [[gap]]
+[[gap]]
+law = "linear"
+crush = { force = 1 }
 [[link]]
 stiffness = 1
 [[wall]]

@@ -1,5 +1,6 @@
 //! What is unusual about an assembled model, its motion and its results.
 
+use jostle::results::overdamped_contacts;
 use jostle::results::summary::Summary;
 use jostle::{GroundMotion, LawKind, Model, System};
 
@@ -100,6 +101,12 @@ fn of_system(model: &Model, system: &System) -> Vec<(String, String)> {
             ));
         }
     }
+    let overdamped = overdamped_contacts(model, system);
+    found.extend(
+        overdamped
+            .into_iter()
+            .map(|(gap, text)| (format!("gap[{gap}].damping"), text)),
+    );
     found
 }
 

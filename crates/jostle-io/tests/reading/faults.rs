@@ -632,6 +632,12 @@ fn parameters_belong_to_their_law() {
         "law = \"restitution\"\nrestitution = 0.4\nminimum_separation = \"20 ms\"",
         "law = \"jankowski\"",
         "law = \"ye\"",
+        "law = \"kelvin\"\nstiffness = \"90 MN/m\"\ndamping = \"1.1 MN.s/m\"",
+        "law = \"kelvin-no-tension\"\nstiffness = \"90 MN/m\"\ndamping = 0",
+        "law = \"modified-kelvin\"\nvariant = \"mahmoud-jankowski\"\nstiffness = \"90 MN/m\"\ndamping = \"200 kN.s/m\"",
+        "law = \"bilinear\"\nstiffness = \"400 MN/m\"\nsecond_stiffness = \"120 MN/m\"\nyield = \"1.5 mm\"",
+        "law = \"linear\"\nstiffness = \"200 MN/m\"\ncrush = { force = \"600 kN\", hardening = 0.05 }",
+        "law = \"linear\"\nstiffness = \"200 MN/m\"\ncrush = { force = \"600 kN\" }",
     ] {
         if let Err(error) = read(gap) {
             panic!("{gap}: {error}");
@@ -657,6 +663,82 @@ fn parameters_belong_to_their_law() {
         (
             "law = \"modified-kelvin\"\nstiffness = \"90 MN/m\"\nvariant = \"me\"",
             "gap[0].variant: \"me\" is not known; available: ye, mahmoud-jankowski",
+        ),
+        (
+            "law = \"kelvin\"\nstiffness = \"90 MN/m\"\ndamping = \"1 MN.s/m\"\nrestitution = 0.6",
+            "gap[0].restitution: cannot be combined with damping",
+        ),
+        (
+            "law = \"kelvin\"\nstiffness = \"90 MN/m\"\ndamping = \"1 MN.s/m\"\nrestitution_is = \"realised\"",
+            "gap[0].restitution_is: cannot be combined with damping",
+        ),
+        (
+            "law = \"kelvin\"\nstiffness = \"90 MN/m\"\ndamping = \"-1 MN.s/m\"",
+            "gap[0].damping: must not be negative, found -1000000 N.s/m",
+        ),
+        (
+            "law = \"hertz-damp\"\ndamping = \"1 MN.s/m\"",
+            "gap[0].damping: belongs to the law kelvin, kelvin-no-tension and modified-kelvin with variant = \"mahmoud-jankowski\", not to hertz-damp",
+        ),
+        (
+            "law = \"modified-kelvin\"\nstiffness = \"90 MN/m\"\ndamping = \"1 MN.s/m\"",
+            "not to modified-kelvin (ye)",
+        ),
+        (
+            "law = \"bilinear\"\nstiffness = \"400 MN/m\"\nsecond_stiffness = \"400 MN/m\"\nyield = \"1.5 mm\"",
+            "gap[0].second_stiffness: must be less than stiffness, 400000000 N/m, found 400000000 N/m; a contact that does not yield is law = \"linear\"",
+        ),
+        (
+            "law = \"bilinear\"\nstiffness = \"400 MN/m\"\nsecond_stiffness = \"120 MN/m\"\nyield = 0",
+            "gap[0].yield: must be greater than zero, found 0 m",
+        ),
+        (
+            "law = \"bilinear\"\nstiffness = \"400 MN/m\"\nsecond_stiffness = \"120 MN/m\"",
+            "gap[0].yield: is missing",
+        ),
+        (
+            "law = \"bilinear\"\nstiffness = \"400 MN/m\"\nyield = \"1.5 mm\"",
+            "gap[0].second_stiffness: is missing",
+        ),
+        (
+            "law = \"bilinear\"\nsecond_stiffness = \"120 MN/m\"\nyield = \"1.5 mm\"",
+            "gap[0].stiffness: is missing",
+        ),
+        (
+            "law = \"bilinear\"\nstiffness = \"400 MN/m\"\nsecond_stiffness = \"120 MN/m\"\nyield = \"1.5 mm\"\nyield_share = 0.1",
+            "gap[0].yield_share: cannot be combined with second_stiffness and yield",
+        ),
+        (
+            "law = \"bilinear\"\nstiffness = \"400 MN/m\"\nsecond_stiffness = \"120 MN/m\"\nyield = \"1.5 mm\"\nrestitution = 0.6",
+            "gap[0].restitution: cannot be combined with second_stiffness and yield",
+        ),
+        (
+            "law = \"kelvin\"\nstiffness = \"400 MN/m\"\nyield = \"1.5 mm\"",
+            "gap[0].yield: belongs to the law bilinear, not to kelvin",
+        ),
+        (
+            "law = \"hertz\"\ncrush = { force = \"600 kN\" }",
+            "gap[0].crush: belongs to the law linear, not to hertz",
+        ),
+        (
+            "law = \"linear\"\nstiffness = \"200 MN/m\"\ncrush = { hardening = 0.05 }",
+            "gap[0].crush.force: is missing",
+        ),
+        (
+            "law = \"linear\"\nstiffness = \"200 MN/m\"\ncrush = { force = 0 }",
+            "gap[0].crush.force: must be greater than zero, found 0 N",
+        ),
+        (
+            "law = \"linear\"\nstiffness = \"200 MN/m\"\ncrush = { force = \"600 kN\", hardening = 1 }",
+            "gap[0].crush.hardening: must be at least 0 and below 1, found 1; it is the stiffness while crushing over the contact stiffness",
+        ),
+        (
+            "law = \"linear\"\nstiffness = \"200 MN/m\"\ncrush = { force = \"600 kN\" }\nrestitution = 0.6",
+            "gap[0].restitution: cannot be combined with crush",
+        ),
+        (
+            "law = \"linear\"\nstiffness = \"200 MN/m\"\ncrush = \"600 kN\"",
+            "gap[0].crush: expected a table such as { force = … }",
         ),
         (
             "law = \"hertz\"\nminimum_separation = \"-1 s\"",

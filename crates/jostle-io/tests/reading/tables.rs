@@ -73,6 +73,8 @@ fn contact(
         width_m: 0.01,
         closing_peak_m: 0.011,
         closing_peak_at_s: 1.0,
+        crushed_depth_m: None,
+        equivalent_restitution: None,
         closing_peak_ground_m: None,
         impact_count: impacts.len(),
         peak_force_n: 1e6,
@@ -101,7 +103,7 @@ fn summary() -> Summary {
             width_m: 0.01,
             clearance_m: -1e-3,
             law: "hertz".into(),
-            free_restitution: 1.0,
+            free_restitution: Some(1.0),
             contacts: vec![
                 contact([Some(1), Some(1)], 3.0, vec![impact(1.0), impact(2.0)]),
                 contact([None, Some(2)], 4.5, vec![impact(1.5)]),

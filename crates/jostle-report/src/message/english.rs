@@ -167,6 +167,13 @@ messages! {
     realised_by_free_masses = "realised by free masses";
     restitution = "restitution";
     free_masses_rebound = "free masses rebound with";
+    dashpot = "dashpot";
+    as_restitution = "the same as restitution";
+    second_stiffness = "second stiffness";
+    yield_indentation = "yield indentation";
+    crushing_force = "crushes from";
+    crushing_hardening = "stiffness while it crushes ÷ stiffness";
+    crushed_by = "crushed at the end by";
     name = "name";
     peak = "peak";
     scale = "scale";

@@ -287,7 +287,7 @@ pub(super) fn contacts(tree: &ModelTree, input: &Input, notes: &mut Vec<String>)
         stiff.collect(),
         Spread::LogNormal(0.5, None),
     );
-    let lossy = |gap: &Gap| gap.law.kind.is_dissipative() && gap.law.restitution > 0.0;
+    let lossy = |gap: &Gap| gap.law.kind.uses_restitution() && gap.law.restitution > 0.0;
     let rebounds = gaps.iter().enumerate().filter(|(_, gap)| lossy(gap));
     let greatest = rebounds
         .clone()

@@ -137,6 +137,9 @@ impl Law {
                 },
                 Some(restitution),
             ),
+            ForceLaw::Crushing(_) => {
+                return Err("faces that crush have their own references".into());
+            }
             ForceLaw::Rubber(own) => (
                 Self::Rubber {
                     k: own.stiffness,

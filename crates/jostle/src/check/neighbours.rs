@@ -134,7 +134,7 @@ fn check_gap(faults: &mut Faults, path: &str, gap: &Gap, model: &Model) {
         },
     );
     let e = gap.law.restitution;
-    if gap.law.kind.is_dissipative() {
+    if gap.law.kind.uses_restitution() {
         faults.require(e > 0.0 && e <= 1.0, format!("{path}.restitution"), || {
             format!("must be greater than 0 and at most 1, found {e}")
         });
@@ -317,6 +317,30 @@ fn check_shape(faults: &mut Faults, path: &str, law: &ContactLaw) {
             faults.require((1.0..=6.0).contains(&n), format!("{path}.exponent"), || {
                 format!("must lie between 1 and 6, found {n}")
             });
+        }
+        LawKind::Dashpot(dashpot) => {
+            faults.not_negative(dashpot.damping, format!("{path}.damping"), "N.s/m");
+        }
+        LawKind::BilinearGiven(constants) => {
+            let second = constants.second_stiffness;
+            let at = format!("{path}.second_stiffness");
+            faults.positive(second, at.clone(), "N/m");
+            faults.require(second < law.stiffness, at, || {
+                format!(
+                    "must be less than stiffness, {} N/m, found {second} N/m; a contact that does not yield is law = \"linear\"",
+                    law.stiffness
+                )
+            });
+            faults.positive(constants.yield_indentation, format!("{path}.yield"), "m");
+        }
+        LawKind::Crushing(crush) => {
+            faults.positive(crush.force, format!("{path}.crush.force"), "N");
+            let share = crush.hardening;
+            faults.require(
+                (0.0..1.0).contains(&share),
+                format!("{path}.crush.hardening"),
+                || format!("must be at least 0 and below 1, found {share}; it is the stiffness while crushing over the contact stiffness"),
+            );
         }
         LawKind::Linear
         | LawKind::Kelvin

@@ -221,6 +221,9 @@ pub fn hertz_peak_force(stiffness: f64, effective_mass: f64, speed: f64) -> f64 
 pub const USUAL_HERTZ: f64 = 2e9;
 /// That fitted by Jankowski (2005) to a test of concrete elements \[N/m^1.5\].
 pub const JANKOWSKI_HERTZ: f64 = 2.75e9;
+/// Stiffness of linear contact over the lateral stiffness of the stiffer neighbour in many studies: the least and the
+/// greatest of a habit, which no test of floors supports \[–\].
+pub const LATERAL_FACTORS: [f64; 2] = [10.0, 100.0];
 /// Impact speed at which linear and Hertz laws are compared \[m/s\].
 const COMPARED_SPEED: f64 = 0.4;
 /// Thickness of a usual slab \[m\].

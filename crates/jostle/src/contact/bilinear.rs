@@ -25,6 +25,15 @@ impl BilinearShape {
     }
 }
 
+/// Constants of the bilinear law as many papers state them, beside K₁; they hold at every impact speed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BilinearConstants {
+    /// K₂, 0 < K₂ < K₁ \[N/m\].
+    pub second_stiffness: f64,
+    /// δ_y > 0 \[m\].
+    pub yield_indentation: f64,
+}
+
 /// Loading along K₁ up to the yield indentation, then along K₂; unloading along K₁ down to the line K₂ δ, then
 /// along it (Muthukumar & DesRoches; docs/contact.md, B1). Equivalent to a spring K₂ in parallel with an
 /// elasto-plastic one of stiffness K₁ − K₂ that is never in tension; the memory holds the force of the latter.
@@ -79,6 +88,23 @@ impl Bilinear {
             yield_indentation: a * depth,
             reference_speed: speed,
             follows_speed: shape.design_speed.is_none(),
+            effective_mass,
+        }
+    }
+
+    /// From K₁ \[N/m\], the other constants and the effective mass \[kg\].
+    #[must_use]
+    pub(super) fn of_constants(
+        constants: BilinearConstants,
+        first_stiffness: f64,
+        effective_mass: f64,
+    ) -> Self {
+        Self {
+            first_stiffness,
+            second_stiffness: constants.second_stiffness,
+            yield_indentation: constants.yield_indentation,
+            reference_speed: 1.0,
+            follows_speed: false,
             effective_mass,
         }
     }

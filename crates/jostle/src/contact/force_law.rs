@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::hertz::{HERTZ_DURATION, hertz_indentation};
-use super::{Bilinear, Rubber, approach, hertz, kelvin};
+use super::{Bilinear, Crushing, Rubber, approach, hertz, kelvin};
 
 /// A contact law with its coefficients; pure functions of indentation, rate and memory.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,6 +58,8 @@ pub enum ForceLaw {
     },
     /// Rubber bumper.
     Rubber(Rubber),
+    /// A face that crushes and stays crushed.
+    Crushing(Crushing),
 }
 
 /// Contact force and its partial derivatives.
@@ -85,6 +87,11 @@ pub struct Memory {
     pub indentation: f64,
     /// Force of the elasto-plastic part of the bilinear law at that instant \[N\].
     pub slip: f64,
+    /// Depth to which the face was crushed before this impact, which indentation does not include; zero for laws that do
+    /// not crush \[m\].
+    pub crushed_before: f64,
+    /// Depth that this impact has crushed since: without force until it is pressed deeper \[m\].
+    pub crushed: f64,
 }
 
 /// Impact speed below which contact starts from rest, without an impact speed by which a law can divide \[m/s\].
@@ -98,7 +105,7 @@ const SMOOTH_ONSET: f64 = 1.5;
 const STEEP_EXPONENT: f64 = 2.0;
 
 impl ForceLaw {
-    /// The memory of an impact that begins at a closing rate ≥ 0 \[m/s\].
+    /// The memory of an impact that begins at a closing rate ≥ 0 \[m/s\], on a virgin face.
     #[must_use]
     pub fn touch(&self, rate: f64) -> Memory {
         Memory {
@@ -111,6 +118,8 @@ impl ForceLaw {
             },
             indentation: 0.0,
             slip: 0.0,
+            crushed_before: 0.0,
+            crushed: 0.0,
         }
     }
 
@@ -152,6 +161,7 @@ impl ForceLaw {
             }
             Self::Bilinear(ref bilinear) => bilinear.respond(indentation, memory),
             Self::Rubber(ref rubber) => rubber.respond(indentation, rate, memory.speed_at(rate)),
+            Self::Crushing(ref crushing) => crushing.respond(indentation, memory),
         }
     }
 
@@ -159,8 +169,36 @@ impl ForceLaw {
     #[inline]
     pub fn remember(&self, indentation: f64, rate: f64, memory: &mut Memory) {
         memory.speed = memory.speed_at(rate);
-        if let Self::Bilinear(bilinear) = self {
-            bilinear.remember(indentation, memory);
+        match self {
+            Self::Bilinear(bilinear) => bilinear.remember(indentation, memory),
+            Self::Crushing(crushing) => crushing.remember(indentation, memory),
+            Self::Kelvin { .. }
+            | Self::ApproachKelvin { .. }
+            | Self::DampedLinear { .. }
+            | Self::Hertz { .. }
+            | Self::Jankowski { .. }
+            | Self::Restitution { .. }
+            | Self::Rubber(_) => {}
+        }
+    }
+
+    /// ζ = c/(2√(k m)) of a law with a dashpot of its own, with m = m₁m₂/(m₁ + m₂) \[kg\]; `None` for others \[–\].
+    #[must_use]
+    pub fn damping_ratio(&self, effective_mass: f64) -> Option<f64> {
+        match *self {
+            Self::Kelvin {
+                stiffness, damping, ..
+            }
+            | Self::ApproachKelvin { stiffness, damping } => {
+                Some(damping / (2.0 * (stiffness * effective_mass).sqrt()))
+            }
+            Self::DampedLinear { .. }
+            | Self::Hertz { .. }
+            | Self::Jankowski { .. }
+            | Self::Bilinear(_)
+            | Self::Restitution { .. }
+            | Self::Rubber(_)
+            | Self::Crushing(_) => None,
         }
     }
 
@@ -190,6 +228,7 @@ impl ForceLaw {
             Self::ApproachKelvin { .. }
             | Self::DampedLinear { .. }
             | Self::Bilinear(_)
+            | Self::Crushing(_)
             | Self::Restitution { .. } => true,
             Self::Rubber(rubber) => rubber.exponent < SMOOTH_ONSET,
             Self::Hertz { .. } | Self::Jankowski { .. } => false,
@@ -206,7 +245,15 @@ impl ForceLaw {
                 | Self::Jankowski { .. }
                 | Self::Rubber(_)
                 | Self::Bilinear(_)
+                | Self::Crushing(_)
         )
+    }
+
+    /// Whether the force, while the motion does not reverse, lies between those at both ends of a step: it follows the
+    /// indentation along lines that meet at corners, which a cubic through the slopes at the ends would overshoot.
+    #[must_use]
+    pub(crate) fn stays_between_ends(&self) -> bool {
+        matches!(self, Self::Crushing(_))
     }
 
     /// Whether the stiffness grows so steeply that most of an impact happens in a small part of it.
@@ -235,7 +282,8 @@ impl ForceLaw {
             | Self::Hertz { .. }
             | Self::Jankowski { .. }
             | Self::Bilinear(_)
-            | Self::Rubber(_) => None,
+            | Self::Rubber(_)
+            | Self::Crushing(_) => None,
         }
     }
 
@@ -244,6 +292,7 @@ impl ForceLaw {
         match self {
             Self::Bilinear(bilinear) => bilinear.kink(inwards, memory),
             Self::Rubber(rubber) => rubber.limit,
+            Self::Crushing(crushing) => crushing.kink(inwards, memory),
             Self::Kelvin { .. }
             | Self::ApproachKelvin { .. }
             | Self::DampedLinear { .. }
@@ -257,6 +306,7 @@ impl ForceLaw {
     ///
     /// `effective_mass` m₁m₂/(m₁ + m₂) \[kg\], `impact_speed` > 0 \[m/s\]. Linear: π√(m/k). Hertz:
     /// 2.9432751843 δ_max/v₀ with δ_max = (5 m v₀²/(4k))^(2/5) (theory, Eq. C6). Bilinear: that of the first stiffness.
+    /// A face that crushes: as if it did not.
     #[must_use]
     pub fn elastic_duration(&self, effective_mass: f64, impact_speed: f64) -> f64 {
         let linear = |stiffness: f64| PI * (effective_mass / stiffness).sqrt();
@@ -273,11 +323,12 @@ impl ForceLaw {
                 linear(bilinear.first_stiffness * bilinear.scale(impact_speed))
             }
             Self::Rubber(rubber) => rubber.elastic_duration(effective_mass, impact_speed),
+            Self::Crushing(crushing) => linear(crushing.stiffness),
         }
     }
 
     /// Greatest force of the elastic collision of free bodies: the scale of an impact \[N\]. For the bilinear law,
-    /// that of its second stiffness.
+    /// that of its second stiffness; of a face that crushes, the greatest force with which it does.
     #[must_use]
     pub fn elastic_force(&self, effective_mass: f64, impact_speed: f64) -> f64 {
         let linear = |stiffness: f64| impact_speed * (effective_mass * stiffness).sqrt();
@@ -297,6 +348,7 @@ impl ForceLaw {
                 linear(bilinear.second_stiffness * bilinear.scale(impact_speed))
             }
             Self::Rubber(rubber) => rubber.elastic_force(effective_mass, impact_speed),
+            Self::Crushing(crushing) => crushing.greatest_force(effective_mass, impact_speed),
         }
     }
 
@@ -312,6 +364,7 @@ impl ForceLaw {
             | Self::Restitution { stiffness, .. } => *stiffness,
             Self::Bilinear(bilinear) => bilinear.first_stiffness,
             Self::Rubber(rubber) => rubber.stiffness,
+            Self::Crushing(crushing) => crushing.stiffness,
         }
     }
 }

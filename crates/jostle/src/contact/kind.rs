@@ -1,6 +1,6 @@
 //! The formulas by name.
 
-use super::{BilinearShape, RubberBumper};
+use super::{BilinearConstants, BilinearShape, Crush, Dashpot, DashpotLaw, RubberBumper};
 
 /// The formula of a contact law.
 ///
@@ -37,6 +37,12 @@ pub enum LawKind {
     /// Rubber bumper that stiffens and dissipates energy in restitution (after Polycarpou, Komodromos & Polycarpou
     /// 2013).
     Rubber(RubberBumper),
+    /// A Kelvin law whose dashpot is given instead of a coefficient of restitution.
+    Dashpot(Dashpot),
+    /// The bilinear law with given stiffnesses and yield indentation.
+    BilinearGiven(BilinearConstants),
+    /// F = k δ up to a force at which the face crushes; it stays crushed.
+    Crushing(Crush),
 }
 
 /// Damper of the modified Kelvin law.
@@ -70,7 +76,8 @@ impl ModifiedKelvin {
 }
 
 impl LawKind {
-    /// Every law, those with parameters at their defaults, in the order of the documentation.
+    /// Every law by a coefficient of restitution or without one, those with parameters at their defaults, in the order of
+    /// the documentation. Forms of a law with constants that have no default are not among them.
     pub const ALL: [Self; 12] = [
         Self::Linear,
         Self::Kelvin,
@@ -116,15 +123,20 @@ impl LawKind {
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
-            Self::Linear => "linear",
+            Self::Linear | Self::Crushing(_) => "linear",
             Self::Kelvin => "kelvin",
             Self::KelvinNoTension => "kelvin-no-tension",
             Self::ModifiedKelvin(_) => "modified-kelvin",
+            Self::Dashpot(dashpot) => match dashpot.law {
+                DashpotLaw::Kelvin => "kelvin",
+                DashpotLaw::KelvinNoTension => "kelvin-no-tension",
+                DashpotLaw::Approach => "modified-kelvin",
+            },
             Self::Hertz => "hertz",
             Self::HertzDamp => "hertz-damp",
             Self::Ye => "ye",
             Self::Jankowski => "jankowski",
-            Self::Bilinear(_) => "bilinear",
+            Self::Bilinear(_) | Self::BilinearGiven(_) => "bilinear",
             Self::Restitution => "restitution",
             Self::Rubber(_) => "rubber",
         }
@@ -135,6 +147,12 @@ impl LawKind {
     pub fn full_name(self) -> String {
         match self {
             Self::ModifiedKelvin(variant) => format!("{} ({})", self.name(), variant.name()),
+            Self::Dashpot(_) => match self.variant() {
+                Some(variant) => format!("{} ({}, dashpot given)", self.name(), variant.name()),
+                None => format!("{} (dashpot given)", self.name()),
+            },
+            Self::BilinearGiven(_) => format!("{} (constants given)", self.name()),
+            Self::Crushing(_) => format!("{} (crushes)", self.name()),
             _ => self.name().to_owned(),
         }
     }
@@ -148,26 +166,74 @@ impl LawKind {
         )
     }
 
-    /// Whether the law loses energy, so that the coefficient of restitution matters.
+    /// Whether the law loses energy.
     #[must_use]
     pub fn is_dissipative(self) -> bool {
         !matches!(self, Self::Linear | Self::Hertz)
+    }
+
+    /// Whether the coefficient of restitution matters: the law loses energy, and no constant says how much.
+    #[must_use]
+    pub fn uses_restitution(self) -> bool {
+        self.is_dissipative() && !self.has_given_constants()
+    }
+
+    /// Whether constants state what the law dissipates, instead of a coefficient of restitution.
+    #[must_use]
+    pub fn has_given_constants(self) -> bool {
+        matches!(
+            self,
+            Self::Dashpot(_) | Self::BilinearGiven(_) | Self::Crushing(_)
+        )
+    }
+
+    /// The law of a point that bears a share of the contact: constants that act side by side are shared.
+    #[must_use]
+    pub(crate) fn shared(self, share: f64) -> Self {
+        match self {
+            Self::Dashpot(dashpot) => Self::Dashpot(Dashpot {
+                damping: share * dashpot.damping,
+                ..dashpot
+            }),
+            Self::BilinearGiven(constants) => Self::BilinearGiven(BilinearConstants {
+                second_stiffness: share * constants.second_stiffness,
+                ..constants
+            }),
+            Self::Crushing(crush) => Self::Crushing(Crush {
+                force: share * crush.force,
+                ..crush
+            }),
+            Self::Linear
+            | Self::Kelvin
+            | Self::KelvinNoTension
+            | Self::ModifiedKelvin(_)
+            | Self::Hertz
+            | Self::HertzDamp
+            | Self::Ye
+            | Self::Jankowski
+            | Self::Bilinear(_)
+            | Self::Restitution
+            | Self::Rubber(_) => self,
+        }
     }
 
     /// Whether a published formula relates the coefficient to the damping, so that the rebound of free masses may
     /// differ from the coefficient.
     #[must_use]
     pub fn has_published_damping(self) -> bool {
-        self.is_dissipative() && !matches!(self, Self::Kelvin | Self::Restitution | Self::Rubber(_))
+        self.uses_restitution()
+            && !matches!(self, Self::Kelvin | Self::Restitution | Self::Rubber(_))
     }
 
     /// Which modified Kelvin law it is, of these.
     #[must_use]
     pub fn variant(self) -> Option<ModifiedKelvin> {
-        if let Self::ModifiedKelvin(variant) = self {
-            Some(variant)
-        } else {
-            None
+        match self {
+            Self::ModifiedKelvin(variant) => Some(variant),
+            Self::Dashpot(dashpot) if dashpot.law == DashpotLaw::Approach => {
+                Some(ModifiedKelvin::MahmoudJankowski)
+            }
+            _ => None,
         }
     }
 }

@@ -11,6 +11,8 @@ mod advice;
 mod approach;
 mod bilinear;
 mod collision;
+mod crushing;
+mod dashpot;
 mod force_law;
 mod hertz;
 mod kelvin;
@@ -21,12 +23,14 @@ mod rubber;
 mod runge_kutta;
 
 pub use advice::{
-    JANKOWSKI_HERTZ, Rod, RodCollision, Slab, SlabMaterial, StiffnessRange, USUAL_HERTZ,
-    advised_range, effective_radius, hertz_of_force, hertz_peak_force, hertz_stiffness,
-    rod_collision, spring_of_duration, spring_of_force,
+    JANKOWSKI_HERTZ, LATERAL_FACTORS, Rod, RodCollision, Slab, SlabMaterial, StiffnessRange,
+    USUAL_HERTZ, advised_range, effective_radius, hertz_of_force, hertz_peak_force,
+    hertz_stiffness, rod_collision, spring_of_duration, spring_of_force,
 };
-pub use bilinear::{Bilinear, BilinearShape};
+pub use bilinear::{Bilinear, BilinearConstants, BilinearShape};
 pub use collision::{CollisionPoint, FreeCollision};
+pub use crushing::{Crush, Crushing};
+pub use dashpot::{Dashpot, DashpotLaw};
 pub use force_law::{ContactResponse, ForceLaw, Memory};
 pub use hertz::{HERTZ_DURATION, hertz_damping, hertz_indentation, hertz_restitution};
 pub use kelvin::CLIPPED_KELVIN_LEAST_RESTITUTION;
@@ -51,9 +55,10 @@ use kelvin::{
 ///     restitution: 0.65,
 ///     restitution_is: RestitutionIs::Input,
 /// };
-/// assert!((law.free_restitution() - 0.775).abs() < 1e-3); // the published formula rebounds more
+/// let free = |law: &ContactLaw| law.free_restitution().expect("it does not depend on masses or speed");
+/// assert!((free(&law) - 0.775).abs() < 1e-3); // the published formula rebounds more
 /// law.restitution_is = RestitutionIs::Realised;
-/// assert!((law.free_restitution() - 0.65).abs() < 1e-9);
+/// assert!((free(&law) - 0.65).abs() < 1e-9);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactLaw {
@@ -61,7 +66,7 @@ pub struct ContactLaw {
     pub kind: LawKind,
     /// Contact stiffness, > 0 \[N/m for the linear family, N/m^1.5 for the Hertz family\].
     pub stiffness: f64,
-    /// Coefficient of restitution, 0 < e ≤ 1; elastic laws do not use it \[–\].
+    /// Coefficient of restitution, 0 < e ≤ 1; elastic laws and laws with given constants do not use it \[–\].
     pub restitution: f64,
     /// Meaning of the coefficient.
     pub restitution_is: RestitutionIs,
@@ -73,8 +78,9 @@ pub struct ContactLaw {
 /// use jostle::{ContactLaw, LawKind, RestitutionIs};
 ///
 /// let law = |restitution_is| ContactLaw { kind: LawKind::HertzDamp, stiffness: 2e9, restitution: 0.65, restitution_is };
-/// assert!((law(RestitutionIs::Input).free_restitution() - 0.775).abs() < 1e-3);
-/// assert!((law(RestitutionIs::Realised).free_restitution() - 0.65).abs() < 1e-9);
+/// assert!((law(RestitutionIs::Input).free_restitution()? - 0.775).abs() < 1e-3);
+/// assert!((law(RestitutionIs::Realised).free_restitution()? - 0.65).abs() < 1e-9);
+/// # Some(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum RestitutionIs {
@@ -170,6 +176,53 @@ impl ContactLaw {
                 damping: critical,
             },
             LawKind::Rubber(bumper) => ForceLaw::Rubber(Rubber::new(bumper, k, e)),
+            LawKind::Dashpot(Dashpot { law, damping }) => match law {
+                DashpotLaw::Kelvin => ForceLaw::Kelvin {
+                    stiffness: k,
+                    damping,
+                    tension: damping > 0.0,
+                },
+                DashpotLaw::KelvinNoTension => ForceLaw::Kelvin {
+                    stiffness: k,
+                    damping,
+                    tension: false,
+                },
+                DashpotLaw::Approach => ForceLaw::ApproachKelvin {
+                    stiffness: k,
+                    damping,
+                },
+            },
+            LawKind::BilinearGiven(constants) => {
+                ForceLaw::Bilinear(Bilinear::of_constants(constants, k, mass))
+            }
+            LawKind::Crushing(crush) => ForceLaw::Crushing(Crushing::new(crush, k)),
+        }
+    }
+
+    /// The law of a point that bears a share of a contact of this stiffness \[N/m, N/m^1.5\].
+    #[must_use]
+    pub(crate) fn shared(&self, stiffness: f64, share: f64) -> Self {
+        Self {
+            stiffness: share * stiffness,
+            kind: self.kind.shared(share),
+            ..*self
+        }
+    }
+
+    /// The same law with another stiffness; the second of two stays the same fraction of it \[N/m, N/m^1.5\].
+    #[must_use]
+    pub fn with_stiffness(&self, stiffness: f64) -> Self {
+        let kind = match self.kind {
+            LawKind::BilinearGiven(constants) => LawKind::BilinearGiven(BilinearConstants {
+                second_stiffness: constants.second_stiffness * (stiffness / self.stiffness),
+                ..constants
+            }),
+            kind => kind,
+        };
+        Self {
+            kind,
+            stiffness,
+            ..*self
         }
     }
 
@@ -190,15 +243,21 @@ impl ContactLaw {
             | LawKind::Ye
             | LawKind::Jankowski
             | LawKind::Restitution
-            | LawKind::Rubber(_) => 0.0,
+            | LawKind::Rubber(_)
+            | LawKind::Dashpot(_)
+            | LawKind::BilinearGiven(_)
+            | LawKind::Crushing(_) => 0.0,
         }
     }
 
-    /// Separation speed ÷ impact speed of two free masses under this law \[–\] (docs/contact.md). For the bilinear
-    /// law with a design speed the result holds at that speed; for all others it does not depend on the speed.
+    /// Separation speed ÷ impact speed of two free masses under this law \[–\] (docs/contact.md); `None` where it depends
+    /// on the masses or on the impact speed. For the bilinear law with a design speed the result holds at that speed.
     #[must_use]
-    pub fn free_restitution(&self) -> f64 {
-        match self.between(1.0, 1.0) {
+    pub fn free_restitution(&self) -> Option<f64> {
+        if self.kind.has_given_constants() {
+            return None;
+        }
+        Some(match self.between(1.0, 1.0) {
             ForceLaw::Kelvin {
                 stiffness,
                 damping,
@@ -224,7 +283,8 @@ impl ContactLaw {
             ForceLaw::Bilinear(bilinear) => bilinear.free_restitution(),
             ForceLaw::Restitution { restitution, .. } => restitution,
             ForceLaw::Rubber(rubber) => rubber.free_restitution(),
-        }
+            ForceLaw::Crushing(_) => return None,
+        })
     }
 }
 

@@ -3,7 +3,7 @@
 use super::PortPair;
 use super::friction::Friction;
 use super::plan_contacts::{PlanContactKind, PlanPart};
-use crate::contact::ForceLaw;
+use crate::contact::{ContactLaw, ForceLaw, LawKind};
 use crate::model::PlanPoint;
 
 /// A place where two neighbouring buildings, or a building and a wall, can touch.
@@ -57,6 +57,30 @@ impl Contact {
     #[must_use]
     pub fn effective_mass(&self) -> f64 {
         self.ports.effective_mass()
+    }
+
+    /// Separation ÷ impact speed of two free masses of its size, under the law of its gap; `None` where it depends on the
+    /// impact speed \[–\].
+    #[must_use]
+    pub fn free_restitution(&self, law: &ContactLaw) -> Option<f64> {
+        match law.kind {
+            LawKind::Dashpot(dashpot) => {
+                let ratio = self.law.damping_ratio(self.effective_mass())?;
+                Some(dashpot.law.free_restitution(ratio))
+            }
+            _ => law.free_restitution(),
+        }
+    }
+
+    /// The coefficient of restitution whose published formula gives its dashpot; `None` if the law of its gap has no
+    /// given one \[–\].
+    #[must_use]
+    pub fn equivalent_restitution(&self, law: &ContactLaw) -> Option<f64> {
+        let LawKind::Dashpot(dashpot) = law.kind else {
+            return None;
+        };
+        let ratio = self.law.damping_ratio(self.effective_mass())?;
+        Some(dashpot.law.equivalent_restitution(ratio))
     }
 
     /// Whether a side lies on a column between floors.

@@ -49,7 +49,10 @@ pub(super) fn restitution(known: &Known<'_>, tally: &mut Tally<'_>) {
         if law.restitution_is != RestitutionIs::Input || !law.kind.has_published_damping() {
             continue;
         }
-        let (asked, free) = (law.restitution, law.free_restitution());
+        let Some(free) = law.free_restitution() else {
+            continue;
+        };
+        let asked = law.restitution;
         tally.add((free - asked).abs(), || {
             let place = sides(known, index);
             let text = format!(
@@ -61,7 +64,7 @@ pub(super) fn restitution(known: &Known<'_>, tally: &mut Tally<'_>) {
     }
 }
 
-/// Whether a law stands for bare concrete, which has a range of stiffness and hardly indents.
+/// Whether a law stands for bare concrete that hardly indents.
 pub(super) fn is_bare(kind: LawKind) -> bool {
-    !matches!(kind, LawKind::Rubber(_))
+    !matches!(kind, LawKind::Rubber(_) | LawKind::Crushing(_))
 }

@@ -2,6 +2,7 @@
 
 mod capacity;
 pub mod comparison;
+mod contact_constants;
 pub mod contact_sensitivity;
 mod counted_impact;
 pub mod floor_spectra;
@@ -20,6 +21,7 @@ mod shear_failure;
 mod summarise;
 pub mod summary;
 
+pub use contact_constants::overdamped_contacts;
 pub use counted_impact::{CountedImpact, counted, find_simultaneous};
 pub use foundation::foundation_warnings;
 pub use friction::friction_warnings;

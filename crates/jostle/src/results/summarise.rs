@@ -4,7 +4,7 @@ use super::in_plan::{
     ImpactSliding, PlanContactSummary, SlidingSummary, building_in_plan, centre_of, floor_in_plan,
     impacts_of, place_of_face, points_of,
 };
-use crate::contact::LawKind;
+use crate::contact::{ForceLaw, LawKind};
 use crate::history::{Extreme, Impact, Kind, Owner};
 use crate::hysteresis::{Side, Stage};
 use crate::interface::LinkElement;
@@ -12,6 +12,7 @@ use crate::linear::sort_by;
 use crate::model::{Gap, LinkLaw, Model, Solver};
 use crate::motion::GroundMotion;
 use crate::results::capacity;
+use crate::results::contact_constants::crushed_notes;
 use crate::results::foundation::{foundation_summary, foundation_warnings, soil_energy};
 use crate::results::friction::friction_warnings;
 use crate::results::ground::{closing_of_grounds, ground_summary};
@@ -334,7 +335,10 @@ fn gap_summary(index: usize, gap: &Gap, run: &Run) -> GapSummary {
             .map(|&point| system.contacts[point].width - outcome.peaks.closing(point).value)
             .fold(f64::INFINITY, f64::min),
         law: gap.law.kind.full_name(),
-        free_restitution: gap.law.free_restitution(),
+        free_restitution: points
+            .iter()
+            .filter_map(|&point| system.contacts[point].free_restitution(&gap.law))
+            .reduce(f64::min),
         impact_count: contacts.iter().map(|contact| contact.impact_count).sum(),
         minimum_separation_s: gap.minimum_separation,
         pounding_count: poundings.count,
@@ -475,6 +479,12 @@ fn contact_summary(index: usize, impacts: &[CountedImpact], run: &Run) -> Contac
                 ..place
             }),
         width_m: width,
+        crushed_depth_m: matches!(contact.law, ForceLaw::Crushing(_)).then(|| {
+            let depths = points.iter();
+            let depths = depths.map(|&point| outcome.state.crushed_depth(point));
+            depths.fold(0.0, f64::max)
+        }),
+        equivalent_restitution: contact.equivalent_restitution(&run.model.gaps[contact.gap].law),
         closing_peak_m: closing.value,
         closing_peak_at_s: closing.at,
         closing_peak_ground_m: closing_of_grounds(first, closing.at, run),
@@ -689,6 +699,7 @@ fn notes(run: &Run) -> Vec<String> {
             "direct steps do not estimate single impacts: instants and speeds of gentle ones may be off by more than the tolerance".to_owned(),
         );
     }
+    notes.extend(crushed_notes(run.model, run.system, &run.outcome.state));
     notes.dedup();
     notes
 }

@@ -6,10 +6,12 @@
 
 mod equilibrium_path;
 mod gravity;
+mod stiffness_at;
 
 pub use crate::model::STANDARD_GRAVITY;
 pub use equilibrium_path::{EquilibriumPath, PathError, Reached};
 pub use gravity::{Collapse, compressions, static_displacement, under_gravity};
+pub use stiffness_at::stiffness_at;
 
 use crate::hysteresis::HysteresisMemory;
 use crate::structure::AssembledBuilding;

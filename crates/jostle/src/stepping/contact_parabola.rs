@@ -29,7 +29,8 @@ pub(super) fn opens_unseen<S: Stepper>(
             return false;
         }
         let curve = run.indentation_curve(stepper, closed.contact, step);
-        curve.turning_points().any(|at| curve.value(at) < 0.0)
+        let face = closed.memory.crushed;
+        curve.turning_points().any(|at| curve.value(at) < face)
     });
     unseen.next().map(|closed| closed.contact)
 }

@@ -61,7 +61,7 @@ impl Episode {
                     value: law.follow(turn.value, 0.0, &self.memory).force,
                     at: turn.at,
                 };
-            } else {
+            } else if !law.stays_between_ends() {
                 let curve = Cubic::new(self.force, slopes[0], trial.force, slopes[1], step);
                 peak = curve.peak(start, step).unwrap_or(peak);
                 smooth = Some(curve);
@@ -103,7 +103,8 @@ impl Episode {
         }
         law.remember(trial.indentation, trial.rate, &mut self.memory);
         // If the two sides separate and return within the step, the contact has opened: another impact follows.
-        let apart = trial.rate <= 0.0 || trial.indentation < -TOGETHER;
-        trial.indentation <= 0.0 && apart && !law.jumps_at_release()
+        let face = self.memory.crushed;
+        let apart = trial.rate <= 0.0 || trial.indentation - face < -TOGETHER;
+        trial.indentation <= face && apart && !law.jumps_at_release()
     }
 }

@@ -26,7 +26,7 @@ pub(super) struct Touch {
 /// How far from touching an event of a contact may be made or missed within the tolerance, for its greatest closing so far
 /// \[m\].
 pub(super) fn doubt(run: &RunState<'_>, contact: usize, closing: f64) -> f64 {
-    run.plan.tolerance() * run.system.contacts[contact].width.max(closing)
+    run.plan.tolerance() * run.widths[contact].max(closing)
 }
 
 impl NearContacts {
@@ -75,9 +75,10 @@ impl NearContacts {
                 continue;
             }
             let curve = run.indentation_curve(stepper, contact, step);
+            let face = run.phases[contact].face();
             let nearest = curve
                 .turning_points()
-                .map(|at| curve.value(at).abs())
+                .map(|at| (curve.value(at) - face).abs())
                 .fold(f64::INFINITY, f64::min);
             if nearest < doubt(run, contact, closing(contact)) {
                 self.doubtful_from.get_or_insert(run.time);

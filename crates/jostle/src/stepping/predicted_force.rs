@@ -46,7 +46,7 @@ impl Drift {
 
 impl PredictedForce {
     /// The force of a closed contact over a step, whose start and length are `span` \[s\], if its faces go on as they
-    /// accelerate at the start.
+    /// accelerate at the start; `drift` is that of the indentation.
     pub(super) fn of_contact(
         contact: &Contact,
         episode: &Episode,
@@ -54,8 +54,7 @@ impl PredictedForce {
         span: [f64; 2],
     ) -> Self {
         let [now, step] = span;
-        let (start, rate, acceleration) =
-            (drift.start - contact.width, drift.rate, drift.acceleration);
+        let (start, rate, acceleration) = (drift.start, drift.rate, drift.acceleration);
         let respond =
             |indentation: f64, rate: f64| contact.law.follow(indentation, rate, &episode.memory);
         let force = |share: f64| {

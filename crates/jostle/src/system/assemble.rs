@@ -466,10 +466,7 @@ fn plan_contacts(
                 }
             });
             let ports = ports(face.normal);
-            let law = ContactLaw {
-                stiffness: point.share * whole,
-                ..gap.law
-            };
+            let law = gap.law.shared(whole, point.share);
             let [left, right] = ports.masses();
             contacts.push(Contact {
                 gap: index,

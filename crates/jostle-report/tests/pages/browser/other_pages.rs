@@ -17,7 +17,7 @@ fn collisions() -> Collisions {
     Collisions {
         masses: [2e5, 3e5],
         speed: 0.5,
-        restitution: 0.65,
+        restitution: Some(0.65),
         stiffnesses: "Stiffness 2e9 N/m^1.5".into(),
         laws: laws.to_vec(),
     }

@@ -16,8 +16,9 @@ pub struct GapSummary {
     pub clearance_m: f64,
     /// Contact law.
     pub law: String,
-    /// Restitution of free masses under this law \[–\].
-    pub free_restitution: f64,
+    /// Restitution of free masses under this law, the least of its contacts; `null` where it depends on the impact
+    /// speed \[–\].
+    pub free_restitution: Option<f64>,
     /// Contacts from the lowest up.
     pub contacts: Vec<ContactSummary>,
     /// Impacts of all contacts.
@@ -49,7 +50,7 @@ impl GapSummary {
     pub const QUANTITIES: &[Quantity<Self>] = &[
         Quantity::<Self>::real("width_m", Unit::M, "width at rest, the least of its contacts", |g| g.width_m).in_study(),
         Quantity::<Self>::real("clearance_m", Unit::M, "smallest distance during the run; negative: indentation", |g| g.clearance_m),
-        Quantity::<Self>::real("free_restitution", Unit::NONE, "restitution of free masses under the contact law", |g| g.free_restitution),
+        Quantity::<Self>::optional("free_restitution", Unit::NONE, "restitution of free masses under the contact law; absent where it depends on the impact speed", |g| g.free_restitution),
         Quantity::<Self>::whole("impact_count", "impacts of all its contacts", |g| g.impact_count).in_study(),
         Quantity::<Self>::real("minimum_separation_s", Unit::S, "impacts of one contact that follow each other sooner count as one", |g| g.minimum_separation_s),
         Quantity::<Self>::whole("pounding_count", "intervals in which at least one contact is in impact", |g| g.pounding_count).in_study(),
@@ -100,6 +101,13 @@ pub struct ContactSummary {
     pub in_plan: Option<PlanContactSummary>,
     /// Width at rest, the least of its points \[m\].
     pub width_m: f64,
+    /// Depth to which the face is crushed at the end of the run, by which its gap is wider, the greatest of its points; absent
+    /// if the law does not crush \[m\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub crushed_depth_m: Option<f64>,
+    /// Coefficient of restitution whose published formula gives the dashpot that the gap states; absent otherwise \[–\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub equivalent_restitution: Option<f64>,
     /// Greatest closing u_left − u_right, that of grounds that differ included; of faces that are not parallel by how much less than
     /// `width_m` their nearest points are apart \[m\].
     pub closing_peak_m: f64,
@@ -126,6 +134,8 @@ impl ContactSummary {
     pub const QUANTITIES: &[Quantity<Self>] = &[
         Quantity::<Self>::real("height_m", Unit::M, "height above the base", |c| c.height_m),
         Quantity::<Self>::real("width_m", Unit::M, "width at rest", |c| c.width_m),
+        Quantity::<Self>::optional("crushed_depth_m", Unit::M, "depth to which the face is crushed at the end: its gap is wider by it; only with crush", |c| c.crushed_depth_m).not_in_summary(),
+        Quantity::<Self>::optional("equivalent_restitution", Unit::NONE, "coefficient of restitution whose published formula gives the dashpot; only with damping", |c| c.equivalent_restitution).not_in_summary(),
         Quantity::<Self>::whole("impact_count", "impacts", |c| c.impact_count).in_study(),
         Quantity::<Self>::real("peak_force_n", Unit::N, "greatest force", |c| c.peak_force_n).in_study(),
         Quantity::<Self>::optional("peak_force_at_s", Unit::S, "its instant; absent without an impact", |c| c.peak_force_at_s),

@@ -49,7 +49,7 @@ impl Direct {
         StepStart {
             step,
             slip: self.slip_now(run, contact),
-            indentation: [closing + shift - own.width, rate + shift_rate],
+            indentation: [closing + shift - run.widths[contact], rate + shift_rate],
             force: episode.friction.force,
             origin: episode.friction.origin,
         }

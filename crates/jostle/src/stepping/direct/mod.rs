@@ -58,7 +58,8 @@ pub(super) fn run_directly(
     on_progress: &mut OnProgress<'_>,
 ) -> Outcome {
     let mut run = RunState::new(system, motion, plan, settings);
-    (run.time, run.phases) = (state.time, state.contacts.clone());
+    run.time = state.time;
+    run.take_contacts(&state);
     let stepper = Direct::new(&run, settings, state);
     let mut runner = Runner { run, stepper };
     let end = runner.run_to_end(on_progress);
@@ -162,6 +163,7 @@ impl Direct {
         });
         self.state.time = run.time;
         self.state.contacts = std::mem::take(&mut run.phases);
+        self.state.crushed = std::mem::take(&mut run.crushed);
         run.work.coupling_operations = run.coupling.operations;
         let acceleration_parts = std::mem::take(&mut self.observer.parts);
         let mut peaks = self.observer.finish();
@@ -190,6 +192,7 @@ impl Direct {
     fn follow_members(&mut self, run: &RunState<'_>) {
         if self.members.is_asked() {
             self.state.contacts.clone_from(&run.phases);
+            self.state.crushed.clone_from(&run.crushed);
             let (links, ground) = (&self.links.forces, run.grounds_at(0));
             let state = &self.state;
             self.members.take(run.system, state, links, ground);

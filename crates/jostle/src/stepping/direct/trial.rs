@@ -136,8 +136,8 @@ impl Direct {
             &self.state.velocity,
             &self.state.acceleration,
         );
-        let contacts = run.system.contacts.iter();
-        let contacts = contacts.map(|contact| (&contact.ports, contact.width));
+        let contacts = run.system.contacts.iter().zip(&run.widths);
+        let contacts = contacts.map(|(contact, width)| (&contact.ports, *width));
         let links = run.system.links.iter();
         let links = links.map(|link| (&link.ports, link.closing_at_rest));
         let friction = run.system.frictions().map(|own| (&own.ports, 0.0));

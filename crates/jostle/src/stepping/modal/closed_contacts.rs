@@ -88,7 +88,8 @@ impl ModalStepper<'_> {
                 continue;
             };
             let (friction, predicted, start) = if contact == index {
-                let drift = self.drift(run, index, step);
+                let mut drift = self.drift(run, index, step);
+                drift.start -= run.widths[index];
                 let pressed = &run.system.contacts[index];
                 let predicted =
                     PredictedForce::of_contact(pressed, episode, drift, [run.time, step]);
@@ -222,9 +223,10 @@ impl ModalStepper<'_> {
         let contact = &run.system.contacts[own.contact];
         let pressing = self.drift(run, own.contact, step);
         let sliding = self.drift(run, index, step);
+        let width = run.widths[own.contact];
         let path = own.follow(before, |share| {
             let [closing, rate] = pressing.after(share * step);
-            let indentation = closing - contact.width;
+            let indentation = closing - width;
             let pressed = contact.law.follow(indentation, rate, &episode.memory);
             [sliding.after(share * step)[0], pressed.force]
         });
@@ -249,7 +251,7 @@ impl ModalStepper<'_> {
         }
         let ahead = AHEAD * run.plan.step / f64::from(run.contact_division[index]);
         let acceleration = self.relative_acceleration(run, index);
-        let width = run.system.contacts[index].width;
+        let width = run.widths[index];
         let rate = self.reduced.closing(index, &self.rate[0]) + acceleration * ahead;
         let indentation = self.reduced.closing(index, &self.u[0]) - width + rate * ahead;
         let response = law.follow(indentation, rate, &episode.memory);

@@ -138,7 +138,7 @@ impl ModalStepper<'_> {
             };
             let (width, first) = match closed.friction {
                 Some(_) => (0.0, episode.friction.force),
-                None => (run.system.contacts[index].width, episode.force),
+                None => (run.widths[index], episode.force),
             };
             let grounds = run.grounds.over_step(reduced.joint_of_port(index), step);
             let closing = area + grounds.area;

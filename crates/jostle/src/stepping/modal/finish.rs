@@ -99,6 +99,7 @@ impl ModalStepper<'_> {
         self.accelerations();
         self.reduced.expand(&self.scratch, &mut state.acceleration);
         state.contacts.clone_from(&run.phases);
+        state.crushed.clone_from(&run.crushed);
         state
     }
 }

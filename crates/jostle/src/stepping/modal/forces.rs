@@ -50,7 +50,7 @@ impl ModalStepper<'_> {
         equations.couple(reduced, plan, table);
         let predicted = &self.predicted;
         let closed = &mut run.coupling.closed;
-        let found = equations.solve(closed, &run.system.contacts, |port| predicted[port].end);
+        let found = equations.solve(closed, &run.widths, |port| predicted[port].end);
         if let Some(rounds) = found {
             run.work.iterations += rounds;
         } else {
@@ -58,7 +58,7 @@ impl ModalStepper<'_> {
                 let [closing, rate] = equations.free_of(point);
                 let width = match own.friction {
                     Some(_) => 0.0,
-                    None => run.system.contacts[own.contact].width,
+                    None => run.widths[own.contact],
                 };
                 (own.free, own.free_rate) = (closing - width, rate);
                 own.indentation = own.free;

@@ -363,7 +363,7 @@ impl ModalStepper<'_> {
                 || (0..run.phases.len()).all(|index| {
                     let closing = |list: &[f64]| self.reduced.closing(index, list);
                     // Near misses are for single steps, which look at them.
-                    let width = run.system.contacts[index].width
+                    let width = run.widths[index]
                         - near_contacts::doubt(run, index, self.peaks.closing[index].value);
                     Cubic::new(
                         closing(then.u) - width,

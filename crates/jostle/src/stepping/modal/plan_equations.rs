@@ -7,7 +7,6 @@ use super::plan_rows::{PlanRows, SideLoads};
 use super::reduced::Reduced;
 use super::step_table::StepTable;
 use crate::contact::ContactResponse;
-use crate::interface::Contact;
 use crate::linear::Row;
 use crate::linear::envelope::{Envelope, PivotedEnvelope};
 use crate::simd;
@@ -213,7 +212,7 @@ impl PlanEquations {
     pub(super) fn solve(
         &mut self,
         closed: &mut [Closed],
-        contacts: &[Contact],
+        widths: &[f64],
         predicted: impl Fn(usize) -> f64,
     ) -> Option<u64> {
         let n = self.ends.len();
@@ -226,7 +225,7 @@ impl PlanEquations {
         let mut last = f64::INFINITY;
         for round in 1..=QUICK_ROUNDS {
             self.press_ends();
-            self.evaluate(closed, contacts);
+            self.evaluate(closed, widths);
             self.assemble();
             self.operations += self.matrix.eliminate(&mut self.change)?;
             let (mut change, mut greatest) = (0.0_f64, 0.0_f64);
@@ -291,7 +290,7 @@ impl PlanEquations {
     }
 
     /// Forces of all points for the motion of the ends; sums of them minus the unknowns, and the slopes of these sums.
-    fn evaluate(&mut self, closed: &[Closed], contacts: &[Contact]) {
+    fn evaluate(&mut self, closed: &[Closed], widths: &[f64]) {
         self.change.clear();
         self.change.extend(self.forces.iter().map(|force| -force));
         for own in &mut self.slopes {
@@ -304,7 +303,7 @@ impl PlanEquations {
             let response = match &own.friction {
                 Some(friction) => friction.respond(closing, self.responses[friction.normal].force),
                 None => {
-                    let width = contacts[own.contact].width;
+                    let width = widths[own.contact];
                     own.law.follow(closing - width, rate, &own.memory)
                 }
             };

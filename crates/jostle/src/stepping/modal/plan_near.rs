@@ -20,7 +20,7 @@ pub(super) struct PlanNear {
     /// Closing from which a contact is near touching, and greatest closing so far \[m\].
     near: Vec<f64>,
     greatest: Vec<f64>,
-    /// Gap at rest, and how far a contact has opened since it was closed \[m\].
+    /// Gap, wider by what is crushed, and how far a contact has opened since it was closed \[m\].
     widths: Vec<f64>,
     clearance: Vec<f64>,
     tolerance: f64,
@@ -106,9 +106,14 @@ impl PlanNear {
         self.clearance[plan.place(contact)]
     }
 
-    /// A contact has opened.
-    pub(super) fn after_release(&mut self, plan: &PlanRows, contact: usize) {
-        self.clearance[plan.place(contact)] = 0.0;
+    /// A contact has opened, with a gap of this width from now on \[m\].
+    pub(super) fn after_release(&mut self, plan: &PlanRows, contact: usize, width: f64) {
+        let row = plan.place(contact);
+        self.clearance[row] = 0.0;
+        if width != self.widths[row] {
+            self.widths[row] = width;
+            self.set_greatest(row, self.greatest[row]);
+        }
     }
 }
 

@@ -269,7 +269,7 @@ impl<'a> ModalStepper<'a> {
                 let friction = self.reduced.friction[index];
                 for port in [Some(index), friction].into_iter().flatten() {
                     let width = if port == index {
-                        run.system.contacts[index].width
+                        run.widths[index]
                     } else {
                         0.0
                     };
@@ -283,7 +283,7 @@ impl<'a> ModalStepper<'a> {
         }
         let contacts = run.system.contacts.len();
         for (index, trial) in run.trials[..contacts].iter_mut().enumerate() {
-            let width = run.system.contacts[index].width;
+            let width = run.widths[index];
             trial.indentation = self.reduced.closing(index, &self.u[1]) - width;
             trial.rate = self.reduced.closing(index, &self.rate[1]);
             trial.force = 0.0;
@@ -751,10 +751,10 @@ impl Stepper for ModalStepper<'_> {
         contact_parabola::division_at_touch(run, contact, [rate, acceleration], episode, planned)
     }
 
-    fn after_release(&mut self, contact: usize) {
+    fn after_release(&mut self, run: &RunState<'_>, contact: usize) {
         self.near.after_release(contact);
         if let (Some(near), Some(plan)) = (&mut self.peaks.near, &self.reduced.plan) {
-            near.after_release(plan, contact);
+            near.after_release(plan, contact, run.widths[contact]);
         }
         self.open_steps[contact] = 0;
     }

@@ -110,7 +110,7 @@ impl<S: Stepper> Runner<'_, S> {
         if ends.is_empty() || event.crossing == Crossing::Downwards {
             return true;
         }
-        let width = self.run.system.contacts[event.contact].width;
+        let width = self.run.widths[event.contact];
         self.stepper.closing(&self.run, event.contact) - width <= TOGETHER
             && ends.all(|end| self.edge_end_curve(end, step).value(event.at) > 0.0)
     }
@@ -228,7 +228,7 @@ impl<S: Stepper> Runner<'_, S> {
     pub(super) fn read_contacts(&mut self) {
         for near in 0..self.run.near.len() {
             let contact = self.run.near[near];
-            let width = self.run.system.contacts[contact].width;
+            let width = self.run.widths[contact];
             let indentation = self.stepper.closing(&self.run, contact) - width;
             let rate = self.stepper.closing_rate(&self.run, contact);
             let trial = &mut self.run.trials[contact];
@@ -268,8 +268,8 @@ impl<S: Stepper> Runner<'_, S> {
         episode.separation_speed = -self.run.trials[contact].rate;
         episode.slid_off = slid_off;
         self.run.report_impact(contact, &episode, true);
-        self.run.phases[contact] = ContactPhase::Open;
-        self.stepper.after_release(contact);
+        self.run.open(contact, &episode);
+        self.stepper.after_release(&self.run, contact);
     }
 
     /// Whether an open contact touches and closes now.
@@ -410,11 +410,9 @@ impl<S: Stepper> Runner<'_, S> {
         let contact = &self.run.system.contacts[index];
         let rate = self.run.trials[index].rate.max(0.0);
         self.stepper.before_touch(&self.run, index, rate);
-        let mut episode = Episode::new(
-            self.run.time,
-            rate.max(SLOWEST_IMPACT),
-            contact.law.touch(rate),
-        );
+        let mut memory = contact.law.touch(rate);
+        memory.crushed_before = self.run.crushed[index];
+        let mut episode = Episode::new(self.run.time, rate.max(SLOWEST_IMPACT), memory);
         episode.force = contact.law.onset(rate);
         episode.peak_force = episode.force;
         if contact.friction.is_some() {
@@ -454,7 +452,7 @@ impl RunState<'_> {
     ) -> Cubic {
         let trial = &self.trials[contact];
         Cubic::new(
-            stepper.closing(self, contact) - self.system.contacts[contact].width,
+            stepper.closing(self, contact) - self.widths[contact],
             stepper.closing_rate(self, contact),
             trial.indentation,
             trial.rate,

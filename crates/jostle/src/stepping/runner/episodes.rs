@@ -58,13 +58,13 @@ impl<S: Stepper> Runner<'_, S> {
                 let faces = &mut self.run.face_forces;
                 faces.add_friction(place.face, friction.law.coefficient, path);
             }
-            self.run.phases[index] = if episode.advance(&contact.law, &trial, turn) {
+            if episode.advance(&contact.law, &trial, turn) {
                 self.run.report_impact(index, &episode, true);
-                self.stepper.after_release(index);
-                ContactPhase::Open
+                self.run.open(index, &episode);
+                self.stepper.after_release(&self.run, index);
             } else {
-                ContactPhase::Closed(episode)
-            };
+                self.run.phases[index] = ContactPhase::Closed(episode);
+            }
         }
         self.run.gap_forces.finish_step(start, step);
         self.run.face_forces.finish_step(start, step);

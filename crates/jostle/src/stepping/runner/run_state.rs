@@ -4,7 +4,7 @@ use super::contact_events::{ContactTrial, impact_of};
 use crate::history::{Column, Impact, Kind, Owner, Peaks, Work};
 use crate::model::Solver;
 use crate::motion::{Ground, GroundMotion};
-use crate::state::{ContactPhase, Episode};
+use crate::state::{ContactPhase, Episode, State};
 use crate::stepping::clock::Clock;
 use crate::stepping::coupling::ContactEquations;
 use crate::stepping::face_forces::FaceForces;
@@ -34,6 +34,9 @@ pub(in crate::stepping) struct RunState<'a> {
     /// Whether steps end at corners that are not on the grid.
     pub(in crate::stepping) cuts_at_corners: bool,
     pub(in crate::stepping) phases: Vec<ContactPhase>,
+    /// Depth to which ended impacts have crushed every contact, and its gap, wider by that \[m\].
+    pub(in crate::stepping) crushed: Vec<f64>,
+    pub(in crate::stepping) widths: Vec<f64>,
     /// Contacts that are closed, or that can have touched in the tried step, in rising order: all but those that the stepper
     /// excludes. Only their trials are up to date.
     pub(in crate::stepping) near: Vec<usize>,
@@ -80,6 +83,8 @@ impl<'a> RunState<'a> {
             ground_jumps: motion.grounds.is_some(),
             cuts_at_corners: plan.chooses_contact_steps() && motion.has_corners_off(plan.step),
             phases: vec![ContactPhase::Open; contacts],
+            crushed: vec![0.0; contacts],
+            widths: system.contacts.iter().map(|own| own.width).collect(),
             near: (0..contacts).collect(),
             trials: vec![
                 ContactTrial::default();
@@ -141,6 +146,25 @@ impl<'a> RunState<'a> {
     pub(in crate::stepping) fn in_contact(&self) -> bool {
         let mut closed = self.coupling.closed.iter();
         closed.any(|closed| closed.contact < self.phases.len())
+    }
+
+    /// Takes over the contacts of a state.
+    pub(in crate::stepping) fn take_contacts(&mut self, state: &State) {
+        self.phases.clone_from(&state.contacts);
+        for (contact, depth) in state.crushed.iter().enumerate() {
+            self.crushed[contact] = *depth;
+            self.widths[contact] = self.system.contacts[contact].width + depth;
+        }
+    }
+
+    /// Opens a contact; what it has crushed stays crushed.
+    pub(super) fn open(&mut self, contact: usize, episode: &Episode) {
+        let depth = episode.memory.crushed;
+        if depth > 0.0 {
+            self.crushed[contact] += depth;
+            self.widths[contact] = self.system.contacts[contact].width + self.crushed[contact];
+        }
+        self.phases[contact] = ContactPhase::Open;
     }
 
     /// Whether a contact is open.

@@ -215,8 +215,8 @@ pub(in crate::stepping) trait Stepper {
     }
 
     /// A contact has opened.
-    fn after_release(&mut self, contact: usize) {
-        let _ = contact;
+    fn after_release(&mut self, run: &RunState<'_>, contact: usize) {
+        let _ = (run, contact);
     }
 
     /// A sudden change of the ground acceleration of a building \[m/s²\].

@@ -36,7 +36,7 @@ impl SeriesStepper {
             };
             let contact = &run.system.contacts[index];
             let drift = Drift {
-                start: contact.ports.closing(&self.state.displacement),
+                start: contact.ports.closing(&self.state.displacement) - run.widths[index],
                 rate: contact.ports.closing(&self.state.velocity),
                 acceleration: contact.ports.closing(&self.state.acceleration),
                 jerk: contact.ports.closing(&self.jerk),
@@ -86,7 +86,7 @@ impl SeriesStepper {
             let acceleration = closing(&self.state.acceleration);
             let ahead = AHEAD * step;
             let rate = closing(&self.state.velocity) + acceleration * ahead;
-            let indentation = closing(&self.state.displacement) - contact.width + rate * ahead;
+            let indentation = closing(&self.state.displacement) - run.widths[index] + rate * ahead;
             let response = contact.law.follow(indentation, rate, &episode.memory);
             let slope = response.by_indentation * rate + response.by_rate * acceleration;
             for (port, sign) in contact.ports.sides() {

@@ -73,7 +73,8 @@ pub(in crate::stepping) fn run(
     observer: &mut OnProgress<'_>,
 ) -> Outcome {
     let mut run = RunState::new(system, motion, plan, settings);
-    (run.time, run.phases) = (state.time, state.contacts.clone());
+    run.time = state.time;
+    run.take_contacts(&state);
     let mut stepper = SeriesStepper::new(&run, settings, state);
     stepper.turn_springs(system);
     let mut runner = Runner { run, stepper };
@@ -161,6 +162,7 @@ impl SeriesStepper {
             .map(|d| step_of(d.max(self.least_division)));
         self.state.time = run.time;
         self.state.contacts = std::mem::take(&mut run.phases);
+        self.state.crushed = std::mem::take(&mut run.crushed);
         run.work.coupling_operations = run.coupling.operations + self.equations.operations;
         let ratios = MemberRatios::new(system);
         let peaks = self.peaks.finish(system);
@@ -251,8 +253,9 @@ impl SeriesStepper {
     /// Indentations at the end of the tried step.
     pub(super) fn read_trials(&self, run: &mut RunState<'_>) {
         let [u, v, _] = &self.tried;
-        for (contact, trial) in run.system.contacts.iter().zip(&mut run.trials) {
-            trial.indentation = contact.ports.closing(u) - contact.width;
+        let contacts = run.system.contacts.iter().zip(&run.widths);
+        for ((contact, width), trial) in contacts.zip(&mut run.trials) {
+            trial.indentation = contact.ports.closing(u) - width;
             trial.rate = contact.ports.closing(v);
             trial.force = 0.0;
         }
@@ -590,7 +593,7 @@ impl Stepper for SeriesStepper {
         contact_parabola::division_at_touch(run, contact, [rate, acceleration], episode, planned)
     }
 
-    fn after_release(&mut self, contact: usize) {
+    fn after_release(&mut self, _: &RunState<'_>, contact: usize) {
         self.open_steps[contact] = 0;
         self.near.after_release(contact);
     }

@@ -1,3 +1,4 @@
+use jostle::contact::Crush;
 use jostle::{Damping, FloorPairs, GroundMotion, LawKind, Model, Structure};
 
 use crate::verification::support::{
@@ -121,6 +122,19 @@ fn mirrored_frames_mirror_the_answer() {
     for kind in [LawKind::HertzDamp, LawKind::Kelvin] {
         compare(&two_frames(0.01, law(kind, 0.65)), 2.0);
     }
+}
+
+#[test]
+fn mirrored_faces_crush_mirrored() {
+    let crush = Crush {
+        force: 1e5,
+        hardening: 0.3,
+    };
+    let buildings = vec![tower("left", 2, 4e4, 0.4), tower("right", 2, 6e4, 0.9)];
+    compare(
+        &row(buildings, 0.005, law(LawKind::Crushing(crush), 1.0)),
+        2.0,
+    );
 }
 
 #[test]
