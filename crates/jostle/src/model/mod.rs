@@ -6,6 +6,7 @@
 mod capacity;
 mod diagonal;
 mod floor_matrices;
+mod frame_members;
 mod gap;
 mod given;
 mod integrator;
@@ -21,6 +22,8 @@ mod space_frame;
 mod tiers;
 mod wall;
 
+use std::collections::BTreeMap;
+
 use crate::hysteresis::Hysteresis;
 
 pub use capacity::{
@@ -29,6 +32,7 @@ pub use capacity::{
 pub use diagonal::{Diagonal, DiagonalKind, DiagonalPlace, Rise};
 pub(crate) use floor_matrices::displacement_in_words;
 pub use floor_matrices::{FloorMatrices, GivenFloor, GivenInPlan};
+pub use frame_members::FramePlace;
 pub use gap::{FloorPairs, Gap, LEVEL_TOLERANCE, Level, PlanContact};
 pub use given::{Given, MatrixEntry};
 pub use integrator::Integrator;
@@ -305,7 +309,7 @@ pub enum Structure {
     Tiers(Tiers),
 }
 
-/// Plane frame: `storey_heights.len()` storeys, `spans.len() + 1` column lines.
+/// Plane frame: `storey_heights.len()` storeys, `spans.len() + 1` column lines. A floor has a joint where a column stands below it.
 ///
 /// ```
 /// use jostle::{Axial, Frame, Joint, Section};
@@ -336,10 +340,15 @@ pub struct Frame {
     pub storey_heights: Vec<f64>,
     /// Bay widths from left to right, > 0; at least one \[m\].
     pub spans: Vec<f64>,
-    /// Column section of every storey, from the ground up.
+    /// Column section of every storey, from the ground up, except where `own_columns` says otherwise: read [`Frame::column`].
     pub columns: Vec<Section>,
-    /// Beam section of every floor, from the ground up. Its own line mass is not used; see `beam_mass`.
+    /// Beam section of every floor, from the ground up, except where `own_beams` says otherwise: read [`Frame::beam`]. Its own line mass
+    /// is not used; see `beam_mass`.
     pub beams: Vec<Section>,
+    /// Columns that differ from those of their storey, by storey and line; `None` where there is no column.
+    pub own_columns: BTreeMap<FramePlace, Option<Section>>,
+    /// Beams that differ from those of their floor, by floor and bay; `None` where there is no beam.
+    pub own_beams: BTreeMap<FramePlace, Option<Section>>,
     /// Mass carried by the beams of every floor, self weight included, ≥ 0 \[kg/m\].
     pub beam_mass: Vec<f64>,
     /// Additional mass of every floor, shared equally by its joints, ≥ 0 \[kg\].

@@ -34,7 +34,7 @@ pub(super) fn add_frames(
     for (index, plan_frame) in tiers.frames.iter().enumerate() {
         let own = discretize(plan_frame, &plan_frame.frame);
         let mut without_columns = plan_frame.frame.clone();
-        for column in &mut without_columns.columns {
+        for column in without_columns.column_sections_mut() {
             column.line_mass = 0.0;
         }
         let light = discretize(plan_frame, &without_columns).stick_model;
