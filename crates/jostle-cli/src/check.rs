@@ -725,13 +725,11 @@ fn special(building: &Building) -> Vec<String> {
         lines.push("P-Delta included, from the weight above".into());
     }
     if let Structure::Frame(frame) = &building.structure {
-        let least = |sections: &[jostle::Section]| {
-            let known = sections.iter().filter_map(|section| section.shear_rigidity);
-            known.min_by(f64::total_cmp)
-        };
+        let columns = frame.all_columns().filter_map(|own| own.1.shear_rigidity);
+        let beams = frame.all_beams().filter_map(|own| own.1.shear_rigidity);
         let shear = list(&[
-            ("columns from", least(&frame.columns), "N"),
-            ("beams from", least(&frame.beams), "N"),
+            ("columns from", columns.min_by(f64::total_cmp), "N"),
+            ("beams from", beams.min_by(f64::total_cmp), "N"),
         ]);
         if !shear.is_empty() {
             lines.push(format!("members deform in shear, GA: {shear}"));

@@ -273,13 +273,14 @@ fn read_members(
             "column" => vec![frame.storey_heights[storey]; frame.spans.len() + 1],
             _ => frame.spans.clone(),
         };
-        let rigidity = match key {
-            "column" => frame.columns.get(storey)?.flexural_rigidity,
-            _ => frame.beams.get(storey)?.flexural_rigidity,
-        };
         let mut row = Vec::new();
-        for length in lengths {
-            let stiffness = initial.stiffness(rigidity, length);
+        for (place, length) in lengths.into_iter().enumerate() {
+            // Where there is no member, its hinge has no part.
+            let section = match key {
+                "column" => frame.column(storey, place).or(frame.columns.get(storey)),
+                _ => frame.beam(storey, place).or(frame.beams.get(storey)),
+            };
+            let stiffness = initial.stiffness(section?.flexural_rigidity, length);
             let [a, b] = sides.map(|side| {
                 if rule == HysteresisRule::Elastic {
                     side
@@ -448,18 +449,28 @@ fn of_sections(
     method: &str,
     members: &[ReinforcedMember],
 ) -> Option<Hinges> {
-    let (storeys, bays) = (frame.storey_heights.len(), frame.spans.len());
+    let storeys = frame.storey_heights.len();
     let mut hinges = FrameHinges::default();
     let mut sound = true;
-    for (kind, word, per_storey) in [
-        (Member::Column, "column", bays + 1),
-        (Member::Beam, "beam", bays),
+    for (kind, word, per_storey, count) in [
+        (
+            Member::Column,
+            "column",
+            frame.lines(),
+            frame.all_columns().count(),
+        ),
+        (
+            Member::Beam,
+            "beam",
+            frame.spans.len(),
+            frame.all_beams().count(),
+        ),
     ] {
         let of_kind: Vec<_> = members
             .iter()
             .filter(|member| member.member == kind)
             .collect();
-        if of_kind.len() != storeys * per_storey {
+        if of_kind.len() != count {
             let some = if of_kind.is_empty() {
                 "no"
             } else {
@@ -481,7 +492,7 @@ fn of_sections(
             continue;
         }
         let mut said: Vec<String> = Vec::new();
-        let mut rows: Vec<Vec<Hysteresis>> = vec![Vec::new(); storeys];
+        let mut rows: Vec<Vec<Option<Hysteresis>>> = vec![vec![None; per_storey]; storeys];
         let mut known: Vec<(&ReinforcedMember, Hysteresis)> = Vec::new();
         for member in of_kind {
             let alike = known.iter().find(|(other, _)| {
@@ -500,7 +511,7 @@ fn of_sections(
                     if alike.is_none() {
                         known.push((member, spring));
                     }
-                    rows[member.floor - 1].push(spring);
+                    rows[member.floor - 1][member.place - 1] = Some(spring);
                 }
                 Err(problem) => {
                     let problem = format!(
@@ -515,12 +526,24 @@ fn of_sections(
                 }
             }
         }
+        let rows = filled(rows);
         match kind {
             Member::Column => hinges.columns = rows,
             Member::Beam => hinges.beams = rows,
         }
     }
     sound.then_some(Hinges::Frame(hinges))
+}
+
+/// Rows without holes: where there is no member, that of another of its storey, which has no part.
+pub(super) fn filled<T: Clone>(rows: Vec<Vec<Option<T>>>) -> Vec<Vec<T>> {
+    let rows = rows.into_iter().map(|row| {
+        let other = row.iter().flatten().next().cloned();
+        row.into_iter()
+            .filter_map(|own| own.or_else(|| other.clone()))
+            .collect()
+    });
+    rows.collect()
 }
 
 /// The hinge of a reinforced member.
