@@ -230,6 +230,27 @@ fn axial_of_columns(frame: &Frame, is_stated: Option<bool>) -> String {
     format!("{what}{why}; {:.1} times as high as wide", height / width)
 }
 
+/// Whether the members of a frame differ within a storey, and how many it lacks.
+fn members(frame: &Frame) -> String {
+    if frame.is_regular() {
+        return String::new();
+    }
+    let storeys = frame.storey_heights.len();
+    let columns = storeys * frame.lines() - frame.all_columns().count();
+    let beams = storeys * frame.spans.len() - frame.all_beams().count();
+    let mut text = String::new();
+    for (count, noun) in [(columns, "column"), (beams, "beam")] {
+        if count > 0 {
+            text += &format!(", {} omitted", counted(count, noun));
+        }
+    }
+    let mut sections = (frame.own_columns.values()).chain(frame.own_beams.values());
+    if sections.any(Option::is_some) {
+        text += ", sections that differ by line or bay";
+    }
+    text
+}
+
 /// Braces and infill panels, as far as there are any.
 fn diagonals(frame: &Frame) -> String {
     let count = |kind| {
@@ -260,7 +281,7 @@ fn describe(
                 "frame, {}, {}{}",
                 counted(frame.storey_heights.len(), "storey"),
                 counted(frame.spans.len(), "span"),
-                diagonals(frame)
+                members(frame) + &diagonals(frame)
             ),
             Structure::Shear(shear) => {
                 format!("shear building, {}", counted(shear.mass.len(), "storey"))
@@ -391,6 +412,15 @@ fn describe(
                 counted(contacts.len(), "contact"),
                 heights.join(", ")
             )?;
+            for (contact, height) in contacts.iter().zip(&heights) {
+                let farther = contact.width - gap.width();
+                if gap.widths.len() == 1 && farther > 0.0 {
+                    writeln!(
+                        text,
+                        "  the faces at {height} m stand back: {farther:.2} m more"
+                    )?;
+                }
+            }
         }
         let unit = if gap.law.kind.is_hertzian() {
             "N/m^1.5"

@@ -547,6 +547,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Building, "storeys", Count, "Number of storeys; not needed with a list per storey."),
     optional(S::Building, "floors", Count, "The same as storeys."),
     optional(S::Building, "storey_height", PerStorey(D::Length), "Storey height; required for frames, 3 m by default for shear buildings.").usual("a storey height", 1.5, 30.0).possible(0.01, 1000.0),
+    default(S::Building, "elevation", Quantity(D::Length), "0", "Height of its base above a datum that all buildings share. Floors and columns of neighbours face each other by their heights above the datum, which heights of contacts and links are; heights in a building are those above its base.").usual("an elevation", 1e-3, 200.0).possible(0.0, 2000.0).signed(),
     default(S::Building, "damping", Kind::Table(S::Damping), "5 % in lateral modes 1 and 3", "Viscous damping, such as `{ ratio = 0.05, modes = [1, 3] }` or `{ alpha = 0.5, beta = \"1 ms\" }`. With hinges 3 % or less is usual: they dissipate as well."),
     optional(S::Building, "damper", Tables(&[S::Damper, S::LinkLaw]), "Dampers and other links between two of its floors; a short form of link. They follow the links in results."),
     optional(S::Building, "position", Quantity(D::Length), "Place along the row, for apparent_velocity and coherency of [motion]; buildings with a plan have that of the centre of their plan.").usual("a position along the row", 1e-3, 1e5).signed(),

@@ -241,6 +241,10 @@ fn read(
             ..Base::default()
         };
     }
+    if let Some(field) = reader.get(&view, "elevation") {
+        let elevation = reader.quantity(&field, Dimension::Length);
+        building.base.elevation = elevation.unwrap_or(0.0);
+    }
     let mut flag = |key| {
         reader
             .get(&view, key)

@@ -208,6 +208,8 @@ pub struct Base {
     pub isolation: Option<Isolation>,
     /// Rigid foundation on the soil of the model, instead of all of the above.
     pub foundation: Option<Foundation>,
+    /// Height of the base above the common datum, either sign: floors of neighbours face each other by their heights above it \[m\].
+    pub elevation: f64,
 }
 
 impl Base {
@@ -783,6 +785,23 @@ impl Model {
 }
 
 impl Building {
+    /// Height of every floor above the common datum, from the ground up \[m\].
+    #[must_use]
+    pub fn floor_levels(&self) -> Vec<f64> {
+        let heights = self.floor_heights().into_iter();
+        heights.map(|height| height + self.base.elevation).collect()
+    }
+
+    /// How far the outer joints of a floor, counted from 1, stand inside the left and the right edge of the building; 0 but in a
+    /// plane frame with fewer bays above \[m\].
+    #[must_use]
+    pub fn set_back(&self, floor: usize) -> [f64; 2] {
+        match &self.structure {
+            Structure::Frame(frame) => frame.set_back(floor),
+            _ => [0.0; 2],
+        }
+    }
+
     /// Number of floors (= storeys).
     #[must_use]
     pub fn floors(&self) -> usize {

@@ -49,6 +49,8 @@ pub struct Discretization {
     pub jointed_frame: Option<Arc<JointedFrame>>,
     /// Names of the columns and walls at points of a plan, as far as they have one.
     pub element_names: Vec<Option<String>>,
+    /// Height of the base above the common datum \[m\].
+    pub elevation: f64,
 }
 
 /// A mat on bearings.
@@ -99,6 +101,7 @@ impl Discretization {
                 discretize_tiers(tiers, building.gravity, isolation)
             }
         };
+        discretization.elevation = building.base.elevation;
         let in_plan = matches!(building.structure, Structure::Tiers(_));
         if let (Some(isolation), false) = (&building.base.isolation, in_plan) {
             discretization.put_on_bearings(isolation);

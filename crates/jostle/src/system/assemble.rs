@@ -3,7 +3,7 @@
 use super::soil::{self, Founded, Ground};
 use super::{BuildingSystem, Floor, FoundationPlace, SpringSupport, System, WallPlace, finite};
 use crate::contact::{ContactLaw, effective_mass};
-use crate::interface::contact_points::{PointPair, SAME, mean};
+use crate::interface::contact_points::{PointPair, SAME, mean, set_back};
 use crate::interface::{
     Contact, Coulomb, EdgeEnd, Friction, JoinedPoints, LinkElement, PlanPlace, Port, PortPair,
     PushedFloor, faces_of_gap, narrowest, sticking_stiffness, unique_below,
@@ -28,7 +28,7 @@ impl System {
         let mut foundations: Vec<(usize, FoundationPlace)> = Vec::new();
         let mut faults = Vec::new();
         for (index, building) in model.buildings.iter().enumerate() {
-            let points = row.points_between_floors(index);
+            let points = row.points_between_floors(model, index);
             let points = points.each_ref().map(|points| &points[..]);
             let number = foundations.len();
             let on_soil = building.base.foundation.zip(Ground::of(model, number));
@@ -192,7 +192,8 @@ impl System {
                         let [left, right] = ports.masses();
                         contacts.push(Contact {
                             gap: index,
-                            width: gap.width_of(entry),
+                            width: gap.width_of(entry)
+                                + set_back(gap, model.neighbours(gap.between), pair),
                             law: gap.law.between(left, right),
                             ..Contact::without_law(ports)
                         });
@@ -414,6 +415,7 @@ fn plan_contacts(
                     mass: point.share * mass,
                     floor: Some(floor),
                     height,
+                    level: height + own.discretization.elevation,
                 })
             };
             let ports = |direction| {
@@ -500,6 +502,7 @@ fn ports(
                     mass: own.equations.mass[0],
                     floor: None,
                     height: mean(pair),
+                    level: mean(pair),
                 }
             });
             continue;
@@ -514,7 +517,7 @@ fn ports(
         let node = port
             .iter()
             .copied()
-            .find(|&node| (nodes[node].y - height).abs() <= 2.0 * SAME)
+            .find(|&node| (nodes[node].y + discretization.elevation - height).abs() <= 2.0 * SAME)
             .ok_or_else(|| format!("no point to hit at {height:.3} m"))?;
         ports[side] = Some(system.port(building, node)?);
     }
@@ -665,7 +668,8 @@ fn links_in_plan(
         _ => {
             let floor_at = |side: usize, height: f64| {
                 let own = system.buildings.get(link.between[side]?)?;
-                let near = |floor: &Floor| (floor.height - height).abs() <= 2.0 * SAME;
+                let foot = own.discretization.elevation;
+                let near = |floor: &Floor| (floor.height + foot - height).abs() <= 2.0 * SAME;
                 own.floors.iter().position(near).map(|index| index + 1)
             };
             let floors = |pair: &PointPair| [0, 1].map(|side| floor_at(side, pair[side]?));
@@ -707,6 +711,7 @@ fn ports_in_plan(
             mass,
             floor: Some(floor).filter(|floor| *floor > 0),
             height,
+            level: height + own.discretization.elevation,
         })
     });
     PortPair(ends)

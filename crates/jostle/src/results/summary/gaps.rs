@@ -124,7 +124,7 @@ pub struct ContactSummary {
 impl ContactSummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::real("height_m", Unit::M, "height above the base", |c| c.height_m),
+        Quantity::<Self>::real("height_m", Unit::M, "height above the base, or above the datum of elevations", |c| c.height_m),
         Quantity::<Self>::real("width_m", Unit::M, "width at rest", |c| c.width_m),
         Quantity::<Self>::whole("impact_count", "impacts", |c| c.impact_count).in_study(),
         Quantity::<Self>::real("peak_force_n", Unit::N, "greatest force", |c| c.peak_force_n).in_study(),
