@@ -34,6 +34,38 @@ pub(crate) fn grouped(values: &[f64], text: impl Fn(f64) -> String) -> String {
     }
 }
 
+/// Values of members, storey by storey from the ground up and from left to right: "60 | 95 | –" where those of a storey differ.
+pub(crate) fn by_place(
+    storeys: usize,
+    of_storey: impl Fn(usize) -> Vec<Option<f64>>,
+    text: impl Fn(f64) -> String,
+) -> String {
+    let rows: Vec<Vec<Option<f64>>> = (0..storeys).map(of_storey).collect();
+    let is_plain = |row: &Vec<Option<f64>>| row.iter().all(|own| own.is_some() && *own == row[0]);
+    if rows.iter().all(is_plain) {
+        let values: Vec<f64> = rows.iter().filter_map(|row| *row.first()?).collect();
+        return grouped(&values, text);
+    }
+    let mut groups: Vec<(usize, usize, &Vec<Option<f64>>)> = Vec::new();
+    for (i, row) in rows.iter().enumerate() {
+        match groups.last_mut() {
+            Some((_, last, same)) if *same == row => *last = i + 1,
+            _ => groups.push((i + 1, i + 1, row)),
+        }
+    }
+    let texts = groups.iter().map(|(first, last, row)| {
+        let own = row
+            .iter()
+            .map(|own| own.map_or_else(|| "–".to_owned(), &text));
+        let own: Vec<String> = own.collect();
+        match first == last {
+            true => format!("{first}: {}", own.join(" | ")),
+            false => format!("{first}–{last}: {}", own.join(" | ")),
+        }
+    });
+    texts.collect::<Vec<_>>().join(", ")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

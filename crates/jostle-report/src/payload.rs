@@ -137,6 +137,12 @@ struct Outline<'a> {
     heights: Vec<f64>,
     /// Bay widths \[m\].
     spans: Vec<f64>,
+    /// Storeys of every column line, of a frame in one plane that lacks some.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    tops: Vec<usize>,
+    /// Height of the base above the datum, if it is not zero \[m\].
+    #[serde(skip_serializing_if = "is_zero")]
+    elevation: f64,
     /// Braces and struts of a frame in one plane.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     diagonals: Vec<DiagonalData>,
@@ -468,6 +474,14 @@ fn duration(page: &Page, time: &[f64]) -> f64 {
     }
 }
 
+#[expect(
+    clippy::trivially_copy_pass_by_ref,
+    reason = "serde asks for a reference"
+)]
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}
+
 fn outline(building: &Building) -> Outline<'_> {
     /// Drawn width of a shear building, which has none \[m\].
     const NOMINAL_WIDTH: f64 = 6.0;
@@ -512,6 +526,11 @@ fn outline(building: &Building) -> Outline<'_> {
         frame,
         heights: building.floor_heights(),
         spans,
+        tops: match &building.structure {
+            Structure::Frame(frame) if !frame.is_regular() => frame.tops(),
+            _ => Vec::new(),
+        },
+        elevation: building.base.elevation,
         diagonals: match &building.structure {
             Structure::Frame(frame) => frame.diagonals.iter().map(DiagonalData::of).collect(),
             _ => Vec::new(),

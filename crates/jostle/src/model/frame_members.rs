@@ -117,6 +117,19 @@ impl Frame {
         [sum(&self.spans[..first]), sum(&self.spans[last..])]
     }
 
+    /// Number of storeys in which a column stands, by column line.
+    #[must_use]
+    pub fn tops(&self) -> Vec<usize> {
+        let storeys = 0..self.columns.len();
+        let of_line = |line| {
+            storeys
+                .clone()
+                .filter(|storey| self.column(*storey, line).is_some())
+                .count()
+        };
+        (0..self.lines()).map(of_line).collect()
+    }
+
     /// Length of the beams of a floor, counted from 0 \[m\].
     #[must_use]
     pub fn beam_length(&self, floor: usize) -> f64 {
