@@ -54,8 +54,9 @@ impl<'n> Layout<'n> {
     ) -> Option<Self> {
         let [key, across_key, up_key] = keys(member);
         let field = reader.get(view, key)?;
-        let is_list = matches!(field.node.value, Value::List(_));
         let entries = field.entries().unwrap_or_else(|| vec![field.clone()]);
+        // A single [[building.column]] holds for all.
+        let is_list = matches!(field.node.value, Value::List(_)) && entries.len() != 1;
         let names_places = name_places(field.node);
         let mut sound = !is_list
             || names_places
@@ -222,18 +223,17 @@ pub(super) fn rename(reader: &mut Reader<'_>, root: &Node, model: &Model, path: 
     let across = frame.lines() - usize::from(member == Member::Beam);
     let storeys = Some(frame.storey_heights.len());
     let layout = reader.quietly(|reader| Layout::read(reader, &view, member, storeys, across));
-    let Some(layout) = layout.filter(|_| is_by_place(reader, &view, keys(member)[0])) else {
+    let Some(layout) = layout else {
         return;
     };
     // Without one, it is the first line.
     let first = frame.outer_lines(storey + 1).map_or(0, |[first, _]| first);
     let row = layout.holds.get(storey);
     let table = row.and_then(|row| *row.get(line.unwrap_or(first))?);
-    let is_list = layout.tables.len() > 1
-        || layout
-            .tables
-            .iter()
-            .any(|own| own.field.path.ends_with(']'));
+    let is_list = layout
+        .tables
+        .iter()
+        .any(|own| own.field.path.ends_with(']'));
     let entry = match table {
         Some(table) if is_list => format!("{}[{table}]", keys(member)[0]),
         _ => keys(member)[0].to_owned(),

@@ -63,13 +63,20 @@ pub(super) fn check_places(faults: &mut Faults, path: &str, frame: &Frame) {
         let Some([first, last]) = frame.outer_lines(floor + 1) else {
             continue;
         };
-        if let Some(bay) = (first..last).find(|bay| frame.beam(floor, *bay).is_none()) {
-            faults.add(format!("{beam}[{floor}][{bay}]"), format!(
-                "floor {} is in two parts, as no beam crosses bay {}: towers that stand on one podium are not modelled as one building; add the beam, or omit the columns on one side",
-                floor + 1,
-                bay + 1
-            ));
-        }
+        let Some(bay) = (first..last).find(|bay| frame.beam(floor, *bay).is_none()) else {
+            continue;
+        };
+        let without = [bay, bay + 1]
+            .into_iter()
+            .find(|line| !frame.has_joint(floor + 1, *line));
+        let why = match without {
+            Some(line) => format!("no column stands below it at line {}", line + 1),
+            None => format!("no beam crosses bay {}", bay + 1),
+        };
+        faults.add(format!("{beam}[{floor}][{bay}]"), format!(
+            "floor {} is in two parts, as {why}: towers on one podium are not modelled as one building; close the gap, or omit all that stands on one side of it",
+            floor + 1
+        ));
     }
 }
 
