@@ -124,7 +124,7 @@ pub(super) fn figure(page: &Page) -> Markup {
                     (drawing(&model.buildings[index], index, outline, *left, [scale, ground, pit]))
                 }
                 @for wall in walls(page).into_iter().filter(|wall| !wall.on_site) {
-                    (wall_mark(&wall, model.buildings.iter().map(isolated).collect(), &outlines, &places, [scale, ground]))
+                    (wall_mark(&wall, model.buildings.iter().map(isolated).collect(), &outlines, &places, [scale, ground, low]))
                 }
                 @for gap in model.gaps.iter().filter(|gap| in_a_row(model, gap)) {
                     (gap_mark(gap, &outlines, &places, scale, ground + pit))
@@ -164,7 +164,7 @@ fn wall_mark(
     isolated: Vec<bool>,
     outlines: &[Outline],
     places: &[f64],
-    [scale, ground]: [f64; 2],
+    [scale, ground, low]: [f64; 3],
 ) -> Markup {
     let [left, right] = wall.beside;
     let from = match (left, right) {
@@ -177,7 +177,7 @@ fn wall_mark(
         .flatten()
         .any(|index| isolated[index]);
     let bottom = ground + if pit { PIT } else { 0.0 };
-    let top = ground - scale * wall.top - 5.0;
+    let top = ground - scale * (wall.top - low) - 5.0;
     html! {
         rect.wall x=(round(from)) y=(round(top)) width=(WALL) height=(round(bottom - top)) {}
     }
