@@ -81,10 +81,17 @@ mod tests {
     #[test]
     fn members_of_a_storey_stand_side_by_side_where_they_differ() {
         let text = |rows: &[[Option<f64>; 3]]| {
-            by_place(rows.len(), |storey| rows[storey].to_vec(), |v| format::plain(v, 2))
+            by_place(
+                rows.len(),
+                |storey| rows[storey].to_vec(),
+                |v| format::plain(v, 2),
+            )
         };
         let [all, some] = [[Some(60.0); 3], [None, Some(60.0), Some(95.0)]];
         assert_eq!(text(&[all, all]), "60");
-        assert_eq!(text(&[all, some, some]), "1: 60 | 60 | 60, 2–3: – | 60 | 95");
+        assert_eq!(
+            text(&[all, some, some]),
+            "1: 60 | 60 | 60, 2–3: – | 60 | 95"
+        );
     }
 }
