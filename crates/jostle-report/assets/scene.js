@@ -246,27 +246,30 @@ class Scene {
   }
 
   /** Where the left (0) or the right (1) side of a gap or a link is at rest [m]. */
-  faceAtRest(part, side) {
+  faceAtRest(part, side, floor = 0) {
     const building = part.between[side];
     if (building === null) return this.walls[part.walls[side]].faces[1 - side];
-    return this.left[building] + (side === 0 ? this.widths[building] : 0);
+    return this.outer(building, floor)[1 - side];
+  }
+
+  /** Where the first and the last column line at a floor stand at rest [m]. */
+  outer(i, floor) {
+    const { tops } = page.buildings[i];
+    const lines = this.lines(i).filter((_, line) => !tops || tops[line] >= Math.max(floor, 1));
+    return [lines[0], lines.at(-1)];
+  }
+
+  lines(i) {
+    return page.buildings[i].spans.reduce((xs, span) => [...xs, xs[xs.length - 1] + span], [this.left[i]]);
   }
 
   /** The same now, at a height. */
   face(part, side, height, sways) {
     const building = part.between[side];
-    const rest = this.faceAtRest(part, side) + (building === null ? 0 : this.setBack(page.buildings[building], side, height));
+    const levels = building === null ? [] : levelsOf(page.buildings[building]);
+    const rest = this.faceAtRest(part, side, levels.findIndex((level) => level > height - 1e-6));
     if (building === null) return rest + this.exaggeration * this.wallSway(this.walls[part.walls[side]]);
-    return rest + this.exaggeration * interpolate(levelsOf(page.buildings[building]), sways[building], height);
-  }
-
-  /** How far a face at a height stands inside the edge of a frame with fewer bays above [m]. */
-  setBack(building, side, height) {
-    if (!building.tops) return 0;
-    const floor = Math.max(levelsOf(building).findIndex((level) => level >= height - 1e-6), 1);
-    const [first, last] = outerLines(building, floor);
-    const sum = (spans) => spans.reduce((all, span) => all + span, 0);
-    return side === 0 ? -sum(building.spans.slice(last)) : sum(building.spans.slice(0, first));
+    return rest + this.exaggeration * interpolate(levels, sways[building], height);
   }
 
   /** Displacement of a wall now [m]. */
@@ -329,7 +332,7 @@ class Scene {
   drawBuilding(building, i, sway, t) {
     const part = this.parts[i];
     const f = this.exaggeration;
-    const lines = building.spans.reduce((xs, span) => [...xs, xs[xs.length - 1] + span], [this.left[i]]);
+    const lines = this.lines(i);
     const heights = levelsOf(building);
     // Lines of a frame with fewer bays above end below the roof.
     const top = (line) => building.tops?.[line] ?? heights.length - 1;
@@ -347,8 +350,8 @@ class Scene {
       heights
         .map((h, k) => {
           if (k === 0 && !building.isolated) return "";
-          const [first, last] = outerLines(building, k);
-          return `M${this.px(lines[first] + f * places[k]).toFixed(2)},${this.py(h).toFixed(2)}h${((lines[last] - lines[first]) * this.scale).toFixed(2)}`;
+          const [first, last] = this.outer(i, k);
+          return `M${this.px(first + f * places[k]).toFixed(2)},${this.py(h).toFixed(2)}h${((last - first) * this.scale).toFixed(2)}`;
         })
         .join("");
     part.columns.setAttribute("d", lines.map((x, line) => column(x, sway, line)).join(""));
@@ -364,8 +367,8 @@ class Scene {
     const pinned = this.pinned?.floors === floors ? this.pinned : null;
     part.pinned.setAttribute("d", pinned ? outline(this.places(pinned.columns[i], pinned.table, t)) : "");
     const roof = sway[sway.length - 1];
-    const [first, last] = outerLines(building, heights.length - 1);
-    part.sway.setAttribute("x", this.px((lines[first] + lines[last]) / 2));
+    const [first, last] = this.outer(i, heights.length - 1);
+    part.sway.setAttribute("x", this.px((first + last) / 2));
     part.sway.setAttribute("y", this.py(heights[heights.length - 1]) - 12);
     part.sway.textContent = `${fixed(roof * 1e3, 1)} mm`;
   }
@@ -503,13 +506,6 @@ class Scene {
 /** Heights of the base and the floors above the datum of elevations [m]. */
 function levelsOf(building) {
   return [0, ...building.heights].map((height) => height + (building.elevation ?? 0));
-}
-
-/** The first and the last column line with a joint at a floor, 0 the ground. */
-function outerLines(building, floor) {
-  if (!building.tops) return [0, building.spans.length];
-  const stands = (storeys) => storeys >= Math.max(floor, 1);
-  return [building.tops.findIndex(stands), building.tops.findLastIndex(stands)];
 }
 
 /** A length in mm without needless decimals. */

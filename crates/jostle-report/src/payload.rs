@@ -141,8 +141,8 @@ struct Outline<'a> {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     tops: Vec<usize>,
     /// Height of the base above the datum, if it is not zero \[m\].
-    #[serde(skip_serializing_if = "is_zero")]
-    elevation: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    elevation: Option<f64>,
     /// Braces and struts of a frame in one plane.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     diagonals: Vec<DiagonalData>,
@@ -474,14 +474,6 @@ fn duration(page: &Page, time: &[f64]) -> f64 {
     }
 }
 
-#[expect(
-    clippy::trivially_copy_pass_by_ref,
-    reason = "serde asks for a reference"
-)]
-fn is_zero(value: &f64) -> bool {
-    *value == 0.0
-}
-
 fn outline(building: &Building) -> Outline<'_> {
     /// Drawn width of a shear building, which has none \[m\].
     const NOMINAL_WIDTH: f64 = 6.0;
@@ -530,7 +522,7 @@ fn outline(building: &Building) -> Outline<'_> {
             Structure::Frame(frame) if !frame.is_regular() => frame.tops(),
             _ => Vec::new(),
         },
-        elevation: building.base.elevation,
+        elevation: Some(building.base.elevation).filter(|own| *own != 0.0),
         diagonals: match &building.structure {
             Structure::Frame(frame) => frame.diagonals.iter().map(DiagonalData::of).collect(),
             _ => Vec::new(),
