@@ -116,3 +116,14 @@ fn compact(grid: &Grid) -> Sections {
     }
     (rows, own)
 }
+
+/// Rows without holes: where there is no member, that of another of its storey, which has no part.
+pub(super) fn filled<T: Clone>(rows: Vec<Vec<Option<T>>>) -> Vec<Vec<T>> {
+    let rows = rows.into_iter().map(|row| {
+        let other = row.iter().flatten().next().cloned();
+        row.into_iter()
+            .filter_map(|own| own.or_else(|| other.clone()))
+            .collect()
+    });
+    rows.collect()
+}

@@ -9,6 +9,7 @@ use jostle_section::formula::Member;
 use jostle_section::{EndCurve, Options};
 
 use super::building::{has_length, per_storey};
+use super::frame_members::filled;
 use super::reinforced::ReinforcedMember;
 use crate::keys::{HINGE_METHODS, HINGE_SOURCES, RULES, Section};
 use crate::quantity::Dimension;
@@ -281,12 +282,9 @@ fn read_members(
                 _ => frame.beam(storey, place).or(frame.beams.get(storey)),
             };
             let stiffness = initial.stiffness(section?.flexural_rigidity, length);
-            let [a, b] = sides.map(|side| {
-                if rule == HysteresisRule::Elastic {
-                    side
-                } else {
-                    initial.ratios(side)
-                }
+            let [a, b] = sides.map(|side| match rule {
+                HysteresisRule::Elastic => side,
+                _ => initial.ratios(side),
             });
             let spring = Backbone::from_forces(stiffness, a, b)
                 .and_then(|backbone| Hysteresis::new(rule, backbone));
@@ -452,20 +450,11 @@ fn of_sections(
     let storeys = frame.storey_heights.len();
     let mut hinges = FrameHinges::default();
     let mut sound = true;
-    for (kind, word, per_storey, count) in [
-        (
-            Member::Column,
-            "column",
-            frame.lines(),
-            frame.all_columns().count(),
-        ),
-        (
-            Member::Beam,
-            "beam",
-            frame.spans.len(),
-            frame.all_beams().count(),
-        ),
-    ] {
+    for (kind, word) in [(Member::Column, "column"), (Member::Beam, "beam")] {
+        let (per_storey, count) = match kind {
+            Member::Column => (frame.lines(), frame.all_columns().count()),
+            Member::Beam => (frame.spans.len(), frame.all_beams().count()),
+        };
         let of_kind: Vec<_> = members
             .iter()
             .filter(|member| member.member == kind)
@@ -533,17 +522,6 @@ fn of_sections(
         }
     }
     sound.then_some(Hinges::Frame(hinges))
-}
-
-/// Rows without holes: where there is no member, that of another of its storey, which has no part.
-pub(super) fn filled<T: Clone>(rows: Vec<Vec<Option<T>>>) -> Vec<Vec<T>> {
-    let rows = rows.into_iter().map(|row| {
-        let other = row.iter().flatten().next().cloned();
-        row.into_iter()
-            .filter_map(|own| own.or_else(|| other.clone()))
-            .collect()
-    });
-    rows.collect()
 }
 
 /// The hinge of a reinforced member.

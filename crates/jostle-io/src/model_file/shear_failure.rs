@@ -7,7 +7,7 @@ use jostle_section::capacity::{RatedMember, ShearRule};
 use jostle_section::formula::Member;
 
 use super::building::per_storey;
-use super::hinges::filled;
+use super::frame_members::filled;
 use super::reinforced::ReinforcedMember;
 use crate::keys::{CAPACITY_RULES, SHEAR_ENDS, Section};
 use crate::quantity::Dimension;
