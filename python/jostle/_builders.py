@@ -86,8 +86,10 @@ class Frame(Part):
         storey_height: one length, or a list from the ground up.
         spans: widths of the bays from left to right, lengths.
         column: section of the columns, or a list from the ground up: ``{"width": "500 mm", "depth": "500 mm"}`` or
-            ``{"EI": "150 MN.m2"}``; keys may contain units, ``{"width_mm": 500, "depth_mm": 500}``.
-        beam: section of the beams, or a list from the ground up.
+            ``{"EI": "150 MN.m2"}``; keys may contain units, ``{"width_mm": 500, "depth_mm": 500}``. Or a list for some places each,
+            later ones instead of earlier ones: ``[{"EI": "60 MN.m2"}, {"line": 2, "EI": "95 MN.m2"}, {"line": [3, 4], "storeys": [3, 6],
+            "omit": True}]``.
+        beam: section of the beams, or a list from the ground up, or for some places each: ``bay``, ``floors``, ``omit``.
         elastic_modulus: modulus of elasticity.
         concrete: ``"C30"`` (GB 50010), ``"C30/37"`` (EN 1992-1-1) or ``"f'c = 4 ksi"`` (ACI 318), instead of
             ``elastic_modulus``.
@@ -115,6 +117,7 @@ class Frame(Part):
             yield.
         infill: masonry panels in the bays, as struts that bear compression alone:
             ``[{"storeys": [2, 4], "modulus": "4 GPa", "thickness": "200 mm", "width": "1.4 m"}]``.
+        elevation: height of the base above a datum that all buildings share, 0 by default; neighbours face each other by it.
         position: place along the row, for ``apparent_velocity`` and ``coherency`` of the motion.
         motion: the ground under this building, if it differs: ``{"arrival": "30 ms"}``, ``{"record": …, "scale": …}``.
         gravity: whether the run starts from the displacements under self weight; ``False`` by default.
@@ -161,6 +164,7 @@ class Frame(Part):
         shear_failure: Table | None = None,
         brace: Sequence[Table] | None = None,
         infill: Sequence[Table] | None = None,
+        elevation: Quantity | None = None,
         position: Quantity | None = None,
         motion: Table | None = None,
         gravity: bool | None = None,
@@ -199,6 +203,7 @@ class Frame(Part):
                 "shear_failure": shear_failure,
                 "brace": brace,
                 "infill": infill,
+                "elevation": elevation,
                 "position": position,
                 "motion": motion,
                 "gravity": gravity,
@@ -230,6 +235,7 @@ class Shear(Part):
         foundation: rigid foundation on the ``soil`` of the model, ``{"length": "12 m", "width": "12 m", "mass": "120 t"}``.
         hinges: cracking and yield of the storeys; without it they are elastic: ``{"rule": "bilinear", "yield": "20 mm",
             "post_yield": 0.05}``; timber and masonry: ``{"rule": "pinched", "pinching": {"deformation": 0.8, "force": 0.2}, …}``.
+        elevation: height of the base above a datum that all buildings share, 0 by default; neighbours face each other by it.
         position: place along the row, for ``apparent_velocity`` and ``coherency`` of the motion.
         motion: the ground under this building, if it differs: ``{"arrival": "30 ms"}``, ``{"record": …, "scale": …}``.
         gravity: whether the run starts from the displacements under self weight; ``False`` by default.
@@ -271,6 +277,7 @@ class Shear(Part):
         isolation: Table | None = None,
         foundation: Table | None = None,
         hinges: Table | None = None,
+        elevation: Quantity | None = None,
         position: Quantity | None = None,
         motion: Table | None = None,
         gravity: bool | None = None,
@@ -300,6 +307,7 @@ class Shear(Part):
                 "isolation": isolation,
                 "foundation": foundation,
                 "hinges": hinges,
+                "elevation": elevation,
                 "position": position,
                 "motion": motion,
                 "gravity": gravity,
@@ -360,6 +368,7 @@ class SpaceFrame(Part):
         isolation: bearings and a mat under the building, such as ``{"kind": "lead-rubber", "mat_mass": "150 t", …}``; with
             ``"bounds": {"lower": 0.85, "upper": 1.3}`` a run also makes those at both bounds of the bearings.
         p_delta: whether P-Delta from the weight above is included; ``False`` by default.
+        elevation: height of the base above a datum that all buildings share, 0 by default; neighbours face each other by it.
         position: place along the row, for ``apparent_velocity`` and ``coherency`` of the motion.
         motion: the ground under this building, if it differs: ``{"arrival": "30 ms"}``, ``{"record": …, "scale": …}``.
         damper: dampers and other links between two floors of this building.
@@ -404,6 +413,7 @@ class SpaceFrame(Part):
         damping: Table | None = None,
         isolation: Table | None = None,
         p_delta: bool | None = None,
+        elevation: Quantity | None = None,
         position: Quantity | None = None,
         motion: Table | None = None,
         damper: Sequence[Table] | None = None,
@@ -442,6 +452,7 @@ class SpaceFrame(Part):
                 "damping": damping,
                 "isolation": isolation,
                 "p_delta": p_delta,
+                "elevation": elevation,
                 "position": position,
                 "motion": motion,
                 "damper": damper,
@@ -486,6 +497,7 @@ class Given(Part):
             matrix.
         damper: dampers and other links between two floors of this building, such as
             ``[{"floors": [0, 1], "law": "viscous", "damping": "200 kN.(s/m)^0.5", "exponent": 0.5}]``.
+        elevation: height of the base above a datum that all buildings share, 0 by default; neighbours face each other by it.
         position: place along the row, for ``apparent_velocity`` and ``coherency`` of the motion.
         motion: the ground under this building, if it differs: ``{"arrival": "30 ms"}``, ``{"record": …, "scale": …}``.
         codes: factors of this building in the separation rules of codes: ``{"behaviour_factor": 3.9}``.
@@ -518,6 +530,7 @@ class Given(Part):
         storey_height: Quantities | None = None,
         damping: Table | None = None,
         damper: Sequence[Table] | None = None,
+        elevation: Quantity | None = None,
         position: Quantity | None = None,
         motion: Table | None = None,
         codes: Table | None = None,
@@ -544,6 +557,7 @@ class Given(Part):
                 "storey_height": storey_height,
                 "damping": damping,
                 "damper": damper,
+                "elevation": elevation,
                 "position": position,
                 "motion": motion,
                 "codes": codes,

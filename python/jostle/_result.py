@@ -170,7 +170,7 @@ class Contact:
     Attributes:
         between: names of the left and the right building, or ``"wall"``.
         floors: floors on the left and on the right, from 1; ``None`` for a point between floors, and for a wall.
-        height: height above the base [m].
+        height: height above the base, or above the datum of elevations [m].
         force: contact force on the instants of ``result.time``, positive in compression [N], shape ``(n,)``.
         peak_force: greatest force [N].
         impact_count: number of impacts.
@@ -191,7 +191,7 @@ class LinkedFloors:
     Attributes:
         between: names of the left and the right building, or ``"wall"``.
         floors: floors on the left and on the right, from 1; ``None`` for a point between floors, and for a wall.
-        height: height above the base [m].
+        height: height above the base, or above the datum of elevations [m].
         force: force on the instants of ``result.time``, positive in compression [N], shape ``(n,)``.
         stroke: shortening since rest on these instants [m]; ``None`` unless the model has ``output={"links": True}``.
         speed: its rate [m/s]; ``None`` likewise.

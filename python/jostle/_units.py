@@ -61,6 +61,7 @@ class HeightUnits(TypedDict, total=False):
     storey_height_cm: Numbers
     storey_height_mm: Numbers
     storey_height_ft: Numbers
+    elevation_m: float
 
 
 class FrameUnits(HeightUnits, total=False):

@@ -1,6 +1,7 @@
 //! `jostle check`: checks a model and prints masses, periods, contacts and the expected work.
 
 mod base;
+mod frames;
 mod hinges;
 mod losses;
 mod motion;
@@ -13,13 +14,14 @@ use jostle::hysteresis::Side;
 use jostle::judgement::Stated;
 use jostle::model::{Damping, Structure, Tiers, usual_damping_modes};
 use jostle::system::BuildingSystem;
-use jostle::{Building, DiagonalKind, Frame, LinkLaw, Model, SpaceMember, SpacePlace, System};
+use jostle::{Building, LinkLaw, Model, SpaceMember, SpacePlace, System};
 
 use crate::args::CheckArgs;
 use crate::failure::Failure;
 use crate::replace::Target;
 use crate::terminal;
 use base::{describe_bearing_places, describe_bearings, describe_foundation};
+use frames::{axial_of_columns, diagonals, members};
 use hinges::{describe_hinges, describe_yielding_in_plan};
 use jostle_report::{SitePlace, site_svg};
 use jostle_run::{BOLD, LOUD, styled};
@@ -206,49 +208,6 @@ fn space_frame(tiers: &Tiers) -> String {
     )
 }
 
-/// Whether the columns of a frame shorten, and why; `None` if it is not known whether the file says so.
-fn axial_of_columns(frame: &Frame, is_stated: Option<bool>) -> String {
-    let (height, width): (f64, f64) = (frame.storey_heights.iter().sum(), frame.spans.iter().sum());
-    let what = match frame.axial.columns_flexible {
-        true => "columns shorten under axial force",
-        false => "columns keep their length",
-    };
-    let limit = format!(
-        "{} times as high as wide or {} storeys",
-        Frame::SLENDER,
-        Frame::TALL
-    );
-    let why = match (
-        is_stated,
-        frame.axial.columns_flexible,
-        frame.tallness() > 1.0,
-    ) {
-        (Some(true), ..) => ", as stated".to_owned(),
-        (Some(false), true, _) => format!(", the default above {limit}"),
-        (Some(false), false, true) => ": no EA, or a foundation on soil".to_owned(),
-        (Some(false), false, false) => format!(", the default up to {limit}"),
-        (None, ..) => String::new(),
-    };
-    format!("{what}{why}; {:.1} times as high as wide", height / width)
-}
-
-/// Braces and infill panels, as far as there are any.
-fn diagonals(frame: &Frame) -> String {
-    let count = |kind| {
-        let all = frame.diagonals.iter();
-        all.filter(|own| own.place.kind == kind).count()
-    };
-    let mut text = String::new();
-    // A panel is two struts.
-    let [braces, panels] = [count(DiagonalKind::Brace), count(DiagonalKind::Infill) / 2];
-    for (count, noun) in [(braces, "brace"), (panels, "infill panel")] {
-        if count > 0 {
-            text += &format!(", {}", counted(count, noun));
-        }
-    }
-    text
-}
-
 fn describe(
     text: &mut String,
     model: &Model,
@@ -262,7 +221,7 @@ fn describe(
                 "frame, {}, {}{}",
                 counted(frame.storey_heights.len(), "storey"),
                 counted(frame.spans.len(), "span"),
-                diagonals(frame)
+                members(frame) + &diagonals(frame)
             ),
             Structure::Shear(shear) => {
                 format!("shear building, {}", counted(shear.mass.len(), "storey"))
@@ -393,6 +352,15 @@ fn describe(
                 counted(contacts.len(), "contact"),
                 heights.join(", ")
             )?;
+            for (contact, height) in contacts.iter().zip(&heights) {
+                let farther = contact.width - gap.width();
+                if gap.widths.len() == 1 && farther > 0.0 {
+                    writeln!(
+                        text,
+                        "  the faces at {height} m stand back: {farther:.2} m more"
+                    )?;
+                }
+            }
         }
         let unit = if gap.law.kind.is_hertzian() {
             "N/m^1.5"
@@ -727,13 +695,11 @@ fn special(building: &Building) -> Vec<String> {
         lines.push("P-Delta included, from the weight above".into());
     }
     if let Structure::Frame(frame) = &building.structure {
-        let least = |sections: &[jostle::Section]| {
-            let known = sections.iter().filter_map(|section| section.shear_rigidity);
-            known.min_by(f64::total_cmp)
-        };
+        let columns = frame.all_columns().filter_map(|own| own.1.shear_rigidity);
+        let beams = frame.all_beams().filter_map(|own| own.1.shear_rigidity);
         let shear = list(&[
-            ("columns from", least(&frame.columns), "N"),
-            ("beams from", least(&frame.beams), "N"),
+            ("columns from", columns.min_by(f64::total_cmp), "N"),
+            ("beams from", beams.min_by(f64::total_cmp), "N"),
         ]);
         if !shear.is_empty() {
             lines.push(format!("members deform in shear, GA: {shear}"));

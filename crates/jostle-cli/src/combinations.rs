@@ -113,6 +113,21 @@ const YIELDING: [&str; 7] = [
 
 const OWN_WORDS: &str = "YIELDING";
 
+/// Columns that differ by line, one of them omitted, in the words of every kind; instead of those that are alike.
+const BY_LINE: [&str; 7] = [
+    FRAME_BY_LINE,
+    "column = { line = 2, EI = 60e6 }\n",
+    "column = { line = 2, EI = 60e6 }\n",
+    "column = { line = 2, EI = 60e6 }\n",
+    FRAME_BY_LINE,
+    "column = [{ size = [0.5, 0.5] }, { x = 2, size = [0.6, 0.6] }, { x = 3, y = 3, storeys = 2, omit = true }]\n",
+    "column = { line = 2, EI = 60e6 }\n",
+];
+
+const FRAME_BY_LINE: &str = "column = [{ width = 0.5, depth = 0.5 }, { line = 2, width = 0.6, depth = 0.6 }, { line = 3, storeys = 2, omit = true }]\n";
+
+const COLUMNS: &str = "COLUMNS";
+
 #[rustfmt::skip]
 fn features() -> Vec<Feature> {
     let link = |name, law| Feature { name, more: law, ..USUAL };
@@ -130,6 +145,8 @@ fn features() -> Vec<Feature> {
         link("viscous link between neighbours", "[[link]]\nbetween = [\"A\", \"B\"]\nfloors = [[1, 1]]\nlaw = \"viscous\"\ndamping = \"200 kN.s/m\"\n"),
         link("yielding link between neighbours", "[[link]]\nbetween = [\"A\", \"B\"]\nfloors = [[1, 1]]\nlaw = \"yielding\"\nstiffness = \"20 MN/m\"\nhinge = { rule = \"bilinear\", yield = \"100 kN\", post_yield = 0.05 }\n"),
         Feature { name: "dampers inside a building", tables: "[[building.damper]]\nfloors = [0, 1]\ndamping = \"200 kN.s/m\"\n", ..USUAL },
+        Feature { name: "columns by line", keys: COLUMNS, ..USUAL },
+        Feature { name: "elevation of the base", keys: "elevation = \"-1.4 m\"\n", ..USUAL },
         Feature { name: "braces", tables: "[[building.brace]]\nEA = \"300 MN\"\n", ..USUAL },
         Feature { name: "infill panels", tables: "[[building.infill]]\nstiffness = \"80 MN/m\"\n", ..USUAL },
         Feature { name: "cracking and yielding", keys: OWN_WORDS, ..USUAL },
@@ -243,6 +260,19 @@ fn model(kind: usize, feature: &Feature) -> String {
             true => "at = [10.02, 0]\n",
             false => "",
         };
+        let is_column = |line: &&str| line.starts_with("column =");
+        let without = |text: &str| {
+            let lines = text.lines().filter(|line| !is_column(line));
+            lines.map(|line| format!("{line}\n")).collect::<String>()
+        };
+        let (keys, own_tables) = match feature.keys {
+            COLUMNS => (
+                without(&keys),
+                own.tables
+                    .replace("column = { width = 0.5, depth = 0.5 }\n", BY_LINE[kind]),
+            ),
+            _ => (keys, own.tables.to_owned()),
+        };
         let (more, tables) = match feature.keys {
             // Frames at lines of a plan say it frame by frame.
             OWN_WORDS if YIELDING[kind].is_empty() => (
@@ -251,6 +281,9 @@ fn model(kind: usize, feature: &Feature) -> String {
                     .replace("spans", &format!("{}spans", YIELDING[0])),
             ),
             OWN_WORDS => (YIELDING[kind], own.tables.to_owned()),
+            // Frames at lines of a plan have theirs in their tables.
+            COLUMNS if own.tables.contains("column =") => ("", own_tables),
+            COLUMNS => (BY_LINE[kind], own_tables),
             keys => (keys, own.tables.to_owned()),
         };
         // What stands in frames of a plan belongs to them.

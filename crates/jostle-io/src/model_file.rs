@@ -14,6 +14,7 @@ mod contact_law;
 mod damper;
 mod floor_spectra;
 mod frame;
+mod frame_members;
 mod gap;
 mod given;
 mod given_in_plan;
@@ -28,6 +29,7 @@ mod matching;
 mod motion;
 mod output;
 mod partial;
+mod places;
 mod plan;
 mod plan_frames;
 mod reinforced;
@@ -198,6 +200,7 @@ pub(crate) fn read_tree(
         let mut checked = model.check().err().unwrap_or_default();
         for fault in &mut checked {
             dampers.rename(&mut fault.path);
+            places::rename(&mut reader, &root, model, &mut fault.path);
         }
         add_model_faults(&mut reader, &root, checked);
     }

@@ -113,6 +113,11 @@ impl<'n> Field<'n> {
 }
 
 impl View<'_> {
+    /// The sections whose keys it may have.
+    pub(crate) fn sections(&self) -> &'static [Section] {
+        self.sections
+    }
+
     /// Whether the table has this key.
     pub(crate) fn has(&self, key: &str) -> bool {
         self.table.get(key).is_some()

@@ -89,9 +89,13 @@ const TABLES: &[(Section, &str, &str)] = &[
     (
         Section::Column,
         "`column` of a frame",
-        "A rectangle, or its rigidities; with bars for `hinges.from = \"section\"`.",
+        "A rectangle, or its rigidities; with bars for `hinges.from = \"section\"`. A list in which no table names a line, storeys or `omit` has one table per storey from the ground up; otherwise every table holds for the lines and storeys that it names. A floor has a joint where a column stands below it. See [Columns that differ, set-backs and podiums](how-to/model-buildings.md#columns-that-differ-set-backs-and-podiums).",
     ),
-    (Section::Beam, "`beam` of a frame", ""),
+    (
+        Section::Beam,
+        "`beam` of a frame",
+        "Likewise by bay and floors. Beams stand between joints: where a column is omitted, tables without `bay` leave out the beams beside it.",
+    ),
     (Section::Bars, "`bars` in rows", ""),
     (
         Section::StiffnessFactor,

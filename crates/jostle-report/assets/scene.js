@@ -22,7 +22,8 @@ class Scene {
 
   /** What the run that is loaded says. */
   take() {
-    this.top = Math.max(...page.buildings.flatMap((b) => b.heights));
+    this.low = Math.min(...page.buildings.map((b) => b.elevation ?? 0));
+    this.top = Math.max(...page.buildings.flatMap((b) => levelsOf(b))) - this.low;
     this.run = this.columns(run);
     this.peak = Math.max(1e-9, ...this.run.flat().filter(Boolean).map(greatest));
     this.groundPeak = greatest(ground.values) || 1;
@@ -147,8 +148,9 @@ class Scene {
     return this.shift + x * this.scale;
   }
 
+  /** Of a height above the datum of elevations. */
   py(height) {
-    return this.base - height * this.scale;
+    return this.base - (height - this.low) * this.scale;
   }
 
   drawBack() {
@@ -157,14 +159,20 @@ class Scene {
     svg("path", { class: "ground", d: `M0,${this.base}H${this.width}` }, back);
     svg("rect", { class: "soil", x: 0, y: this.base, width: this.width, height: 7 }, back);
     page.buildings.forEach((building, i) => {
+      const base = this.py(levelsOf(building)[0]);
+      if (base < this.base) {
+        const [x, width] = [this.px(this.left[i]), this.widths[i] * this.scale];
+        svg("rect", { class: "soil", x, y: base, width, height: this.base - base }, back);
+        svg("path", { class: "ground", d: `M${x},${this.base}V${base}h${width}V${this.base}` }, back);
+      }
       if (!building.isolated) return;
       const free = this.exaggeration * this.peak;
       const walls = [0, 1].map((side) => this.walls.find((wall) => wall.beside[1 - side] === i));
       const from = this.px(walls[0] ? walls[0].faces[1] : this.left[i] - free);
       const to = this.px(walls[1] ? walls[1].faces[0] : this.left[i] + this.widths[i] + free);
-      svg("rect", { class: "pit", x: from, y: this.base - 1, width: Math.max(to - from, 0), height: this.pit + 1 }, back);
-      svg("path", { class: "ground", d: `M${from},${this.base}V${this.base + this.pit}H${to}V${this.base}` }, back);
-      svg("rect", { class: "soil", x: from, y: this.base + this.pit, width: Math.max(to - from, 0), height: 7 }, back);
+      svg("rect", { class: "pit", x: from, y: base - 1, width: Math.max(to - from, 0), height: this.pit + 1 }, back);
+      svg("path", { class: "ground", d: `M${from},${base}V${base + this.pit}H${to}V${base}` }, back);
+      svg("rect", { class: "soil", x: from, y: base + this.pit, width: Math.max(to - from, 0), height: 7 }, back);
     });
     const row = this.base + 24 + this.below;
     page.buildings.forEach((building, i) => {
@@ -220,36 +228,48 @@ class Scene {
     const sway = this.exaggeration * this.peak;
     const near = right ? this.px(this.left[i] + this.widths[i] + sway) + 14 : this.px(this.left[i] - sway) - 14;
     const x = this.ends[Number(right)] === null ? near : right ? this.width - Scene.beside + 8 : Scene.beside - 8;
-    const heights = [0, ...building.heights];
-    const roof = heights.at(-1);
+    const heights = levelsOf(building);
+    const [foot, roof] = [heights[0], heights.at(-1)];
     const storeys = heights.slice(1).map((height, k) => height - heights[k]);
     const path = heights.map((height) => `M${x - mark},${(this.py(height) + mark).toFixed(1)}l${2 * mark},${-2 * mark}`).join("");
-    svg("path", { class: "dimension", d: `M${x},${this.py(0).toFixed(1)}V${this.py(roof).toFixed(1)}${path}` }, back);
+    svg("path", { class: "dimension", d: `M${x},${this.py(foot).toFixed(1)}V${this.py(roof).toFixed(1)}${path}` }, back);
     const write = (text, height) => {
       const at = [right ? x + 14 : x - 6, this.py(height)];
       const label = { class: "dimension-name", x: at[0], y: at[1], "text-anchor": "middle", transform: `rotate(-90 ${at[0]} ${at[1]})` };
       svg("text", label, back).textContent = text;
     };
     const equal = storeys.every((storey) => Math.abs(storey - storeys[0]) < 1e-6);
-    if (equal) write(storeys.length > 1 ? `${storeys.length} × ${metres(storeys[0])} m = ${metres(roof)} m` : `${metres(roof)} m`, roof / 2);
+    const middle = (foot + roof) / 2;
+    if (equal) write(storeys.length > 1 ? `${storeys.length} × ${metres(storeys[0])} m = ${metres(roof - foot)} m` : `${metres(roof - foot)} m`, middle);
     else if (storeys.every((storey) => storey * this.scale > 24)) storeys.forEach((storey, k) => write(`${metres(storey)}`, heights[k] + storey / 2));
-    else write(say("roof_and_storeys", { height: metres(roof), storeys: storeys.length }), roof / 2);
+    else write(say("roof_and_storeys", { height: metres(roof - foot), storeys: storeys.length }), middle);
   }
 
   /** Where the left (0) or the right (1) side of a gap or a link is at rest [m]. */
-  faceAtRest(part, side) {
+  faceAtRest(part, side, floor = 0) {
     const building = part.between[side];
     if (building === null) return this.walls[part.walls[side]].faces[1 - side];
-    return this.left[building] + (side === 0 ? this.widths[building] : 0);
+    return this.outer(building, floor)[1 - side];
+  }
+
+  /** Where the first and the last column line at a floor stand at rest [m]. */
+  outer(i, floor) {
+    const { tops } = page.buildings[i];
+    const lines = this.lines(i).filter((_, line) => !tops || tops[line] >= Math.max(floor, 1));
+    return [lines[0], lines.at(-1)];
+  }
+
+  lines(i) {
+    return page.buildings[i].spans.reduce((xs, span) => [...xs, xs[xs.length - 1] + span], [this.left[i]]);
   }
 
   /** The same now, at a height. */
   face(part, side, height, sways) {
     const building = part.between[side];
-    const rest = this.faceAtRest(part, side);
+    const levels = building === null ? [] : levelsOf(page.buildings[building]);
+    const rest = this.faceAtRest(part, side, levels.findIndex((level) => level > height - 1e-6));
     if (building === null) return rest + this.exaggeration * this.wallSway(this.walls[part.walls[side]]);
-    const heights = [0, ...page.buildings[building].heights];
-    return rest + this.exaggeration * interpolate(heights, sways[building], height);
+    return rest + this.exaggeration * interpolate(levels, sways[building], height);
   }
 
   /** Displacement of a wall now [m]. */
@@ -298,10 +318,10 @@ class Scene {
   }
 
   /** Bearings lean from the bottom of the pit to the mat. */
-  bearings(lines, mat) {
+  bearings(lines, mat, base) {
     const places = lines.length > 2 ? lines : [lines[0], (lines[0] + lines.at(-1)) / 2, lines.at(-1)];
     const half = Math.min(7, (0.3 * (lines.at(-1) - lines[0]) * this.scale) / places.length);
-    const [top, bottom] = [this.base + 3, this.base + this.pit];
+    const [top, bottom] = [base + 3, base + this.pit];
     return places.map((place, k) => {
       const inwards = k === 0 ? half : k === places.length - 1 ? -half : 0;
       const [foot, head] = [this.px(place) + inwards, this.px(place + this.exaggeration * mat) + inwards];
@@ -312,11 +332,13 @@ class Scene {
   drawBuilding(building, i, sway, t) {
     const part = this.parts[i];
     const f = this.exaggeration;
-    const lines = building.spans.reduce((xs, span) => [...xs, xs[xs.length - 1] + span], [this.left[i]]);
-    const heights = [0, ...building.heights];
-    const column = (x, places) => {
+    const lines = this.lines(i);
+    const heights = levelsOf(building);
+    // Lines of a frame with fewer bays above end below the roof.
+    const top = (line) => building.tops?.[line] ?? heights.length - 1;
+    const column = (x, places, line) => {
       let path = "";
-      for (let k = 1; k < heights.length; k++) {
+      for (let k = 1; k <= top(line); k++) {
         const [x0, x1] = [this.px(x + f * places[k - 1]), this.px(x + f * places[k])];
         const [y0, y1] = [this.py(heights[k - 1]), this.py(heights[k])];
         const middle = (y0 + y1) / 2;
@@ -326,21 +348,27 @@ class Scene {
     };
     const floor = (places) =>
       heights
-        .map((h, k) => (k === 0 && !building.isolated ? "" : `M${this.px(lines[0] + f * places[k]).toFixed(2)},${this.py(h).toFixed(2)}h${(this.widths[i] * this.scale).toFixed(2)}`))
+        .map((h, k) => {
+          if (k === 0 && !building.isolated) return "";
+          const [first, last] = this.outer(i, k);
+          return `M${this.px(first + f * places[k]).toFixed(2)},${this.py(h).toFixed(2)}h${((last - first) * this.scale).toFixed(2)}`;
+        })
         .join("");
-    part.columns.setAttribute("d", lines.map((x) => column(x, sway)).join(""));
+    part.columns.setAttribute("d", lines.map((x, line) => column(x, sway, line)).join(""));
     part.floors.setAttribute("d", floor(sway));
     this.drawDiagonals(part, building.diagonals ?? [], lines, heights, sway);
-    part.bearings.setAttribute("d", building.isolated ? this.bearings(lines, sway[0]) : "");
+    part.bearings.setAttribute("d", building.isolated ? this.bearings(lines, sway[0], this.py(heights[0])) : "");
     this.drawHinges(part, lines, heights, sway, t);
     const ghost = this.ghost && this.other ? this.places(this.other[i], without, t) : null;
-    const outline = (places) => column(lines[0], places) + column(lines[lines.length - 1], places) + floor(places);
+    const edges = building.tops ? lines.map((_, line) => line) : [0, lines.length - 1];
+    const outline = (places) => edges.map((line) => column(lines[line], places, line)).join("") + floor(places);
     part.ghost.setAttribute("d", ghost ? outline(ghost) : "");
     const floors = this.pinned && page.buildings.map((b) => b.heights.length).join();
     const pinned = this.pinned?.floors === floors ? this.pinned : null;
     part.pinned.setAttribute("d", pinned ? outline(this.places(pinned.columns[i], pinned.table, t)) : "");
     const roof = sway[sway.length - 1];
-    part.sway.setAttribute("x", this.px(this.left[i] + this.widths[i] / 2));
+    const [first, last] = this.outer(i, heights.length - 1);
+    part.sway.setAttribute("x", this.px((first + last) / 2));
     part.sway.setAttribute("y", this.py(heights[heights.length - 1]) - 12);
     part.sway.textContent = `${fixed(roof * 1e3, 1)} mm`;
   }
@@ -390,7 +418,7 @@ class Scene {
         mark(hinge, [end ? to - off : from + off, this.py(heights[level])]);
       } else if (kind === "f") {
         // Below the ground line: rocking first, sliding beneath it.
-        mark(hinge, [this.px(lines[line - 1] + f * sway[0]), this.py(0) + (end ? 4.6 : 2.2) * size]);
+        mark(hinge, [this.px(lines[line - 1] + f * sway[0]), this.py(heights[0]) + (end ? 4.6 : 2.2) * size]);
       } else {
         for (const x of [lines[0], lines[lines.length - 1]]) mark(hinge, onColumn(level, x, 0.5));
       }
@@ -434,7 +462,7 @@ class Scene {
   /** A damper inside a building: a line between the middles of its floors, with a pot half way. */
   brace(link, sways) {
     const building = link.between[0];
-    const heights = [0, ...page.buildings[building].heights];
+    const heights = levelsOf(page.buildings[building]);
     const width = Math.min(this.widths[building], 6);
     const middle = this.left[building] + this.widths[building] / 2;
     const [a, b] = link.inside.map((floor, k) => {
@@ -473,6 +501,11 @@ class Scene {
 
   /** How long a flash lingers [s]. */
   afterglow = 0.15;
+}
+
+/** Heights of the base and the floors above the datum of elevations [m]. */
+function levelsOf(building) {
+  return [0, ...building.heights].map((height) => height + (building.elevation ?? 0));
 }
 
 /** A length in mm without needless decimals. */

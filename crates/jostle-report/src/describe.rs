@@ -8,7 +8,7 @@ use jostle::motion::Wave;
 use jostle::results::summary::{BuildingSummary, GapSummary, LinkSummary};
 use maud::{Markup, html};
 
-use crate::facts::{Facts, grouped};
+use crate::facts::{Facts, by_place, grouped};
 use crate::message;
 use crate::{Page, backbones, format, special};
 
@@ -60,6 +60,11 @@ fn building(
             format::plain(heights.last().copied().unwrap_or(0.0), 4),
         ),
     )];
+    let elevation = building.base.elevation;
+    if elevation != 0.0 {
+        let text = format!("{} m", format::plain(elevation, 4));
+        facts.push((message::elevation_of_the_base(), text));
+    }
     match &building.structure {
         Structure::Frame(frame) => frame_facts(frame, &mut facts),
         Structure::Shear(shear) => shear_facts(shear, &mut facts),
@@ -171,17 +176,35 @@ fn frame_facts(frame: &Frame, facts: &mut Facts) {
         .map(|span| format::plain(*span, 3))
         .collect();
     facts.push((message::spans(), format!("{} m", spans.join(" + "))));
-    let rigidities = |sections: &[jostle::Section]| {
-        let values: Vec<f64> = sections.iter().map(|s| s.flexural_rigidity).collect();
-        grouped(&values, format::rigidity)
+    let storeys = frame.storey_heights.len();
+    let columns = |value: fn(&jostle::Section) -> f64| {
+        move |storey: usize| {
+            let all = (0..frame.lines()).map(|line| frame.column(storey, line).map(value));
+            all.collect()
+        }
     };
-    facts.push((message::columns_ei(), rigidities(&frame.columns)));
-    facts.push((message::beams_ei(), rigidities(&frame.beams)));
-    let columns: Vec<f64> = frame.columns.iter().map(|s| s.line_mass).collect();
+    let beams = |floor: usize| {
+        let all = (0..frame.spans.len()).map(|bay| Some(frame.beam(floor, bay)?.flexural_rigidity));
+        all.collect()
+    };
+    facts.push((
+        message::columns_ei(),
+        by_place(
+            storeys,
+            columns(|own| own.flexural_rigidity),
+            format::rigidity,
+        ),
+    ));
+    facts.push((
+        message::beams_ei(),
+        by_place(storeys, beams, format::rigidity),
+    ));
     facts.push((
         message::line_mass(),
         message::columns_beams_kg_m(
-            grouped(&columns, |m| format::plain(m, 4)),
+            by_place(storeys, columns(|own| own.line_mass), |m| {
+                format::plain(m, 4)
+            }),
             grouped(&frame.beam_mass, |m| format::plain(m, 4)),
         ),
     ));

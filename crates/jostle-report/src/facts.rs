@@ -34,6 +34,38 @@ pub(crate) fn grouped(values: &[f64], text: impl Fn(f64) -> String) -> String {
     }
 }
 
+/// Values of members, storey by storey from the ground up and from left to right: "60 | 95 | –" where those of a storey differ.
+pub(crate) fn by_place(
+    storeys: usize,
+    of_storey: impl Fn(usize) -> Vec<Option<f64>>,
+    text: impl Fn(f64) -> String,
+) -> String {
+    let rows: Vec<Vec<Option<f64>>> = (0..storeys).map(of_storey).collect();
+    let is_plain = |row: &Vec<Option<f64>>| row.iter().all(|own| own.is_some() && *own == row[0]);
+    if rows.iter().all(is_plain) {
+        let values: Vec<f64> = rows.iter().filter_map(|row| *row.first()?).collect();
+        return grouped(&values, text);
+    }
+    let mut groups: Vec<(usize, usize, &Vec<Option<f64>>)> = Vec::new();
+    for (i, row) in rows.iter().enumerate() {
+        match groups.last_mut() {
+            Some((_, last, same)) if *same == row => *last = i + 1,
+            _ => groups.push((i + 1, i + 1, row)),
+        }
+    }
+    let texts = groups.iter().map(|(first, last, row)| {
+        let own = row
+            .iter()
+            .map(|own| own.map_or_else(|| "–".to_owned(), &text));
+        let own: Vec<String> = own.collect();
+        match first == last {
+            true => format!("{first}: {}", own.join(" | ")),
+            false => format!("{first}–{last}: {}", own.join(" | ")),
+        }
+    });
+    texts.collect::<Vec<_>>().join(", ")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -44,5 +76,22 @@ mod tests {
         let text = |values: &[f64]| grouped(values, |v| format::plain(v, 2));
         assert_eq!(text(&[3.2, 3.2]), "3.2");
         assert_eq!(text(&[60.0, 60.0, 40.0]), "1–2: 60, 3: 40");
+    }
+
+    #[test]
+    fn members_of_a_storey_stand_side_by_side_where_they_differ() {
+        let text = |rows: &[[Option<f64>; 3]]| {
+            by_place(
+                rows.len(),
+                |storey| rows[storey].to_vec(),
+                |v| format::plain(v, 2),
+            )
+        };
+        let [all, some] = [[Some(60.0); 3], [None, Some(60.0), Some(95.0)]];
+        assert_eq!(text(&[all, all]), "60");
+        assert_eq!(
+            text(&[all, some, some]),
+            "1: 60 | 60 | 60, 2–3: – | 60 | 95"
+        );
     }
 }

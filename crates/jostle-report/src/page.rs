@@ -31,6 +31,13 @@ pub(crate) const IN_SPACE: [&str; 2] = [
     include_str!("../assets/space.js"),
     include_str!("../assets/orbits.js"),
 ];
+
+/// Scripts as one, without the indentation of their lines, which no text of theirs runs across: pages stay small.
+fn flush(scripts: &[&str]) -> String {
+    let lines = scripts.iter().flat_map(|script| script.lines());
+    lines.flat_map(|line| [line.trim_start(), "\n"]).collect()
+}
+
 /// The whole page.
 pub(crate) fn page(page: &Page) -> Markup {
     let headline = verdict(page.summary);
@@ -45,8 +52,8 @@ pub(crate) fn page(page: &Page) -> Markup {
         .iter()
         .any(|building| building.may_yield());
     let script = match page.model.is_in_space() {
-        true => IN_SPACE.concat() + &SCRIPTS.concat(),
-        false => SCRIPTS.concat(),
+        true => flush(&IN_SPACE) + &flush(&SCRIPTS),
+        false => flush(&SCRIPTS),
     };
     html! {
         (DOCTYPE)

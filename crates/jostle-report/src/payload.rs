@@ -137,6 +137,12 @@ struct Outline<'a> {
     heights: Vec<f64>,
     /// Bay widths \[m\].
     spans: Vec<f64>,
+    /// Storeys of every column line, of a frame in one plane that lacks some.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    tops: Vec<usize>,
+    /// Height of the base above the datum, if it is not zero \[m\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    elevation: Option<f64>,
     /// Braces and struts of a frame in one plane.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     diagonals: Vec<DiagonalData>,
@@ -512,6 +518,11 @@ fn outline(building: &Building) -> Outline<'_> {
         frame,
         heights: building.floor_heights(),
         spans,
+        tops: match &building.structure {
+            Structure::Frame(frame) if !frame.is_regular() => frame.tops(),
+            _ => Vec::new(),
+        },
+        elevation: Some(building.base.elevation).filter(|own| *own != 0.0),
         diagonals: match &building.structure {
             Structure::Frame(frame) => frame.diagonals.iter().map(DiagonalData::of).collect(),
             _ => Vec::new(),

@@ -5,7 +5,7 @@ use jostle::model::{Base, Building, Joint, Structure};
 use jostle_section::Section;
 use jostle_section::formula::Member;
 
-use crate::facts::{Facts, grouped};
+use crate::facts::{Facts, by_place};
 use crate::message;
 use crate::{Page, ReinforcedSection, format};
 
@@ -20,21 +20,26 @@ pub(crate) fn facts(building: &Building) -> Facts {
     };
     facts.extend(gravity.map(|text| (message::gravity(), text.to_owned())));
     if let Structure::Frame(frame) = &building.structure {
-        for (name, sections) in [
-            (message::columns_ga(), &frame.columns),
-            (message::beams_ga(), &frame.beams),
-        ] {
-            let values: Vec<f64> = sections
-                .iter()
-                .map(|section| section.shear_rigidity.unwrap_or(f64::INFINITY))
-                .collect();
-            if values.iter().any(|value| value.is_finite()) {
-                let text = |value: f64| match value.is_finite() {
-                    true => format::force(value),
-                    false => message::rigid().into(),
-                };
-                facts.push((name, grouped(&values, text)));
-            }
+        let storeys = frame.storey_heights.len();
+        let of = |section: &jostle::Section| section.shear_rigidity.unwrap_or(f64::INFINITY);
+        let text = |value: f64| match value.is_finite() {
+            true => format::force(value),
+            false => message::rigid().into(),
+        };
+        let shears = |section: &jostle::Section| section.shear_rigidity.is_some();
+        if frame.all_columns().any(|(_, own)| shears(own)) {
+            let row = |storey: usize| {
+                let all = (0..frame.lines()).map(|line| frame.column(storey, line).map(of));
+                all.collect()
+            };
+            facts.push((message::columns_ga(), by_place(storeys, row, text)));
+        }
+        if frame.all_beams().any(|(_, own)| shears(own)) {
+            let row = |floor: usize| {
+                let all = (0..frame.spans.len()).map(|bay| frame.beam(floor, bay).map(of));
+                all.collect()
+            };
+            facts.push((message::beams_ga(), by_place(storeys, row, text)));
         }
     }
     facts

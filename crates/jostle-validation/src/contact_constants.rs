@@ -5,7 +5,8 @@ use jostle::{ContactLaw, LawKind, RestitutionIs};
 use serde_json::Value;
 
 use crate::data::{document, list, number, numbers};
-use crate::members::{GRAVITY, summary_of};
+use crate::members::files::GRAVITY;
+use crate::members::summary_of;
 use crate::row::Row;
 
 /// The tolerance of the program, and of the comparison: peaks of the references at corners of the force are those of

@@ -115,12 +115,12 @@ pub use interface::{UnmatchedFloors, floor_and_height, sticking_stiffness};
 pub use model::{
     Analysis, Axial, Base, BearingBounds, BearingFactors, Building, Damping, Diagonal,
     DiagonalKind, DiagonalPlace, FloorMatrices, FloorPairs, Foundation, FoundationSprings, Frame,
-    FrameHinges, Gap, Given, GivenFloor, GivenInPlan, Gravity, HalfSpace, Hinges, Integrator,
-    Isolation, Isolator, IsolatorDamping, Joint, JointRequest, Level, Link, LinkLaw, MemberRequest,
-    Model, ModelFault, PlanArea, PlanAxis, PlanContact, PlanFrame, PlanPoint, PlanSpring,
-    ProportionalDamping, Rise, Section, Shear, ShearEnds, ShearSpring, Soil, SoilCoupling, Solver,
-    SpaceFrame, SpaceMember, SpacePlace, SpaceSection, SpeedFriction, Stop, Structure, Tier,
-    TierStorey, Tiers, Wall,
+    FrameHinges, FramePlace, Gap, Given, GivenFloor, GivenInPlan, Gravity, HalfSpace, Hinges,
+    Integrator, Isolation, Isolator, IsolatorDamping, Joint, JointRequest, Level, Link, LinkLaw,
+    MemberRequest, Model, ModelFault, PlanArea, PlanAxis, PlanContact, PlanFrame, PlanPoint,
+    PlanSpring, ProportionalDamping, Rise, Section, Shear, ShearEnds, ShearSpring, Soil,
+    SoilCoupling, Solver, SpaceFrame, SpaceMember, SpacePlace, SpaceSection, SpeedFriction, Stop,
+    Structure, Tier, TierStorey, Tiers, Wall,
 };
 pub use motion::{Bearing, GroundMotion, GroundPath, GroundPoint, Grounds, OwnGround, Wave};
 pub use quantity::{Quantity, Unit};

@@ -94,7 +94,7 @@ impl Script<'_> {
                 self.nodes,
                 "    ({tag}, {:?}, {:?}, {mass:?}, {:?}),",
                 rounded(node.x + self.places[index]),
-                rounded(node.y),
+                rounded(node.y + building.discretization.elevation),
                 node.inertia[2],
             );
             let fixed: Vec<&str> = (0..COMPONENTS)

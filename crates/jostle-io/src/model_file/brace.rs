@@ -3,16 +3,18 @@
 use jostle::{Diagonal, DiagonalKind, DiagonalPlace, Rise};
 
 use super::hinges::read_spring;
-use super::space_frame::read_range;
+use super::places::range;
 use crate::keys::{DIRECTIONS, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
 
-/// Storey heights and bay widths of the frame that diagonals belong to \[m\].
+/// Storey heights and bay widths of the frame that diagonals belong to \[m\], and its joints.
 #[derive(Clone, Copy)]
 pub(super) struct Bays<'a> {
     pub(super) heights: &'a [f64],
     pub(super) widths: &'a [f64],
+    /// Whether a diagonal finds both its joints.
+    pub(super) has_joints: &'a dyn Fn(DiagonalPlace) -> bool,
 }
 
 /// Force per elongation of what stands in a bay, from its diagonal \[N/m; m\]; `None` after a fault.
@@ -122,7 +124,8 @@ fn read(reader: &mut Reader<'_>, entry: &Field<'_>, bays: Bays<'_>) -> Option<Ve
     Some(braces)
 }
 
-/// Diagonals that rise these ways in the bays and storeys that a table names; all if it names none.
+/// Diagonals that rise these ways in the bays and storeys that a table names; all if it names none. Without bays of its own, it stands
+/// only where there are joints.
 pub(super) fn places(
     reader: &mut Reader<'_>,
     view: &View<'_>,
@@ -131,25 +134,25 @@ pub(super) fn places(
     bays: Bays<'_>,
     stiffness: &Stiffness<'_>,
 ) -> Option<Vec<Diagonal>> {
-    let mut range = |key, most| match reader.get(view, key) {
-        Some(field) => read_range(reader, &field, most),
-        None => Some([1, most]),
-    };
-    let storeys = range("storeys", bays.heights.len());
-    let named = range("bay", bays.widths.len());
+    let storeys = range(reader, view, "storeys", bays.heights.len());
+    let named = range(reader, view, "bay", bays.widths.len());
     let (storeys, named) = (storeys?, named?);
     let mut found = Vec::new();
     for storey in storeys[0]..=storeys[1] {
         for bay in named[0]..=named[1] {
             let length = libm::hypot(bays.widths[bay - 1], bays.heights[storey - 1]);
             for &rise in rises {
+                let place = DiagonalPlace {
+                    kind,
+                    storey,
+                    bay,
+                    rise,
+                };
+                if !view.has("bay") && !(bays.has_joints)(place) {
+                    continue;
+                }
                 found.push(Diagonal {
-                    place: DiagonalPlace {
-                        kind,
-                        storey,
-                        bay,
-                        rise,
-                    },
+                    place,
                     stiffness: stiffness(length)?,
                     hysteresis: None,
                 });

@@ -5,6 +5,7 @@ use jostle::separation::BuildingCodes;
 use jostle::{Base, Building, Damping, Gravity, Model, PlanPoint, ProportionalDamping, Structure};
 
 use super::damper::{self, Damper};
+use super::places::is_by_place;
 use super::reinforced::{self, ReinforcedMember};
 use super::{
     codes, frame, given, given_in_plan, hinges, isolation, plan, shear, shear_failure, soil,
@@ -240,6 +241,10 @@ fn read(
             ..Base::default()
         };
     }
+    if let Some(field) = reader.get(&view, "elevation") {
+        let elevation = reader.quantity(&field, Dimension::Length);
+        building.base.elevation = elevation.unwrap_or(0.0);
+    }
     let mut flag = |key| {
         reader
             .get(&view, key)
@@ -272,7 +277,7 @@ fn read(
         // Those of a plan are part of it.
         Structure::Tiers(_) | Structure::Given(_) => None,
         Structure::Frame(frame) => {
-            let reinforced = reinforced::read(reader, &view, frame.storey_heights.len());
+            let reinforced = reinforced::read(reader, &view, frame);
             let here = (reader.count_faults() == noted && is_sound(&building))
                 .then(|| reinforced::members(index, &building, &reinforced));
             let here = match here {
@@ -382,6 +387,9 @@ pub(super) fn storeys(
         let Some(field) = reader.get(view, list) else {
             continue;
         };
+        if is_by_place(reader, view, list) {
+            continue;
+        }
         match field.entries().map(|entries| entries.len()) {
             Some(0) => {
                 reader.bad(&field, "is empty");

@@ -1,11 +1,11 @@
 //! `kind = "frame"`: columns, beams and their masses.
 
-use jostle::{Axial, Frame, Joint};
+use jostle::{Axial, DiagonalPlace, Frame, Joint};
 
 use super::brace::{self, Bays};
 use super::building::{or_rigid, per_storey, storeys};
-use super::infill;
-use super::section::{Material, read_modulus, read_sections};
+use super::section::{Material, read_modulus};
+use super::{frame_members, infill};
 use crate::keys::{AXIAL, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
@@ -102,14 +102,12 @@ fn read_members(
         shears,
         poisson_ratio,
     };
-    let columns = read_sections(
-        reader,
-        view,
-        "column",
-        count,
+    let materials = [
         material(column_factor, shears.0),
-    );
-    let beams = read_sections(reader, view, "beam", count, material(beam_factor, shears.1));
+        material(beam_factor, shears.1),
+    ];
+    let [(columns, own_columns), (beams, own_beams)] =
+        frame_members::read(reader, view, count, spans.len(), materials);
     let (beam_mass, floor_mass) = masses(reader);
     let column_segments = match reader.get(view, "column_segments") {
         Some(field) => reader.count(&field).unwrap_or(1),
@@ -121,15 +119,22 @@ fn read_members(
         spans,
         columns,
         beams,
+        own_columns,
+        own_beams,
         beam_mass,
         floor_mass,
         column_segments,
         joint: joint(reader, view),
         ..Frame::default()
     };
+    let has_joints = |place: DiagonalPlace| {
+        let [lower, upper] = place.lines();
+        frame.has_joint(place.storey - 1, lower) && frame.has_joint(place.storey, upper)
+    };
     let bays = Bays {
         heights: &frame.storey_heights,
         widths: &frame.spans,
+        has_joints: &has_joints,
     };
     let mut diagonals = brace::read_all(reader, view, bays);
     diagonals.extend(infill::read_all(reader, view, bays));
@@ -137,7 +142,9 @@ fn read_members(
     // Foundations on soil need columns that keep their length, and columns that shorten need their EA.
     let shortens = frame.tallness() > 1.0
         && !view.has("foundation")
-        && frame.columns.iter().all(|own| own.axial_rigidity.is_some());
+        && frame
+            .all_columns()
+            .all(|(_, own)| own.axial_rigidity.is_some());
     let axial = flexible_members(reader, view, "axial", Section::Axial, shortens);
     frame.axial = Axial {
         columns_flexible: axial.0,

@@ -117,7 +117,7 @@ pub(super) fn soften_contacts(model: &mut Model, reader: &mut Reader<'_>, view: 
 
 /// The highest floor of a building that a neighbour reaches, from 0; the roof if it has none.
 fn highest_struck(model: &Model, index: usize) -> usize {
-    let heights = model.buildings[index].floor_heights();
+    let heights = model.buildings[index].floor_levels();
     let roof = heights.last().copied().unwrap_or(0.0);
     let gaps = model.gaps.iter().map(|gap| gap.between);
     let beside = gaps
@@ -127,8 +127,7 @@ fn highest_struck(model: &Model, index: usize) -> usize {
                 .into_iter()
                 .flatten()
                 .filter(|other| *other != index);
-            let roofs =
-                others.filter_map(|other| model.buildings.get(other)?.floor_heights().pop());
+            let roofs = others.filter_map(|other| model.buildings.get(other)?.floor_levels().pop());
             // A wall reaches every floor.
             roofs.fold(roof, f64::min)
         });

@@ -9,6 +9,7 @@ use jostle_section::formula::Member;
 use jostle_section::{EndCurve, Options};
 
 use super::building::{has_length, per_storey};
+use super::frame_members::filled;
 use super::reinforced::ReinforcedMember;
 use crate::keys::{HINGE_METHODS, HINGE_SOURCES, RULES, Section};
 use crate::quantity::Dimension;
@@ -273,19 +274,17 @@ fn read_members(
             "column" => vec![frame.storey_heights[storey]; frame.spans.len() + 1],
             _ => frame.spans.clone(),
         };
-        let rigidity = match key {
-            "column" => frame.columns.get(storey)?.flexural_rigidity,
-            _ => frame.beams.get(storey)?.flexural_rigidity,
-        };
         let mut row = Vec::new();
-        for length in lengths {
-            let stiffness = initial.stiffness(rigidity, length);
-            let [a, b] = sides.map(|side| {
-                if rule == HysteresisRule::Elastic {
-                    side
-                } else {
-                    initial.ratios(side)
-                }
+        for (place, length) in lengths.into_iter().enumerate() {
+            // Where there is no member, its hinge has no part.
+            let section = match key {
+                "column" => frame.column(storey, place).or(frame.columns.get(storey)),
+                _ => frame.beam(storey, place).or(frame.beams.get(storey)),
+            };
+            let stiffness = initial.stiffness(section?.flexural_rigidity, length);
+            let [a, b] = sides.map(|side| match rule {
+                HysteresisRule::Elastic => side,
+                _ => initial.ratios(side),
             });
             let spring = Backbone::from_forces(stiffness, a, b)
                 .and_then(|backbone| Hysteresis::new(rule, backbone));
@@ -449,18 +448,19 @@ fn of_sections(
     method: &str,
     members: &[ReinforcedMember],
 ) -> Option<Hinges> {
-    let (storeys, bays) = (frame.storey_heights.len(), frame.spans.len());
+    let storeys = frame.storey_heights.len();
     let mut hinges = FrameHinges::default();
     let mut sound = true;
-    for (kind, word, per_storey) in [
-        (Member::Column, "column", bays + 1),
-        (Member::Beam, "beam", bays),
-    ] {
+    for (kind, word) in [(Member::Column, "column"), (Member::Beam, "beam")] {
+        let (per_storey, count) = match kind {
+            Member::Column => (frame.lines(), frame.all_columns().count()),
+            Member::Beam => (frame.spans.len(), frame.all_beams().count()),
+        };
         let of_kind: Vec<_> = members
             .iter()
             .filter(|member| member.member == kind)
             .collect();
-        if of_kind.len() != storeys * per_storey {
+        if of_kind.len() != count {
             let some = if of_kind.is_empty() {
                 "no"
             } else {
@@ -482,7 +482,7 @@ fn of_sections(
             continue;
         }
         let mut said: Vec<String> = Vec::new();
-        let mut rows: Vec<Vec<Hysteresis>> = vec![Vec::new(); storeys];
+        let mut rows: Vec<Vec<Option<Hysteresis>>> = vec![vec![None; per_storey]; storeys];
         let mut known: Vec<(&ReinforcedMember, Hysteresis)> = Vec::new();
         for member in of_kind {
             let alike = known.iter().find(|(other, _)| {
@@ -501,7 +501,7 @@ fn of_sections(
                     if alike.is_none() {
                         known.push((member, spring));
                     }
-                    rows[member.floor - 1].push(spring);
+                    rows[member.floor - 1][member.place - 1] = Some(spring);
                 }
                 Err(problem) => {
                     let problem = format!(
@@ -516,6 +516,7 @@ fn of_sections(
                 }
             }
         }
+        let rows = filled(rows);
         match kind {
             Member::Column => hinges.columns = rows,
             Member::Beam => hinges.beams = rows,

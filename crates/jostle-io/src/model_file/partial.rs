@@ -55,9 +55,7 @@ fn remedy(buildings: [&Building; 2], found: &UnmatchedFloors) -> String {
             // Floors of the shear building against columns of the frame.
             let (shear, frame) = if left_has { (1, 0) } else { (0, 1) };
             let point = found.floors[shear].first().and_then(|&floor| {
-                let height = *buildings[shear]
-                    .floor_heights()
-                    .get(floor.checked_sub(1)?)?;
+                let height = *buildings[shear].floor_levels().get(floor.checked_sub(1)?)?;
                 Some(format!(" as {}", floor_and_height(shear, floor, height)))
             });
             format!(

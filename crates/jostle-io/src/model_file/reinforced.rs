@@ -1,14 +1,15 @@
 //! Reinforcement of columns and beams.
 
 use jostle::Building;
-use jostle::Structure;
 use jostle::statics::{STANDARD_GRAVITY, compressions};
-use jostle::structure::Discretization;
+use jostle::structure::{Discretization, MemberPlace};
 use jostle::system::BuildingSystem;
+use jostle::{Frame, Structure};
 use jostle_section::capacity::ShearRule;
 use jostle_section::formula::Member;
 use jostle_section::{BarsError, Reinforcement, Section, Steel, StrengthLevel, Ties};
 
+use super::places::{Layout, sections};
 use crate::grade::ConcreteGrade;
 use crate::keys::{self, SECTION_CONCRETES, STEELS, STRENGTHS};
 use crate::quantity::Dimension;
@@ -45,12 +46,13 @@ pub struct ReinforcedMember {
     pub home_rule: Option<ShearRule>,
 }
 
-/// Sections of the storeys of a building, where they are reinforced.
+/// Sections of the columns and beams of a building, where they are reinforced.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Reinforced {
-    /// By storey; `None` without bars.
-    pub(super) columns: Vec<Option<Laid>>,
-    pub(super) beams: Vec<Option<Laid>>,
+    /// By storey and line; `None` without bars.
+    pub(super) columns: Vec<Vec<Option<Laid>>>,
+    /// By floor and bay.
+    pub(super) beams: Vec<Vec<Option<Laid>>>,
 }
 
 /// A section with its bars.
@@ -70,46 +72,56 @@ pub(super) enum Axial {
     Given(f64),
 }
 
-/// Reads the reinforcement of all storeys of a frame; faults are noted.
-pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, storeys: usize) -> Reinforced {
+/// Reads the reinforcement of all members of a frame; faults are noted.
+pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, frame: &Frame) -> Reinforced {
     // Faults are noted where the modulus is read.
     let concrete = reader
         .get(view, "concrete")
         .and_then(|field| reader.quietly(|reader| reader.concrete_name(&field, SECTION_CONCRETES)));
-    let mut of = |key: &'static str| {
-        let Some(field) = reader.get(view, key) else {
-            return vec![None; storeys];
+    let storeys = frame.storey_heights.len();
+    let mut of = |member: Member| {
+        let across = match member {
+            Member::Column => frame.lines(),
+            Member::Beam => frame.spans.len(),
         };
-        let is_column = key == "column";
-        match field.entries() {
-            Some(entries) => entries
-                .iter()
-                .map(|entry| read_one(reader, entry, is_column, concrete))
-                .collect(),
-            None => vec![read_one(reader, &field, is_column, concrete); storeys],
-        }
+        let layout =
+            reader.quietly(|reader| Layout::read(reader, view, member, Some(storeys), across));
+        let Some(layout) = layout else {
+            return Vec::new();
+        };
+        let tables = layout.tables.iter();
+        let laid: Vec<Option<Laid>> = tables
+            .map(|table| match table.omits {
+                true => None,
+                false => read_one(reader, &table.field, member, concrete),
+            })
+            .collect();
+        let rows = layout.holds.iter().enumerate().map(|(storey, row)| {
+            let places = row.iter().enumerate().map(|(place, table)| {
+                let exists = match member {
+                    Member::Column => frame.column(storey, place),
+                    Member::Beam => frame.beam(storey, place),
+                };
+                laid[(*table)?].clone().filter(|_| exists.is_some())
+            });
+            places.collect()
+        });
+        rows.collect()
     };
     Reinforced {
-        columns: of("column"),
-        beams: of("beam"),
+        columns: of(Member::Column),
+        beams: of(Member::Beam),
     }
 }
 
 fn read_one(
     reader: &mut Reader<'_>,
     field: &Field<'_>,
-    is_column: bool,
+    member: Member,
     of_building: Option<ConcreteGrade>,
 ) -> Option<Laid> {
     // Its keys were checked where the size was read.
-    let view = reader.reopen(
-        field,
-        if is_column {
-            &[keys::Section::Column]
-        } else {
-            &[keys::Section::Beam]
-        },
-    )?;
+    let view = reader.reopen(field, sections(member))?;
     let level = match reader.get(&view, "strength") {
         Some(field) => StrengthLevel::named(reader.choice(&field, STRENGTHS, &[])?)?,
         None => StrengthLevel::default(),
@@ -138,7 +150,7 @@ fn read_one(
         let text = reader.text(&field)?;
         understood(reader, &field, Ties::parse(&text))
     });
-    let axial = if is_column {
+    let axial = if member == Member::Column {
         match reader.get(&view, "axial_load") {
             Some(field) if field.as_text() != Some("from gravity") => {
                 reader.quantity(&field, Dimension::Force).map(Axial::Given)
@@ -249,74 +261,69 @@ pub(super) fn members(
         let entry = entry.as_ref();
         entry.is_some_and(|laid| laid.axial == Axial::FromGravity)
     };
-    // Depths of what frames into a member: of a beam at a floor, of a column below or above it.
-    let depth = |list: &[Option<Laid>], index: Option<usize>| {
-        let laid = index.and_then(|index| list.get(index)?.as_ref());
+    // Depths of what frames into a member, where it is known.
+    let depth = |list: &[Vec<Option<Laid>>], row: Option<usize>, place: Option<usize>| {
+        let laid = row
+            .zip(place)
+            .and_then(|(row, place)| list.get(row)?.get(place)?.as_ref());
         laid.map_or(0.0, |laid| laid.section.depth)
     };
-    let carried = if reinforced.columns.iter().any(asks_gravity) {
+    let deeper_beam = |floor: Option<usize>, line: usize| {
+        let [left, right] =
+            [line.checked_sub(1), Some(line)].map(|bay| depth(&reinforced.beams, floor, bay));
+        left.max(right)
+    };
+    let carried = if reinforced.columns.iter().flatten().any(asks_gravity) {
         column_loads(building)?
     } else {
         Vec::new()
     };
     let mut members = Vec::new();
-    for (storey, entry) in reinforced.columns.iter().enumerate() {
+    let columns = frame.all_columns().map(|own| (Member::Column, own));
+    let beams = frame.all_beams().map(|own| (Member::Beam, own));
+    for (member, ([storey, place], own)) in columns.chain(beams) {
+        let list = match member {
+            Member::Column => &reinforced.columns,
+            Member::Beam => &reinforced.beams,
+        };
+        let laid = list.get(storey).and_then(|row| row.get(place)?.as_ref());
         let Some(Laid {
             section,
             axial,
             level,
             home_rule,
-        }) = entry
+        }) = laid
         else {
             continue;
         };
-        let foot = depth(&reinforced.beams, storey.checked_sub(1));
-        let head = depth(&reinforced.beams, Some(storey));
-        for line in 0..=frame.spans.len() {
-            members.push(ReinforcedMember {
-                building: index,
-                member: Member::Column,
-                floor: storey + 1,
-                place: line + 1,
-                section: section.clone(),
-                compression: match axial {
+        let (length, compression, depths) = match member {
+            Member::Column => (
+                frame.storey_heights[storey],
+                match axial {
                     Axial::Given(force) => *force,
-                    Axial::FromGravity => carried[storey][line],
+                    Axial::FromGravity => carried[storey][place],
                 },
-                length: frame.storey_heights[storey],
-                rigidity: frame.columns[storey].flexural_rigidity,
-                clear_length: clear(frame.storey_heights[storey], 0.5 * (foot + head)),
-                level: *level,
-                home_rule: *home_rule,
-            });
-        }
-    }
-    for (floor, entry) in reinforced.beams.iter().enumerate() {
-        let Some(Laid {
-            section,
-            level,
-            home_rule,
-            ..
-        }) = entry
-        else {
-            continue;
+                deeper_beam(storey.checked_sub(1), place) + deeper_beam(Some(storey), place),
+            ),
+            Member::Beam => {
+                let [left, right] = [place, place + 1]
+                    .map(|line| depth(&reinforced.columns, Some(storey), Some(line)));
+                (frame.spans[place], 0.0, left + right)
+            }
         };
-        let column = depth(&reinforced.columns, Some(floor));
-        for (bay, span) in frame.spans.iter().enumerate() {
-            members.push(ReinforcedMember {
-                building: index,
-                member: Member::Beam,
-                floor: floor + 1,
-                place: bay + 1,
-                section: section.clone(),
-                compression: 0.0,
-                length: *span,
-                rigidity: frame.beams[floor].flexural_rigidity,
-                clear_length: clear(*span, column),
-                level: *level,
-                home_rule: *home_rule,
-            });
-        }
+        members.push(ReinforcedMember {
+            building: index,
+            member,
+            floor: storey + 1,
+            place: place + 1,
+            section: section.clone(),
+            compression,
+            length,
+            rigidity: own.flexural_rigidity,
+            clear_length: clear(length, 0.5 * depths),
+            level: *level,
+            home_rule: *home_rule,
+        });
     }
     Ok(members)
 }
@@ -326,7 +333,7 @@ fn clear(length: f64, depths: f64) -> f64 {
     (length - depths).max(0.2 * length)
 }
 
-/// Compression at the foot of every column, by storey and column line \[N\].
+/// Compression at the foot of every column, by storey and column line; zero where there is none \[N\].
 fn column_loads(building: &Building) -> Result<Vec<Vec<f64>>, String> {
     let Structure::Frame(frame) = &building.structure else {
         return Ok(Vec::new());
@@ -335,25 +342,12 @@ fn column_loads(building: &Building) -> Result<Vec<Vec<f64>>, String> {
     let compressions = compressions(&system, STANDARD_GRAVITY).map_err(|_| {
         "cannot be taken from gravity: the building does not stand by itself".to_owned()
     })?;
-    let stick_model = &system.discretization.stick_model;
-    let near = |a: f64, b: f64| (a - b).abs() < 1e-6;
-    let (mut foot, mut loads) = (0.0, Vec::new());
-    for height in &frame.storey_heights {
-        let (mut x, mut row) = (0.0, Vec::new());
-        for line in 0..=frame.spans.len() {
-            let at_foot = stick_model
-                .members
-                .iter()
-                .zip(&compressions)
-                .find(|(member, _)| {
-                    let [a, b] = member.ends.map(|end| stick_model.nodes[end]);
-                    near(a.x, x) && near(b.x, x) && near(a.y.min(b.y), foot)
-                });
-            row.push(at_foot.map_or(0.0, |(_, force)| *force));
-            x += frame.spans.get(line).copied().unwrap_or(0.0);
+    let mut loads = vec![vec![0.0; frame.lines()]; frame.storey_heights.len()];
+    for member in &system.discretization.members {
+        if let MemberPlace::Column { line, storey } = member.place {
+            // The lowest element is the first.
+            loads[storey - 1][line - 1] = compressions[member.elements.start];
         }
-        loads.push(row);
-        foot += height;
     }
     Ok(loads)
 }

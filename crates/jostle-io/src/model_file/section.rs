@@ -2,10 +2,11 @@
 
 use jostle::Section;
 use jostle_section::StrengthLevel;
+use jostle_section::formula::Member;
 
-use super::building::has_length;
+use super::places::{self, Layout};
 use crate::grade::ConcreteGrade;
-use crate::keys::{self, CONCRETES, SECTION_CONCRETES};
+use crate::keys::{CONCRETES, SECTION_CONCRETES};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
 
@@ -34,7 +35,7 @@ pub(super) struct Material {
 }
 
 /// Stands in after a fault.
-const STAND_IN: Section = Section {
+pub(super) const STAND_IN: Section = Section {
     flexural_rigidity: 1.0,
     axial_rigidity: Some(1.0),
     shear_rigidity: None,
@@ -72,50 +73,47 @@ fn modulus_of_grade(grade: ConcreteGrade) -> Option<f64> {
     concrete.map(|concrete| concrete.modulus)
 }
 
-/// Sections of all storeys: one table for all, or a list from the ground up.
+/// Sections of the tables of columns or beams: `None` of a table that omits its places, `STAND_IN` after a fault.
 pub(super) fn read_sections(
     reader: &mut Reader<'_>,
     view: &View<'_>,
-    key: &'static str,
-    storeys: Option<usize>,
+    member: Member,
+    layout: Option<&Layout<'_>>,
     material: Material,
-) -> Vec<Section> {
-    let stand_in = vec![STAND_IN; storeys.unwrap_or(1)];
-    let Some(field) = reader.get(view, key) else {
+) -> Vec<Option<Section>> {
+    let Some(layout) = layout else {
+        let key = if member == Member::Column {
+            "column"
+        } else {
+            "beam"
+        };
         reader.missing(
             view,
             key,
             format!("add {key} = {{ width = \"300 mm\", depth = \"600 mm\" }}"),
         );
-        return stand_in;
+        return Vec::new();
     };
-    let Some(entries) = field.entries() else {
-        let section = read_section(reader, &field, key == "column", material);
-        return section.map_or(stand_in, |section| vec![section; storeys.unwrap_or(1)]);
-    };
-    let sections: Option<Vec<_>> = entries
-        .iter()
-        .map(|entry| read_section(reader, entry, key == "column", material))
-        .collect::<Vec<_>>()
-        .into_iter()
-        .collect();
-    match (has_length(reader, &field, entries.len(), storeys), sections) {
-        (Some(()), Some(sections)) => sections,
-        _ => stand_in,
-    }
+    let tables = layout.tables.iter();
+    let sections = tables.map(|table| {
+        if table.omits {
+            // Its keys are checked all the same.
+            reader.open(&table.field, places::sections(member));
+            return None;
+        }
+        let section = read_section(reader, &table.field, member, material);
+        Some(section.unwrap_or(STAND_IN))
+    });
+    sections.collect()
 }
 
 fn read_section(
     reader: &mut Reader<'_>,
     field: &Field<'_>,
-    is_column: bool,
+    member: Member,
     material: Material,
 ) -> Option<Section> {
-    let view = if is_column {
-        reader.open(field, &[keys::Section::Column])
-    } else {
-        reader.open(field, &[keys::Section::Beam])
-    }?;
+    let view = reader.open(field, places::sections(member))?;
     let material = of_own_concrete(reader, &view, material);
     let by_rigidity = view.has("EI") || view.has("EA") || view.has("GA");
     let by_size = view.has("width") || view.has("depth");
@@ -131,7 +129,7 @@ fn read_section(
     if let Some(section) = &mut section {
         section.flexural_rigidity *= material.factor;
     }
-    if !is_column {
+    if member == Member::Beam {
         return section.map(|section| Section {
             line_mass: 0.0,
             ..section

@@ -2,11 +2,12 @@
 
 use jostle::hysteresis::{FallingBranch, Hysteresis, SpringFault};
 use jostle::model::CapacityLine;
-use jostle::{Frame, Hinges, Model, ShearEnds, ShearSpring};
+use jostle::{Frame, Hinges, Model, ShearEnds, ShearSpring, Structure};
 use jostle_section::capacity::{RatedMember, ShearRule};
 use jostle_section::formula::Member;
 
 use super::building::per_storey;
+use super::frame_members::filled;
 use super::reinforced::ReinforcedMember;
 use crate::keys::{CAPACITY_RULES, SHEAR_ENDS, Section};
 use crate::quantity::Dimension;
@@ -146,7 +147,7 @@ fn by_rule(
         .collect();
     let storeys = frame.storey_heights.len();
     let per_storey = frame.spans.len() + 1;
-    if columns.len() != storeys * per_storey
+    if columns.len() != frame.all_columns().count()
         || columns.iter().any(|column| column.section.ties.is_none())
     {
         *reader.bad(field, "needs bars and ties of every column") = Some(
@@ -155,7 +156,7 @@ fn by_rule(
         );
         return None;
     }
-    let mut rows: Vec<Vec<Loss>> = vec![Vec::with_capacity(per_storey); storeys];
+    let mut rows: Vec<Vec<Option<Loss>>> = vec![vec![None; per_storey]; storeys];
     for column in columns {
         let rated = RatedMember {
             section: &column.section,
@@ -166,11 +167,13 @@ fn by_rule(
         let loss = rated.shear_loss(rule, column.compression);
         let storey = column.floor - 1;
         match (loss, slope) {
-            (Ok(loss), _) => rows[storey].push(Loss {
-                strength: loss.strength,
-                slope: slope.map_or(loss.slope, |slope| slope[storey]),
-                by_ductility: loss.by_ductility,
-            }),
+            (Ok(loss), _) => {
+                rows[storey][column.place - 1] = Some(Loss {
+                    strength: loss.strength,
+                    slope: slope.map_or(loss.slope, |slope| slope[storey]),
+                    by_ductility: loss.by_ductility,
+                });
+            }
             (Err(problem), _) => {
                 *reader.bad(
                     field,
@@ -183,7 +186,7 @@ fn by_rule(
             }
         }
     }
-    Some(rows)
+    Some(filled(rows))
 }
 
 /// The springs: the column and its spring together lose shear with the given slope while the column unloads,
@@ -198,14 +201,16 @@ fn springs(
 ) -> Option<Vec<Vec<ShearSpring>>> {
     let mut rows = Vec::with_capacity(losses.len());
     for (storey, row) in losses.iter().enumerate() {
-        let (length, column) = (frame.storey_heights[storey], &frame.columns[storey]);
-        let rigidity = column.flexural_rigidity;
-        let shear = column
-            .shear_rigidity
-            .map_or(0.0, |shear| 12.0 * rigidity / (shear * length * length));
-        let stiffness = 12.0 * rigidity / (length * length * length * (1.0 + shear));
+        let length = frame.storey_heights[storey];
         let mut own = Vec::with_capacity(row.len());
-        for loss in row {
+        for (line, loss) in row.iter().enumerate() {
+            // Where there is no column, its spring has no part.
+            let column = frame.column(storey, line).or(frame.columns.get(storey))?;
+            let rigidity = column.flexural_rigidity;
+            let shear = column
+                .shear_rigidity
+                .map_or(0.0, |shear| 12.0 * rigidity / (shear * length * length));
+            let stiffness = 12.0 * rigidity / (length * length * length * (1.0 + shear));
             let falling = FallingBranch {
                 slope: 1.0 / (1.0 / loss.slope + 1.0 / stiffness),
                 residual: residual * loss.strength,
@@ -249,6 +254,12 @@ pub(super) fn add_heads(model: &mut Model, reader: &mut Reader<'_>, view: &View<
         }
         let points = model.points_between_floors(index);
         let heights = model.buildings[index].storey_heights().to_vec();
+        let Structure::Frame(frame) = &model.buildings[index].structure else {
+            continue;
+        };
+        let outer: Vec<_> = (1..=heights.len())
+            .map(|floor| frame.outer_lines(floor))
+            .collect();
         let Some(Hinges::Frame(hinges)) = &mut model.buildings[index].hinges else {
             continue;
         };
@@ -258,8 +269,10 @@ pub(super) fn add_heads(model: &mut Model, reader: &mut Reader<'_>, view: &View<
             let struck = points
                 .each_ref()
                 .map(|side| side.iter().any(|h| inside(&h)));
-            let last = row.len() - 1;
-            for (line, is_struck) in [(0, struck[0]), (last, struck[1])] {
+            let Some([first, last]) = outer[storey] else {
+                continue;
+            };
+            for (line, is_struck) in [(first, struck[0]), (last, struck[1])] {
                 if is_struck {
                     row[line].ends = ShearEnds::Both;
                 }

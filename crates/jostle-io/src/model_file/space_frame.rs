@@ -5,12 +5,13 @@ use std::collections::BTreeMap;
 use jostle::{PlanPoint, SpaceFrame, SpaceMember, SpacePlace, SpaceSection};
 
 use super::frame::{flexible_members, read_poisson_ratio, stiffness_factors};
+use super::places::{range, read_omit};
 use super::plan::pair;
 use super::section::read_modulus;
 use super::space_hinges::{Moments, SpaceHinges};
 use crate::keys::{AXIAL, Section};
 use crate::quantity::Dimension;
-use crate::reader::{Field, Reader, View};
+use crate::reader::{Reader, View};
 
 /// Most lines in one direction.
 const MOST_LINES: usize = 60;
@@ -291,9 +292,7 @@ fn read_sort<'n>(
         let Some(own) = reader.open(entry, sections) else {
             continue;
         };
-        let omit = reader
-            .get(&own, "omit")
-            .is_some_and(|field| reader.flag(&field).unwrap_or(false));
+        let omit = read_omit(reader, &own);
         let moments = read_hinge(reader, view, &own, sort, hinges);
         let member = if omit {
             None
@@ -304,10 +303,7 @@ fn read_sort<'n>(
             }
         };
         let most = [("x", counts[0]), ("y", counts[1]), ("storeys", plans.len())];
-        let ranges = most.map(|(key, most)| match reader.get(&own, key) {
-            Some(field) => read_range(reader, &field, most),
-            None => Some([1, most]),
-        });
+        let ranges = most.map(|(key, most)| range(reader, &own, key, most));
         let [Some(x), Some(y), Some(storeys)] = ranges else {
             continue;
         };
@@ -384,42 +380,6 @@ fn contains(plan: &[PlanPoint], [x, y]: PlanPoint) -> bool {
         }
     }
     inside
-}
-
-/// A number, or the first and the last, counted from 1.
-/// A number, or the first and the last of a range.
-pub(super) fn read_range(
-    reader: &mut Reader<'_>,
-    field: &Field<'_>,
-    most: usize,
-) -> Option<[usize; 2]> {
-    let range = match field.entries() {
-        None => {
-            let single = reader.count(field)?;
-            [single, single]
-        }
-        Some(entries) => {
-            let [from, to] = &entries[..] else {
-                reader.bad(
-                    field,
-                    "expected a number, or the first and the last, such as [1, 3]",
-                );
-                return None;
-            };
-            [reader.count(from)?, reader.count(to)?]
-        }
-    };
-    if range[0] == 0 || range[1] < range[0] || range[1] > most {
-        *reader.bad(
-            field,
-            format!(
-                "must rise and lie between 1 and {most}, found {} to {}",
-                range[0], range[1]
-            ),
-        ) = Some("count lines, bays and storeys from 1; a beam has the number of the line at which it begins".into());
-        return None;
-    }
-    Some(range)
 }
 
 fn read_section(

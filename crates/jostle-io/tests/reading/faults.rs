@@ -65,7 +65,7 @@ storeys = 5
 storey_height = "3.2 kg"
 spans = ["2.4 m", "-6 m"]
 column = { width = "500 mm", hight = "500 mm", depth = "500 mm" }
-beam = [{ width = "300 mm", depth = "600 mm" }]
+beam = [{ width = "300 mm", depth = "600 mm" }, { EI = 1e8 }]
 concrete = "C33"
 beam_mass = "25 kN/m"
 hinges = { rule = "norml", column = { yield = "400 kN" } }
@@ -100,11 +100,11 @@ model.toml:11:19: building[0].spans[1]: must be greater than zero, found -6 m
 model.toml:12:30: building[0].column.hight: unknown key "hight"
   12 | column = { width = "500 mm", hight = "500 mm", depth = "500 mm" }
      |                              ^^^^^
-  help: known here: width, depth, EI, EA, GA, mass, concrete, steel, strength, bars, cover, ties, axial_load
+  help: known here: width, depth, EI, EA, GA, mass, line, storeys, omit, concrete, steel, strength, bars, cover, ties, axial_load
 
-model.toml:13:8: building[0].beam: has 1 entry for 5 storeys; give one value, or one per storey from the ground up
-  13 | beam = [{ width = "300 mm", depth = "600 mm" }]
-     |        ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+model.toml:13:8: building[0].beam: has 2 entries for 5 storeys; give one value, or one per storey from the ground up
+  13 | beam = [{ width = "300 mm", depth = "600 mm" }, { EI = 1e8 }]
+     |        ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
 
 model.toml:14:12: building[0].concrete: "C33" is not known; available: C20, C25, C30, C35, C40, C45, C50, C55, C60, C65, C70, C75, C80, C12/15, C16/20, C20/25, C25/30, C30/37, C35/45, C40/50, C45/55, C50/60, C55/67, C60/75, C70/85, C80/95, C90/105
   14 | concrete = "C33"

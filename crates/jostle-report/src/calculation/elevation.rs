@@ -25,24 +25,23 @@ const LEAST_WIDTH: f64 = 3.0;
 /// Most storeys whose heights are written one by one.
 const LISTED: usize = 30;
 
-/// Column lines of a building from its left edge, and floor heights \[m\].
+/// Column lines of a building from its left edge, and heights of its floors and of its base above the lowest base \[m\].
 struct Outline {
     lines: Vec<f64>,
     floors: Vec<f64>,
+    foot: f64,
+    /// Storeys of every line, and the first and the last line of every floor.
+    tops: Vec<usize>,
+    outer: Vec<[usize; 2]>,
 }
 
 impl Outline {
-    fn new(building: &Building) -> Self {
+    /// `low`: elevation of the lowest base \[m\].
+    fn new(building: &Building, low: f64) -> Self {
         let floors = building.floor_heights();
         let height = floors.last().copied().unwrap_or(0.0);
         let lines = match &building.structure {
-            Structure::Frame(frame) => {
-                let mut lines = vec![0.0];
-                for span in &frame.spans {
-                    lines.push(lines[lines.len() - 1] + span);
-                }
-                lines
-            }
+            Structure::Frame(frame) => frame.line_positions(),
             Structure::Tiers(tiers) => {
                 let [from, to] = tiers.extent_along();
                 vec![0.0, to - from]
@@ -51,7 +50,22 @@ impl Outline {
                 vec![0.0, (SLENDERNESS * height).max(LEAST_WIDTH)]
             }
         };
-        Self { lines, floors }
+        let (tops, outer) = match &building.structure {
+            Structure::Frame(frame) => {
+                let floors = 1..=floors.len();
+                let outer = floors.map(|floor| frame.outer_lines(floor).unwrap_or_default());
+                (frame.tops(), outer.collect())
+            }
+            _ => (Vec::new(), Vec::new()),
+        };
+        let foot = building.base.elevation - low;
+        Self {
+            lines,
+            floors: floors.into_iter().map(|floor| floor + foot).collect(),
+            foot,
+            tops,
+            outer,
+        }
     }
 
     fn width(&self) -> f64 {
@@ -72,7 +86,10 @@ pub(super) fn figure(page: &Page) -> Markup {
     } else {
         0.0
     };
-    let outlines: Vec<Outline> = model.buildings.iter().map(Outline::new).collect();
+    let elevations = model.buildings.iter().map(|own| own.base.elevation);
+    let low = elevations.fold(f64::INFINITY, f64::min);
+    let outlines = model.buildings.iter().map(|own| Outline::new(own, low));
+    let outlines: Vec<Outline> = outlines.collect();
     let count = outlines.len() as f64;
     let wide: f64 = outlines.iter().map(Outline::width).sum();
     let high = outlines.iter().map(Outline::height).fold(0.0, f64::max);
@@ -97,13 +114,17 @@ pub(super) fn figure(page: &Page) -> Markup {
             svg viewBox=(format!("0 0 {WIDTH} {height:.0}")) role="img" aria-label=(message::elevation_to_scale_dimensions()) {
                 line.ground x1="8" x2=(WIDTH - 8.0) y1=(round(ground)) y2=(round(ground)) {}
                 @for (index, (outline, left)) in outlines.iter().zip(&places).enumerate() {
+                    @let own = ground - scale * outline.foot;
+                    @if outline.foot > 0.0 {
+                        path.ground d=(format!("M{left:.1},{ground:.1}V{own:.1}h{:.1}V{ground:.1}", scale * outline.width())) fill="none" {}
+                    }
                     @if isolated(&model.buildings[index]) {
-                        (bearings(index, *left, scale * outline.width(), ground))
+                        (bearings(index, *left, scale * outline.width(), own))
                     }
                     (drawing(&model.buildings[index], index, outline, *left, [scale, ground, pit]))
                 }
                 @for wall in walls(page).into_iter().filter(|wall| !wall.on_site) {
-                    (wall_mark(&wall, model.buildings.iter().map(isolated).collect(), &outlines, &places, [scale, ground]))
+                    (wall_mark(&wall, model.buildings.iter().map(isolated).collect(), &outlines, &places, [scale, ground, low]))
                 }
                 @for gap in model.gaps.iter().filter(|gap| in_a_row(model, gap)) {
                     (gap_mark(gap, &outlines, &places, scale, ground + pit))
@@ -143,7 +164,7 @@ fn wall_mark(
     isolated: Vec<bool>,
     outlines: &[Outline],
     places: &[f64],
-    [scale, ground]: [f64; 2],
+    [scale, ground, low]: [f64; 3],
 ) -> Markup {
     let [left, right] = wall.beside;
     let from = match (left, right) {
@@ -156,7 +177,7 @@ fn wall_mark(
         .flatten()
         .any(|index| isolated[index]);
     let bottom = ground + if pit { PIT } else { 0.0 };
-    let top = ground - scale * wall.top - 5.0;
+    let top = ground - scale * (wall.top - low) - 5.0;
     html! {
         rect.wall x=(round(from)) y=(round(top)) width=(WALL) height=(round(bottom - top)) {}
     }
@@ -174,7 +195,7 @@ fn drawing(
     let x = |across: f64| left + scale * across;
     let (right, top) = (x(outline.width()), y(outline.height()));
     let middle = 0.5 * (left + right);
-    let mut below = 0.0;
+    let mut below = outline.foot;
     let storeys: Vec<(f64, f64)> = outline
         .floors
         .iter()
@@ -191,7 +212,7 @@ fn drawing(
     let written = match (equal, storeys.len()) {
         (true, count) if count > 1 => vec![(
             format!("{count} × {}", format::plain(storeys[0].0, 4)),
-            0.5 * outline.height(),
+            0.5 * (outline.foot + outline.height()),
         )],
         (_, count) if count > LISTED => Vec::new(),
         _ => storeys
@@ -205,15 +226,22 @@ fn drawing(
                 @for own in &frame.diagonals {
                     @let ([from, to], storey) = (own.place.lines(), own.place.storey);
                     @let ends = [(outline.lines[from], storey - 1), (outline.lines[to], storey)].map(|(line, level)| {
-                        let height = level.checked_sub(1).map_or(0.0, |floor| outline.floors[floor]);
+                        let height = level.checked_sub(1).map_or(outline.foot, |floor| outline.floors[floor]);
                         [x(line), y(height)]
                     });
                     line.(own.place.kind.name()) x1=(round(ends[0][0])) x2=(round(ends[1][0])) y1=(round(ends[0][1])) y2=(round(ends[1][1])) {}
                 }
-                @for line in &outline.lines { line.columns x1=(round(x(*line))) x2=(round(x(*line))) y1=(round(ground)) y2=(round(top)) {} }
-                @for floor in &outline.floors { line.beams x1=(round(left)) x2=(round(right)) y1=(round(y(*floor))) y2=(round(y(*floor))) {} }
+                @for (line, storeys) in outline.lines.iter().zip(&outline.tops) {
+                    @if let Some(top) = storeys.checked_sub(1) {
+                        line.columns x1=(round(x(*line))) x2=(round(x(*line))) y1=(round(y(outline.foot))) y2=(round(y(outline.floors[top]))) {}
+                    }
+                }
+                @for (floor, outer) in outline.floors.iter().zip(&outline.outer) {
+                    @let [from, to] = outer.map(|line| x(outline.lines[line]));
+                    line.beams x1=(round(from)) x2=(round(to)) y1=(round(y(*floor))) y2=(round(y(*floor))) {}
+                }
             } @else {
-                line.columns x1=(round(middle)) x2=(round(middle)) y1=(round(ground)) y2=(round(top)) {}
+                line.columns x1=(round(middle)) x2=(round(middle)) y1=(round(y(outline.foot))) y2=(round(top)) {}
                 @for floor in &outline.floors { line.slabs x1=(round(left)) x2=(round(right)) y1=(round(y(*floor))) y2=(round(y(*floor))) {} }
             }
         }
@@ -226,7 +254,7 @@ fn drawing(
                 text x=(round(0.5 * (x(pair[0]) + x(pair[1])))) y=(round(ground + pit + 15.0)) text-anchor="middle" { (format::plain(pair[1] - pair[0], 4)) }
             }
         }
-        text x=(round(middle)) y=(round(ground + pit + 30.0)) text-anchor="middle" { "H = " (format::plain(outline.height(), 4)) }
+        text x=(round(middle)) y=(round(ground + pit + 30.0)) text-anchor="middle" { "H = " (format::plain(outline.height() - outline.foot, 4)) }
     }
 }
 

@@ -743,6 +743,7 @@ messages! {
     size_of_the_foundation = "size of the foundation";
     mass_of_the_foundation = "mass of the foundation";
     base = "base";
+    elevation_of_the_base = "elevation of the base";
     sideways = "sideways";
     vertical = "vertical";
     base_rocks = "base rocks";

@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use crate::fixture::{Run, alone, isolated, row_of_three, two_frames, walled, yielding};
+use jostle::Structure;
 use jostle::results::contact_sensitivity::{
     BuildingChange, ContactSensitivity, ContactVariant, GapSpread, RangeEnd, VariantResult,
 };
@@ -529,4 +530,25 @@ fn bearings_links_and_walls_have_loops_and_a_table() {
     for name in ["u:0:0", "u:2:0"] {
         assert!(columns.iter().any(|column| column[0] == name), "{name}");
     }
+}
+
+/// The scene and the drawing to scale have the members that stand, at the elevation of their building.
+#[test]
+fn fewer_bays_above_and_elevations_reach_the_pictures() {
+    let mut run = two_frames(0.1);
+    let plain = render(&run.page());
+    assert!(!plain.contains("\"tops\":") && !plain.contains("\"elevation\":"));
+    let building = &mut run.model.buildings[1];
+    building.base.elevation = -1.5;
+    let Structure::Frame(frame) = &mut building.structure else {
+        panic!("a frame");
+    };
+    for storey in 6..10 {
+        frame.own_columns.insert([storey, 0], None);
+        frame.own_beams.insert([storey, 0], None);
+    }
+    let page = render(&run.page());
+    assert!(page.contains("\"tops\":[6,10,10,10]"));
+    assert!(page.contains("\"elevation\":-1.5"));
+    assert!(page.contains("elevation of the base") && page.contains("7–10: –"));
 }

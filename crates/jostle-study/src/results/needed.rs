@@ -42,16 +42,16 @@ fn places(study: &Study) -> Option<Places> {
         return None;
     };
     let pair = [&model.buildings[left], &model.buildings[right]];
-    let heights = pair.map(|building| building.floor_heights());
-    let top = heights[0]
+    let levels = pair.map(|building| building.floor_levels());
+    let top = levels[0]
         .iter()
         .enumerate()
         .rev()
         .find_map(|(left, height)| {
-            let right = heights[1].iter().position(|h| (h - height).abs() < 1e-3)?;
+            let right = levels[1].iter().position(|h| (h - height).abs() < 1e-3)?;
             Some([left, right])
         })?;
-    let height = heights.iter().filter_map(|h| h.last()).copied();
+    let height = pair.iter().filter_map(|own| own.floor_heights().pop());
     let ratio = |building: &jostle::Building| match building.damping {
         jostle::Damping::Ratio { ratio, .. } | jostle::Damping::AllModes { ratio } => ratio,
         jostle::Damping::Rayleigh { .. } => 0.05,

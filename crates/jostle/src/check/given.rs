@@ -51,7 +51,11 @@ pub(super) fn check_given(faults: &mut Faults, path: &str, given: &Given, buildi
     if let Err(problem) = check_matrix(&given.damping, n) {
         faults.add(at("damping"), problem);
     }
-    faults.require(building.base == Base::default(), at("base"), || {
+    let base = Base {
+        elevation: 0.0,
+        ..building.base
+    };
+    faults.require(base == Base::default(), at("base"), || {
         "is not possible for a building given by matrices; make the base part of its stiffness matrix".into()
     });
     check_gravity(faults, path, building);

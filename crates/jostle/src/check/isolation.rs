@@ -18,6 +18,7 @@ pub(super) fn check_isolation(faults: &mut Faults, path: &str, building: &Buildi
     let own = format!("{path}.isolation");
     let plain = Base {
         isolation: Some(*isolation),
+        elevation: building.base.elevation,
         ..Base::default()
     };
     faults.require(building.base == plain, own.as_str(), || {

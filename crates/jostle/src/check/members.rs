@@ -101,20 +101,30 @@ fn fault_in_frame(name: &str, place: &str, own: &str, frame: &Frame) -> Option<S
         let number = text.parse::<usize>().ok();
         number.is_some_and(|n| (1..=most).contains(&n) && text == n.to_string())
     };
+    let index = |text: &str| text.parse().map_or(usize::MAX, |number: usize| number - 1);
     let parts: Vec<&str> = place.split('.').collect();
     let known = match parts[..] {
-        ["column", line, storey] => within(line, lines) && within(storey, storeys),
-        ["beam", floor, span] => within(floor, storeys) && within(span, lines - 1),
+        ["column", line, storey] => {
+            within(line, lines)
+                && within(storey, storeys)
+                && frame.column(index(storey), index(line)).is_some()
+        }
+        ["beam", floor, span] => {
+            within(floor, storeys)
+                && within(span, lines - 1)
+                && frame.beam(index(floor), index(span)).is_some()
+        }
         _ => false,
     };
     (!known).then(|| {
         let to = |most: usize| if most == 1 { "1".to_owned() } else { format!("1…{most}") };
         format!(
-            "\"{name}\" is no member of \"{own}\"; it has {own}.column.LINE.STOREY with line {} and storey {}, and {own}.beam.FLOOR.SPAN with floor {} and span {}",
+            "\"{name}\" is no member of \"{own}\"; it has {own}.column.LINE.STOREY with line {} and storey {}, and {own}.beam.FLOOR.SPAN with floor {} and span {}{}",
             to(lines),
             to(storeys),
             to(storeys),
-            to(lines - 1)
+            to(lines - 1),
+            if frame.is_regular() { "" } else { ", as far as they are not omitted" }
         )
     })
 }

@@ -1,5 +1,6 @@
 //! Collects all faults of a model at once.
 
+mod frame_places;
 mod given;
 mod isolation;
 mod members;
@@ -292,16 +293,13 @@ fn check_frame(faults: &mut Faults, path: &str, frame: &Frame) {
     check_members_of(faults, path, frame);
     let storeys = frame.storey_heights.len();
     let floors_have_mass = (0..storeys).all(|floor| {
-        let above = frame
-            .columns
-            .get(floor + 1)
-            .map_or(0.0, |section| section.line_mass);
         let here = [frame.beam_mass.get(floor), frame.floor_mass.get(floor)];
-        let column = frame
-            .columns
-            .get(floor)
-            .map_or(0.0, |section| section.line_mass);
-        here.into_iter().flatten().sum::<f64>() + above + column > 0.0
+        // Beams need a second joint.
+        let on_beams = here[0].filter(|_| frame.beam_length(floor) > 0.0);
+        let places = (0..frame.lines()).flat_map(|line| [[floor, line], [floor + 1, line]]);
+        let columns = places.filter_map(|[storey, line]| frame.column(storey, line));
+        let mut masses = [on_beams, here[1]].into_iter().flatten().copied();
+        masses.any(|mass| mass > 0.0) || columns.into_iter().any(|own| own.line_mass > 0.0)
     });
     faults.require(floors_have_mass, format!("{path}.floor_mass"), || {
         "every floor needs some mass: set beam_mass, floor_mass or a column density".into()
@@ -331,11 +329,25 @@ fn check_members_of(faults: &mut Faults, path: &str, frame: &Frame) {
             format!("has {count} entries for {storeys} storeys; give one value, or one per storey from the ground up")
         });
     }
-    for (name, sections, flexible) in [
-        ("column", &frame.columns, frame.axial.columns_flexible),
-        ("beam", &frame.beams, frame.axial.beams_flexible),
+    for (name, sections, own, flexible) in [
+        (
+            "column",
+            &frame.columns,
+            &frame.own_columns,
+            frame.axial.columns_flexible,
+        ),
+        (
+            "beam",
+            &frame.beams,
+            &frame.own_beams,
+            frame.axial.beams_flexible,
+        ),
     ] {
-        for (field, section) in each(sections, &format!("{path}.{name}")) {
+        let own = own.iter().filter_map(|([storey, place], section)| {
+            let field = format!("{path}.{name}[{storey}][{place}]");
+            Some((field, section.as_ref()?))
+        });
+        for (field, section) in each(sections, &format!("{path}.{name}")).chain(own) {
             faults.positive(section.flexural_rigidity, format!("{field}.EI"), "N.m2");
             faults.not_negative(section.line_mass, format!("{field}.mass"), "kg/m");
             match section.axial_rigidity {
@@ -349,6 +361,10 @@ fn check_members_of(faults: &mut Faults, path: &str, frame: &Frame) {
                 faults.positive(rigidity, format!("{field}.GA"), "N");
             }
         }
+    }
+    let complete = per_storey.iter().all(|(_, count)| *count == storeys);
+    if complete && storeys > 0 && !frame.spans.is_empty() && !frame.is_regular() {
+        frame_places::check_places(faults, path, frame);
     }
     for (field, mass) in each(&frame.beam_mass, &format!("{path}.beam_mass")) {
         faults.not_negative(*mass, field, "kg/m");
@@ -387,6 +403,12 @@ fn check_members_of(faults: &mut Faults, path: &str, frame: &Frame) {
                 frame.spans.len()
             )
         });
+        if let Some((floor, line)) = frame_places::loose_end(frame, place).filter(|_| exists) {
+            faults.add(
+                field.as_str(),
+                format!("{place} ends at floor {floor} of line {line}, where there is no joint; leave it out there, or add the column"),
+            );
+        }
         let before = &frame.diagonals[..index];
         let is_first = before.iter().all(|other| other.place != place);
         faults.require(is_first, field.as_str(), || {

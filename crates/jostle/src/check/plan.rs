@@ -144,6 +144,7 @@ pub(super) fn check_tiers(faults: &mut Faults, path: &str, tiers: &Tiers, buildi
     given::check_floor_matrices(faults, path, tiers, building);
     let base = Base {
         isolation: None,
+        elevation: 0.0,
         ..building.base
     };
     faults.require(base == Base::default(), at("base"), || {

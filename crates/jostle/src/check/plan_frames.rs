@@ -142,6 +142,25 @@ fn check_columns(faults: &mut Faults, path: &str, tiers: &Tiers) {
                 q[0], q[1], a.name, p[0], p[1]
             )
         });
+        let storeys = a
+            .frame
+            .storey_heights
+            .len()
+            .min(b.frame.storey_heights.len());
+        let [of_a, of_b] = lines.map(|[_, line]| line);
+        let lacking = (0..storeys).find(|storey| {
+            a.frame.column(*storey, of_a).is_some() != b.frame.column(*storey, of_b).is_some()
+        });
+        if let Some(storey) = lacking {
+            faults.add(
+                at.clone(),
+                format!(
+                    "shares column \"{name}\" with frame \"{}\", but only one of them has it in storey {}; omit it in both or in none",
+                    a.name,
+                    storey + 1
+                ),
+            );
+        }
         let sine = a.direction[0] * b.direction[1] - a.direction[1] * b.direction[0];
         faults.require(sine.abs() > PARALLEL, at, || {
             format!(

@@ -15,6 +15,7 @@ pub(super) fn check_foundation(faults: &mut Faults, path: &str, building: &Build
     let own = format!("{path}.foundation");
     let plain = Base {
         foundation: Some(*foundation),
+        elevation: building.base.elevation,
         ..Base::default()
     };
     faults.require(building.base == plain, own.as_str(), || {

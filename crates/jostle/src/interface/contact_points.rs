@@ -1,9 +1,9 @@
 //! Pairs of points of two neighbours that can touch: floors, and columns between floors.
 
 use crate::linear::sort_by;
-use crate::model::{Building, FloorPairs, LEVEL_TOLERANCE, Level, Model, Structure};
+use crate::model::{Building, FloorPairs, Gap, LEVEL_TOLERANCE, Level, Model, Structure};
 
-/// Heights of the left and of the right point above the base; `None` on a wall \[m\].
+/// Heights of the left and of the right point above the common datum; `None` on a wall \[m\].
 pub(crate) type PointPair = [Option<f64>; 2];
 
 /// Smallest distance between a point of a column and a floor or another point \[m\].
@@ -41,13 +41,23 @@ struct Side<'a> {
 impl Side<'_> {
     fn new(building: &Building) -> Side<'_> {
         Side {
-            floors: building.floor_heights(),
+            floors: building.floor_levels(),
             building,
         }
     }
 
     fn roof(&self) -> f64 {
         self.floors.last().copied().unwrap_or(0.0)
+    }
+
+    /// Height of its base.
+    fn foot(&self) -> f64 {
+        self.building.base.elevation
+    }
+
+    /// Whether a height lies beside it.
+    fn is_beside(&self, height: f64) -> bool {
+        height <= self.roof() && height > self.foot()
     }
 
     /// The floor nearest to a height, if it is within reach.
@@ -89,7 +99,10 @@ impl Side<'_> {
         if height > self.roof() {
             return Err(format!("{at} {hint}: that is above its roof"));
         }
-        let from_ends = (height - nearest).abs().min(height);
+        if height < self.foot() {
+            return Err(format!("{at} {hint}: that is below its base"));
+        }
+        let from_ends = (height - nearest).abs().min(height - self.foot());
         if !from_ends.is_finite() || from_ends < NEAREST {
             return Err(format!(
                 "{at} {hint}, and a column cannot be hit nearer than {:.0} mm to its ends; raise level_tolerance so that the floor is hit, or move the point",
@@ -101,7 +114,7 @@ impl Side<'_> {
 
     fn level(&self, level: Level) -> Result<f64, String> {
         match level {
-            Level::Floor(0) if self.has_mat() => Ok(0.0),
+            Level::Floor(0) if self.has_mat() => Ok(self.foot()),
             Level::Floor(0) => Err(format!(
                 "floor 0 is the mat of an isolated building, and \"{}\" has no isolation; its floors count from 1",
                 self.building.name
@@ -118,7 +131,11 @@ impl Side<'_> {
                     )
                 })
             }
-            Level::Height(height) if self.has_mat() && height.abs() <= LEVEL_TOLERANCE => Ok(0.0),
+            Level::Height(height)
+                if self.has_mat() && (height - self.foot()).abs() <= LEVEL_TOLERANCE =>
+            {
+                Ok(self.foot())
+            }
             Level::Height(height) => self.point(height, LEVEL_TOLERANCE),
             Level::Wall => Err(format!(
                 "names the wall where \"{}\" stands",
@@ -268,7 +285,7 @@ fn all(
     for (side, own, other) in [(0, a, b), (1, b, a)] {
         let met: Vec<f64> = pairs.iter().filter_map(|pair| pair[side]).collect();
         let alone = own.floors.iter().filter(|height| !met.contains(height));
-        for &height in alone.filter(|height| **height <= other.roof()) {
+        for &height in alone.filter(|height| other.is_beside(**height)) {
             let column = other.point(height, LEVEL_TOLERANCE).map_err(|problem| {
                 if other.has_columns() {
                     return Misfit::all(problem);
@@ -457,11 +474,14 @@ impl Model {
             let (Some(a), Some(b)) = (self.buildings.get(left), self.buildings.get(right)) else {
                 continue;
             };
-            let heights = [a.floor_heights(), b.floor_heights()];
+            let heights = [a.floor_levels(), b.floor_levels()];
+            let feet = [a, b].map(|own| own.base.elevation);
             let floors = [0, 1].map(|side| {
                 let roof = heights[1 - side].last().copied().unwrap_or(0.0);
-                let within =
-                    |height: f64| height <= roof || level(height, roof, gap.level_tolerance);
+                let within = |height: f64| {
+                    let below = height <= roof || level(height, roof, gap.level_tolerance);
+                    below && height > feet[1 - side]
+                };
                 let met = |height: f64| {
                     let mut points = pairs.iter().filter_map(|pair| pair[side]);
                     points.any(|point| (point - height).abs() <= SAME)
@@ -515,6 +535,22 @@ pub(crate) const SAME: f64 = 1e-6;
 /// Whether two heights differ by no more than a tolerance, up to the rounding of sums of storey heights \[m\].
 fn level(a: f64, b: f64, tolerance: f64) -> bool {
     (a - b).abs() <= tolerance + 1e-9 * a.abs().max(b.abs())
+}
+
+/// By how much the faces at two points stand farther apart than the edges of their buildings, between which a single width of the gap
+/// lies; widths of every contact are those of its faces \[m\].
+pub(crate) fn set_back(gap: &Gap, between: [Option<&Building>; 2], pair: &PointPair) -> f64 {
+    if gap.widths.len() > 1 {
+        return 0.0;
+    }
+    let of_side = |side: usize| {
+        let (building, point) = (between[side]?, pair[side]?);
+        let floors = building.floor_levels();
+        let floor = floors.iter().position(|floor| *floor >= point - SAME)?;
+        // The left building is struck on its right.
+        Some(building.set_back(floor + 1)[1 - side])
+    };
+    [0, 1].into_iter().filter_map(of_side).sum()
 }
 
 pub(crate) fn mean(pair: &PointPair) -> f64 {

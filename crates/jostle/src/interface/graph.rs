@@ -135,6 +135,7 @@ mod tests {
                 mass: 1.0,
                 floor: None,
                 height: 0.0,
+                level: 0.0,
             })
         }))
     }

@@ -19,10 +19,10 @@ pub(crate) struct Joined {
 
 impl Model {
     /// Heights of the points on the left and on the right face of a building, between its floors, where neighbours can touch
-    /// it or links end \[m\].
+    /// it or links end, above its base \[m\].
     #[must_use]
     pub fn points_between_floors(&self, building: usize) -> [Vec<f64>; 2] {
-        JoinedPoints::new(self).points_between_floors(building)
+        JoinedPoints::new(self).points_between_floors(self, building)
     }
 }
 
@@ -51,15 +51,18 @@ impl JoinedPoints {
         }
     }
 
-    /// Heights of the points on the left and on the right face of a building that are not floors \[m\].
-    pub(crate) fn points_between_floors(&self, building: usize) -> [Vec<f64>; 2] {
+    /// Heights above its base of the points on the left and on the right face of a building of the model that are not floors \[m\].
+    pub(crate) fn points_between_floors(&self, model: &Model, building: usize) -> [Vec<f64>; 2] {
+        let own = model.buildings.get(building);
+        let foot = own.map_or(0.0, |own| own.base.elevation);
         let mut points = [Vec::new(), Vec::new()];
         for joined in self.gaps.iter().chain(&self.links) {
             for side in 0..2 {
                 if joined.between[side] == Some(building) {
                     // The right one of two neighbours is hit on its left face.
                     let port: &mut Vec<f64> = &mut points[1 - side];
-                    port.extend(joined.pairs.iter().filter_map(|pair| pair[side]));
+                    let levels = joined.pairs.iter().filter_map(|pair| pair[side]);
+                    port.extend(levels.map(|level| level - foot));
                 }
             }
         }

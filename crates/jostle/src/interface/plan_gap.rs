@@ -5,7 +5,7 @@ use super::plan_contacts::{PlanFace, plan_faces};
 use crate::linear::sort_by_key;
 use crate::model::{Gap, Model, PlanPoint, Structure};
 
-/// Plans on one side of a gap, from the ground up, with the heights of the floors; that of a wall stands for every height.
+/// Plans on one side of a gap, from the ground up, with the heights of the floors above the common datum; that of a wall stands for every height.
 struct Side {
     /// Number of the first plan: 0 for a mat and for a wall, 1 for a floor.
     first: usize,
@@ -30,10 +30,10 @@ impl Side {
                 let isolated = building.base.isolation.is_some();
                 let lowest = tiers.floors.first().map(|floor| floor.plan.clone());
                 let mat = isolated.then_some(lowest).flatten();
-                let heights = mat.as_ref().map(|_| 0.0).into_iter();
+                let heights = mat.as_ref().map(|_| building.base.elevation).into_iter();
                 Some(Self {
                     first: usize::from(mat.is_none()),
-                    heights: heights.chain(building.floor_heights()).collect(),
+                    heights: heights.chain(building.floor_levels()).collect(),
                     plans: mat.into_iter().chain(floors).collect(),
                 })
             }

@@ -14,8 +14,10 @@ pub struct Port {
     pub mass: f64,
     /// Floor, from 1; `None` for a point between floors.
     pub floor: Option<usize>,
-    /// Height above the base \[m\].
+    /// Height above the base of the building \[m\].
     pub height: f64,
+    /// Height above the common datum \[m\].
+    pub level: f64,
 }
 
 /// The left and the right point; `None` is a rigid wall, which moves with the ground.
@@ -87,10 +89,10 @@ impl PortPair {
             .any(|(building, floor)| building.is_some() && floor.is_none())
     }
 
-    /// Height above the base, midway where both sides differ \[m\].
+    /// Height above the common datum, midway where both sides differ \[m\].
     #[must_use]
     pub fn height(&self) -> f64 {
-        match self.of_both(|port| port.height) {
+        match self.of_both(|port| port.level) {
             [Some(left), Some(right)] => 0.5 * (left + right),
             [one, other] => one.or(other).unwrap_or(0.0),
         }

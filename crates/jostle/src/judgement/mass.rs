@@ -3,6 +3,7 @@
 use super::{Known, Tally, quoted};
 use crate::model::{Frame, LEVEL_TOLERANCE, PlanArea, STANDARD_GRAVITY, Structure};
 use crate::statics::compressions;
+use crate::structure::MemberPlace;
 use crate::system::BuildingSystem;
 
 /// Density of reinforced concrete \[kg/m³\].
@@ -25,8 +26,7 @@ pub fn floor_masses(building: &BuildingSystem) -> Vec<f64> {
 
 /// Mass on the beams of a floor per metre, whole floors included \[kg/m\].
 fn carried(frame: &Frame, floor: usize) -> f64 {
-    let width: f64 = frame.spans.iter().sum();
-    frame.beam_mass[floor] + frame.floor_mass[floor] / width
+    frame.beam_mass[floor] + frame.floor_mass[floor] / frame.beam_length(floor)
 }
 
 /// Mass on the beams over the mass of the beams themselves.
@@ -37,7 +37,7 @@ pub(super) fn beam_mass(known: &Known<'_>, tally: &mut Tally<'_>) {
         else {
             continue;
         };
-        for (floor, beam) in frame.beams.iter().enumerate() {
+        for ([floor, _], beam) in frame.all_beams() {
             let Some(axial) = beam.axial_rigidity else {
                 continue;
             };
@@ -68,27 +68,25 @@ pub(super) fn column_compression(known: &Known<'_>, tally: &mut Tally<'_>) {
         let Ok(compressions) = compressions(own, STANDARD_GRAVITY) else {
             continue;
         };
-        let heights = building.floor_heights();
-        let nodes = &own.discretization.stick_model.nodes;
-        let members = &own.discretization.stick_model.members;
-        for (member, compression) in members.iter().zip(compressions) {
-            let foot = member.ends.map(|end| nodes[end].y);
-            let middle = 0.5 * (foot[0] + foot[1]);
-            let storey = heights.iter().take_while(|top| **top < middle).count();
-            let section = frame.columns.get(storey);
+        for member in &own.discretization.members {
+            let MemberPlace::Column { line, storey } = member.place else {
+                continue;
+            };
+            let section = frame.column(storey - 1, line - 1);
             let Some(axial) = section.and_then(|own| own.axial_rigidity) else {
                 continue;
             };
-            let ratio = compression * modulus / (axial * strength);
-            tally.add(ratio, || {
-                let text = format!(
-                    "{}: a column of storey {} carries {:.0} kN under self weight, ν = {ratio:.2} of the strength of its concrete",
-                    quoted(&building.name),
-                    storey + 1,
-                    1e-3 * compression
-                );
-                (format!("{}, storey {}", building.name, storey + 1), text)
-            });
+            for compression in &compressions[member.elements.clone()] {
+                let ratio = compression * modulus / (axial * strength);
+                tally.add(ratio, || {
+                    let text = format!(
+                        "{}: a column of storey {storey} carries {:.0} kN under self weight, ν = {ratio:.2} of the strength of its concrete",
+                        quoted(&building.name),
+                        1e-3 * compression
+                    );
+                    (format!("{}, storey {storey}", building.name), text)
+                });
+            }
         }
     }
 }

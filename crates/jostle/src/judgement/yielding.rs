@@ -2,7 +2,9 @@
 
 use super::{Known, Tally, quoted};
 use crate::hysteresis::{Hysteresis, Side};
-use crate::model::{Building, Diagonal, DiagonalKind, Hinges, STANDARD_GRAVITY, Structure};
+use crate::model::{
+    Building, Diagonal, DiagonalKind, FramePlace, Hinges, STANDARD_GRAVITY, Structure,
+};
 
 /// Drift at which storeys of concrete frames yield: θ_y = 0.5 ε_y L_b/h_b with ε_y = 0.2 % and L_b/h_b = 10 \[–\].
 const YIELD_DRIFT: f64 = 0.01;
@@ -193,10 +195,15 @@ pub(super) fn hinge_axial_force(known: &Known<'_>, tally: &mut Tally<'_>) {
             continue;
         };
         for member in &own.members {
-            let Some((storey, made_for)) = made_for(&member.name, &stated.hinge_compression) else {
+            let Some(([storey, line], made_for)) =
+                made_for(&member.name, &stated.hinge_compression)
+            else {
                 continue;
             };
-            let Some(axial) = frame.columns.get(storey).and_then(|own| own.axial_rigidity) else {
+            let Some(axial) = frame
+                .column(storey, line)
+                .and_then(|own| own.axial_rigidity)
+            else {
                 continue;
             };
             // Forces of a run from rest are changes; with gravity they include self weight.
@@ -219,10 +226,10 @@ pub(super) fn hinge_axial_force(known: &Known<'_>, tally: &mut Tally<'_>) {
     }
 }
 
-/// Storey from 0 of a column `NAME.column.LINE.STOREY`, and the compression for which its hinges were made \[N\].
-fn made_for(name: &str, compressions: &[Vec<f64>]) -> Option<(usize, f64)> {
+/// Storey and line from 0 of a column `NAME.column.LINE.STOREY`, and the compression for which its hinges were made \[N\].
+fn made_for(name: &str, compressions: &[Vec<f64>]) -> Option<(FramePlace, f64)> {
     let (_, place) = name.rsplit_once(".column.")?;
     let (line, storey) = place.split_once('.')?;
     let [line, storey] = [line, storey].map(|number| number.parse::<usize>().ok()?.checked_sub(1));
-    Some((storey?, *compressions.get(storey?)?.get(line?)?))
+    Some(([storey?, line?], *compressions.get(storey?)?.get(line?)?))
 }

@@ -26,8 +26,10 @@ pub struct Gap {
     /// Indices of the left and of the right building, the one after it; `None` is a rigid wall that moves with the
     /// ground, left of the first or right of the last building.
     pub between: [Option<usize>; 2],
-    /// Widths at rest, ≥ 0: one for all contacts, or one each in the order of `floors`, from the lowest up if those
-    /// are not listed \[m\].
+    /// Widths at rest, ≥ 0: one between the edges of the buildings, to which the set-back of a face is added ([`Building::set_back`]), or one
+    /// of each contact in the order of `floors`, from the lowest up if those are not listed \[m\].
+    ///
+    /// [`Building::set_back`]: crate::Building::set_back
     pub widths: Vec<f64>,
     /// Contact locations.
     pub floors: FloorPairs,
@@ -135,7 +137,7 @@ pub enum FloorPairs {
     All,
     /// Pairs of points, left and right.
     Listed(Vec<[Level; 2]>),
-    /// Heights above the base, at floors or between them \[m\].
+    /// Heights above the common datum, at floors or between them \[m\].
     Heights(Vec<f64>),
 }
 
@@ -155,7 +157,7 @@ pub enum FloorPairs {
 pub enum Level {
     /// A floor, counted from 1.
     Floor(usize),
-    /// A height above the base, at a floor or at a column between floors \[m\].
+    /// A height above the common datum, at a floor or at a column between floors \[m\].
     Height(f64),
     /// The wall, opposite the other point of the pair.
     Wall,

@@ -6,6 +6,7 @@
 mod capacity;
 mod diagonal;
 mod floor_matrices;
+mod frame_members;
 mod gap;
 mod given;
 mod integrator;
@@ -21,6 +22,8 @@ mod space_frame;
 mod tiers;
 mod wall;
 
+use std::collections::BTreeMap;
+
 use crate::hysteresis::Hysteresis;
 
 pub use capacity::{
@@ -29,6 +32,7 @@ pub use capacity::{
 pub use diagonal::{Diagonal, DiagonalKind, DiagonalPlace, Rise};
 pub(crate) use floor_matrices::displacement_in_words;
 pub use floor_matrices::{FloorMatrices, GivenFloor, GivenInPlan};
+pub use frame_members::FramePlace;
 pub use gap::{FloorPairs, Gap, LEVEL_TOLERANCE, Level, PlanContact};
 pub use given::{Given, MatrixEntry};
 pub use integrator::Integrator;
@@ -204,6 +208,8 @@ pub struct Base {
     pub isolation: Option<Isolation>,
     /// Rigid foundation on the soil of the model, instead of all of the above.
     pub foundation: Option<Foundation>,
+    /// Height of the base above the common datum, either sign: floors of neighbours face each other by their heights above it \[m\].
+    pub elevation: f64,
 }
 
 impl Base {
@@ -305,7 +311,7 @@ pub enum Structure {
     Tiers(Tiers),
 }
 
-/// Plane frame: `storey_heights.len()` storeys, `spans.len() + 1` column lines.
+/// Plane frame: `storey_heights.len()` storeys, `spans.len() + 1` column lines. A floor has a joint where a column stands below it.
 ///
 /// ```
 /// use jostle::{Axial, Frame, Joint, Section};
@@ -336,10 +342,15 @@ pub struct Frame {
     pub storey_heights: Vec<f64>,
     /// Bay widths from left to right, > 0; at least one \[m\].
     pub spans: Vec<f64>,
-    /// Column section of every storey, from the ground up.
+    /// Column section of every storey, from the ground up, except where `own_columns` says otherwise: read [`Frame::column`].
     pub columns: Vec<Section>,
-    /// Beam section of every floor, from the ground up. Its own line mass is not used; see `beam_mass`.
+    /// Beam section of every floor, from the ground up, except where `own_beams` says otherwise: read [`Frame::beam`]. Its own line mass
+    /// is not used; see `beam_mass`.
     pub beams: Vec<Section>,
+    /// Columns that differ from those of their storey, by storey and line; `None` where there is no column.
+    pub own_columns: BTreeMap<FramePlace, Option<Section>>,
+    /// Beams that differ from those of their floor, by floor and bay; `None` where there is no beam.
+    pub own_beams: BTreeMap<FramePlace, Option<Section>>,
     /// Mass carried by the beams of every floor, self weight included, ≥ 0 \[kg/m\].
     pub beam_mass: Vec<f64>,
     /// Additional mass of every floor, shared equally by its joints, ≥ 0 \[kg\].
@@ -774,6 +785,23 @@ impl Model {
 }
 
 impl Building {
+    /// Height of every floor above the common datum, from the ground up \[m\].
+    #[must_use]
+    pub fn floor_levels(&self) -> Vec<f64> {
+        let heights = self.floor_heights().into_iter();
+        heights.map(|height| height + self.base.elevation).collect()
+    }
+
+    /// How far the outer joints of a floor, counted from 1, stand inside the left and the right edge of the building; 0 but in a
+    /// plane frame with fewer bays above \[m\].
+    #[must_use]
+    pub fn set_back(&self, floor: usize) -> [f64; 2] {
+        match &self.structure {
+            Structure::Frame(frame) => frame.set_back(floor),
+            _ => [0.0; 2],
+        }
+    }
+
     /// Number of floors (= storeys).
     #[must_use]
     pub fn floors(&self) -> usize {

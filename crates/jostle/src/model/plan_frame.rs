@@ -117,13 +117,13 @@ impl PlanFrame {
     /// Number of column lines.
     #[must_use]
     pub fn column_lines(&self) -> usize {
-        self.frame.spans.len() + 1
+        self.frame.lines()
     }
 
     /// Whether columns have lumped masses between floors.
     #[must_use]
     pub fn has_masses_between_floors(&self) -> bool {
-        let heavy = self.frame.columns.iter().any(|own| own.line_mass > 0.0);
+        let heavy = self.frame.all_columns().any(|(_, own)| own.line_mass > 0.0);
         heavy && self.frame.column_segments > 1
     }
 
@@ -236,11 +236,21 @@ impl Tiers {
                     !columns.any(|own| own.lines[1] == [index, *line])
                 });
                 let k = frame.frame.column_segments as f64;
-                let storeys = frame.frame.columns.iter().zip(&frame.frame.storey_heights);
-                let line: f64 = storeys
-                    .map(|(own, height)| own.line_mass * height * (k - 1.0) / k)
-                    .sum();
-                line * lines.count() as f64
+                let storeys = frame.frame.storey_heights.iter().enumerate();
+                let of_line = |line: usize| -> f64 {
+                    let columns = storeys.clone();
+                    let columns = columns.filter_map(|(storey, height)| {
+                        Some((frame.frame.column(storey, line)?, height))
+                    });
+                    columns
+                        .map(|(own, height)| own.line_mass * height * (k - 1.0) / k)
+                        .sum()
+                };
+                if frame.frame.is_regular() {
+                    // All equal to the last bit.
+                    return of_line(0) * lines.count() as f64;
+                }
+                lines.map(of_line).sum::<f64>()
             })
             .sum()
     }
@@ -283,12 +293,7 @@ impl PlanFrame {
         crossed: impl Fn(usize) -> bool,
     ) {
         let frame = &self.frame;
-        let lines: Vec<f64> = std::iter::once(0.0)
-            .chain(frame.spans.iter().scan(0.0, |at, span| {
-                *at += span;
-                Some(*at)
-            }))
-            .collect();
+        let lines = frame.line_positions();
         // Out of the plane of a frame along x is across.
         let out_of_plane = if self.direction[0].abs() > self.direction[1].abs() {
             2
@@ -298,9 +303,12 @@ impl PlanFrame {
         let k = frame.column_segments.max(1);
         for storey in 0..frame.storey_heights.len().min(levels.len() - 1) {
             let (below, above) = (storey, storey + 1);
-            let column = frame.columns.get(storey).map_or(0.0, |own| own.line_mass)
-                * frame.storey_heights[storey];
+            let joints = frame.joints(storey + 1);
             for (line, along) in lines.iter().enumerate() {
+                let Some(column) = frame.column(storey, line) else {
+                    continue;
+                };
+                let column = column.line_mass * frame.storey_heights[storey];
                 let at = self.point_at(*along);
                 let mut add = |level: usize, kind: usize, mass: f64| {
                     if mass > 0.0 {
@@ -313,7 +321,7 @@ impl PlanFrame {
                     add(above, BOTH_WAYS, end);
                 }
                 let floor_mass = frame.floor_mass.get(storey).copied();
-                let joint = floor_mass.unwrap_or(0.0) / lines.len() as f64;
+                let joint = floor_mass.unwrap_or(0.0) / joints as f64;
                 add(above, BOTH_WAYS, joint);
                 if !crossed(line) {
                     for cut in 1..k {
@@ -324,6 +332,9 @@ impl PlanFrame {
                 }
             }
             for (bay, span) in frame.spans.iter().enumerate() {
+                if frame.beam(storey, bay).is_none() {
+                    continue;
+                }
                 let segments = frame.beam_segments.get(bay).copied().unwrap_or(1).max(1);
                 let mass = frame.beam_mass.get(storey).copied().unwrap_or(0.0) * span;
                 for cut in 0..=segments {

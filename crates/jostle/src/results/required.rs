@@ -18,11 +18,16 @@ impl Summary {
         let (Some(of_gap), Some(own)) = (model.gaps.get(gap), self.gaps.get(gap)) else {
             return Requirements::default();
         };
-        let places = own.contacts.iter().map(|contact| Place {
-            height: contact.height_m,
-            peaks: of_gap
+        let places = own.contacts.iter().filter_map(|contact| {
+            let peaks = of_gap
                 .between
-                .map(|side| self.peak(model, side, contact.height_m)),
+                .map(|side| self.peak(model, side, contact.height_m));
+            // A face that stands back by more than both sides move needs no gap.
+            let is_beyond = contact.width_m - own.width_m > peaks.iter().sum();
+            (!is_beyond || own.contacts.len() == 1).then_some(Place {
+                height: contact.height_m,
+                peaks,
+            })
         });
         let sides = model.buildings_beside(of_gap.between).map(|building| {
             let building = building?;
@@ -67,7 +72,7 @@ impl Summary {
         Some(ddc_coefficient([t1, t2], [d1, d2]))
     }
 
-    /// Greatest displacement of a side of a gap at a height, either sign; 0 of a wall that does not move \[m\].
+    /// Greatest displacement of a side of a gap at a height above the datum, either sign; 0 of a wall that does not move \[m\].
     fn peak(&self, model: &Model, side: Option<usize>, height: f64) -> f64 {
         let Some(side) = side else { return 0.0 };
         let Some(own) = self.buildings.get(side) else {
@@ -79,7 +84,8 @@ impl Summary {
             let response = floor.without_contact.as_ref().unwrap_or(&floor.response);
             (floor.height_m, response.displacement_peak_m())
         };
-        peak_at_height(floors.map(peak), height)
+        let foot = model.buildings[side].base.elevation;
+        peak_at_height(floors.map(peak), height - foot)
     }
 }
 

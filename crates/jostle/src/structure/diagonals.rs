@@ -26,12 +26,17 @@ pub struct FrameDiagonal {
 }
 
 impl Discretization {
-    /// Adds the diagonals of a frame whose `joints` are nodes already: feet first, then floor by floor, each from the left.
-    pub(super) fn add_diagonals(&mut self, diagonals: &[Diagonal], joints: &[Vec<usize>]) {
+    /// Adds the diagonals of a frame whose `joints` are nodes already, where there are any: feet first, then floor by floor, each by
+    /// column line.
+    pub(super) fn add_diagonals(&mut self, diagonals: &[Diagonal], joints: &[Vec<Option<usize>>]) {
         for own in diagonals {
             let [lower, upper] = own.place.lines();
             let storey = own.place.storey;
-            let ends = [joints[storey - 1][lower], joints[storey][upper]];
+            // Diagonals without a joint are faults of the model.
+            let (Some(from), Some(to)) = (joints[storey - 1][lower], joints[storey][upper]) else {
+                continue;
+            };
+            let ends = [from, to];
             let elongation = elongation(&self.stick_model, ends);
             match own.hysteresis {
                 None => self.stick_model.elements.push(Element::Spring {

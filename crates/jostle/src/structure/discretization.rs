@@ -21,11 +21,11 @@ use crate::model::{
 pub struct Discretization {
     /// Masses and elements.
     pub stick_model: StickModel,
-    /// The lowest node of the first column line, fixed or not.
+    /// The lowest node of the first column line that has a column, fixed or not.
     pub foot: Option<usize>,
     /// The mat of an isolated building; it is its foot too.
     pub mat: Option<Mat>,
-    /// Reference node of every floor, from the ground up: the joint of the first column line.
+    /// Reference node of every floor, from the ground up: its joint at the first column line that has one.
     pub floors: Vec<usize>,
     /// Contact nodes of the left side, from the ground up.
     pub left_face: Vec<usize>,
@@ -49,6 +49,8 @@ pub struct Discretization {
     pub jointed_frame: Option<Arc<JointedFrame>>,
     /// Names of the columns and walls at points of a plan, as far as they have one.
     pub element_names: Vec<Option<String>>,
+    /// Height of the base above the common datum \[m\].
+    pub elevation: f64,
 }
 
 /// A mat on bearings.
@@ -99,6 +101,7 @@ impl Discretization {
                 discretize_tiers(tiers, building.gravity, isolation)
             }
         };
+        discretization.elevation = building.base.elevation;
         let in_plan = matches!(building.structure, Structure::Tiers(_));
         if let (Some(isolation), false) = (&building.base.isolation, in_plan) {
             discretization.put_on_bearings(isolation);
@@ -431,22 +434,25 @@ pub(super) fn discretize_frame(
     points: [&[f64]; 2],
 ) -> Discretization {
     let mut stick_model = StickModel::default();
-    let mut lines: Vec<f64> = vec![0.0];
-    for span in &frame.spans {
-        lines.push(lines[lines.len() - 1] + span);
-    }
-    let mut below: Vec<usize> = lines
-        .iter()
-        .map(|x| stick_model.add_foot(*x, base))
+    let lines = frame.line_positions();
+    // Joints by column line, where a column stands below; those of the ground are its feet.
+    let mut below: Vec<Option<usize>> = (0..lines.len())
+        .map(|line| {
+            let stands = frame.has_joint(0, line);
+            stands.then(|| stick_model.add_foot(lines[line], base))
+        })
         .collect();
     let mut discretization = Discretization {
-        foot: Some(below[0]),
+        foot: below.iter().flatten().next().copied(),
         ..Discretization::default()
     };
     let mut all_joints = vec![below.clone()];
     // Hinges come before springs, in the order of the stick model.
-    let at_the_base =
-        |motion| (1..=lines.len()).map(move |line| SpringPlace::Base { line, motion });
+    let feet = (1..=lines.len()).filter(|line| frame.has_joint(0, line - 1));
+    let at_the_base = |motion| {
+        let feet = feet.clone();
+        feet.map(move |line| SpringPlace::Base { line, motion })
+    };
     if base.rotational_hinge.is_some() {
         discretization
             .spring_places
@@ -457,12 +463,19 @@ pub(super) fn discretize_frame(
     let mut height = 0.0;
     for (storey, storey_height) in frame.storey_heights.iter().enumerate() {
         height += storey_height;
-        let joints: Vec<usize> = lines
-            .iter()
-            .map(|x| stick_model.add_node(*x, height))
+        let outer = frame.outer_lines(storey + 1);
+        let joints: Vec<Option<usize>> = (0..lines.len())
+            .map(|line| {
+                let stands = frame.has_joint(storey + 1, line);
+                stands.then(|| stick_model.add_node(lines[line], height))
+            })
             .collect();
-        let column = &frame.columns[storey];
-        for (line, (&from, &to)) in below.iter().zip(&joints).enumerate() {
+        for (line, ends) in below.iter().zip(&joints).enumerate() {
+            let (Some(column), (&Some(from), &Some(to))) = (frame.column(storey, line), ends)
+            else {
+                continue;
+            };
+            let is_outer = [0, 1].map(|side| outer.is_some_and(|outer| outer[side] == line));
             let mut ends = [from, to];
             let hinge = hinges.columns.get(storey).and_then(|row| row.get(line));
             let shear = hinges.shear.get(storey).and_then(|row| row.get(line));
@@ -488,7 +501,7 @@ pub(super) fn discretize_frame(
                 }
             }
             let mut cuts = equal_cuts(frame.column_segments);
-            let ports = [line == 0, line + 1 == lines.len()].into_iter().zip(points);
+            let ports = is_outer.into_iter().zip(points);
             for point in ports.filter(|(is_face, _)| *is_face).flat_map(|(_, p)| p) {
                 cut_at(
                     &mut cuts,
@@ -514,14 +527,18 @@ pub(super) fn discretize_frame(
                 elements: first..stick_model.members.len(),
             });
             let port = interior.into_iter().chain([to]);
-            if line == 0 {
+            if is_outer[0] {
                 discretization.left_face.extend(port.clone());
             }
-            if line + 1 == lines.len() {
+            if is_outer[1] {
                 discretization.right_face.extend(port);
             }
         }
         for (bay, ends) in joints.windows(2).enumerate() {
+            let (Some(beam), &[Some(left), Some(right)]) = (frame.beam(storey, bay), ends) else {
+                continue;
+            };
+            let ends = [left, right];
             let mut ends = [
                 stick_model.hinged(ends[0], &frame.joint),
                 stick_model.hinged(ends[1], &frame.joint),
@@ -542,7 +559,7 @@ pub(super) fn discretize_frame(
                 ends[1],
                 &equal_cuts(frame.beam_segments[bay]),
                 frame.beam_mass[storey],
-                &frame.beams[storey],
+                beam,
                 frame.axial.beams_flexible,
             );
             discretization.members.push(FrameMember {
@@ -554,10 +571,11 @@ pub(super) fn discretize_frame(
                 elements: first..stick_model.members.len(),
             });
         }
-        for &joint in &joints {
-            stick_model.nodes[joint].add_mass(frame.floor_mass[storey] / joints.len() as f64);
+        let standing = frame.joints(storey + 1);
+        for &joint in joints.iter().flatten() {
+            stick_model.nodes[joint].add_mass(frame.floor_mass[storey] / standing as f64);
         }
-        discretization.floors.push(joints[0]);
+        discretization.floors.extend(joints.iter().flatten().next());
         all_joints.push(joints.clone());
         below = joints;
     }

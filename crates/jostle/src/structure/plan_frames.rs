@@ -40,7 +40,7 @@ pub(super) fn add_frames(
             carry_floors(tiers, &shared, index, &mut own.stick_model);
         }
         let mut without_columns = plan_frame.frame.clone();
-        for column in &mut without_columns.columns {
+        for column in without_columns.column_sections_mut() {
             column.line_mass = 0.0;
         }
         let light = discretize(plan_frame, &without_columns).stick_model;

@@ -3,7 +3,7 @@
 use super::soil::{self, Founded, Ground};
 use super::{BuildingSystem, Floor, FoundationPlace, SpringSupport, System, WallPlace, finite};
 use crate::contact::{ContactLaw, effective_mass};
-use crate::interface::contact_points::{PointPair, SAME, mean};
+use crate::interface::contact_points::{PointPair, SAME, mean, set_back};
 use crate::interface::{
     Contact, Coulomb, EdgeEnd, Friction, JoinedPoints, LinkElement, PlanPlace, Port, PortPair,
     PushedFloor, faces_of_gap, narrowest, sticking_stiffness, unique_below,
@@ -28,7 +28,7 @@ impl System {
         let mut foundations: Vec<(usize, FoundationPlace)> = Vec::new();
         let mut faults = Vec::new();
         for (index, building) in model.buildings.iter().enumerate() {
-            let points = row.points_between_floors(index);
+            let points = row.points_between_floors(model, index);
             let points = points.each_ref().map(|points| &points[..]);
             let number = foundations.len();
             let on_soil = building.base.foundation.zip(Ground::of(model, number));
@@ -194,7 +194,8 @@ impl System {
                         let [left, right] = ports.masses();
                         contacts.push(Contact {
                             gap: index,
-                            width: gap.width_of(entry),
+                            width: gap.width_of(entry)
+                                + set_back(gap, model.neighbours(gap.between), pair),
                             law: gap.law.between(left, right),
                             ..Contact::without_law(ports)
                         });
@@ -403,11 +404,12 @@ fn plan_contacts(
             sticking_stiffness(&law, effective_mass(masses[0], masses[1]))
         });
         // That of the floor beside a wall, which has none.
-        let height = [(a, *i), (b, *j)].into_iter().filter_map(|(side, floor)| {
+        let beside = [(a, *i), (b, *j)].into_iter().filter_map(|(side, floor)| {
             let own = system.structures().get(side)?;
-            Some(own.floors.get(floor.checked_sub(1)?)?.height)
+            let floor = own.floors.get(floor.checked_sub(1)?)?;
+            Some(floor.height + own.discretization.elevation)
         });
-        let height = height.fold(0.0, f64::max);
+        let beside = beside.reduce(f64::max).unwrap_or_default();
         for point in &face.points {
             let port = |building: usize, floor: usize, mass: f64, direction: PlanPoint| {
                 if building >= model.buildings.len() {
@@ -420,7 +422,8 @@ fn plan_contacts(
                         row: Row::single(own.offset).times(share),
                         mass: point.share * mass,
                         floor: None,
-                        height,
+                        height: beside,
+                        level: beside,
                     });
                 }
                 let own = system.buildings.get(building)?;
@@ -437,6 +440,7 @@ fn plan_contacts(
                     mass: point.share * mass,
                     floor: Some(floor),
                     height,
+                    level: height + own.discretization.elevation,
                 })
             };
             let ports = |direction| {
@@ -520,6 +524,7 @@ fn ports(
                     mass: own.equations.mass[0],
                     floor: None,
                     height: mean(pair),
+                    level: mean(pair),
                 }
             });
             continue;
@@ -534,7 +539,7 @@ fn ports(
         let node = port
             .iter()
             .copied()
-            .find(|&node| (nodes[node].y - height).abs() <= 2.0 * SAME)
+            .find(|&node| (nodes[node].y + discretization.elevation - height).abs() <= 2.0 * SAME)
             .ok_or_else(|| format!("no point to hit at {height:.3} m"))?;
         ports[side] = Some(system.port(building, node)?);
     }
@@ -685,7 +690,8 @@ fn links_in_plan(
         _ => {
             let floor_at = |side: usize, height: f64| {
                 let own = system.buildings.get(link.between[side]?)?;
-                let near = |floor: &Floor| (floor.height - height).abs() <= 2.0 * SAME;
+                let foot = own.discretization.elevation;
+                let near = |floor: &Floor| (floor.height + foot - height).abs() <= 2.0 * SAME;
                 own.floors.iter().position(near).map(|index| index + 1)
             };
             let floors = |pair: &PointPair| [0, 1].map(|side| floor_at(side, pair[side]?));
@@ -727,6 +733,7 @@ fn ports_in_plan(
             mass,
             floor: Some(floor).filter(|floor| *floor > 0),
             height,
+            level: height + own.discretization.elevation,
         })
     });
     PortPair(ends)

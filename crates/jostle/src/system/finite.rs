@@ -89,8 +89,9 @@ fn cause(building: &Building) -> String {
                 Some((format!("storey {}", i + 1), least(&storey.stiffness)))
             });
             let columns = tiers.frames.iter().flat_map(|own| {
-                let columns = own.frame.columns.iter().zip(&own.frame.storey_heights);
-                columns.enumerate().map(|(i, (section, height))| {
+                let columns = own.frame.all_columns();
+                columns.map(|([i, _], section)| {
+                    let height = own.frame.storey_heights[i];
                     let name = format!("columns of frame {}, storey {}", own.name, i + 1);
                     (name, 12.0 * section.flexural_rigidity / height.powi(3))
                 })
@@ -122,23 +123,25 @@ fn cause(building: &Building) -> String {
         }
         Structure::Frame(frame) => {
             let lateral = |rigidity: f64, length: f64| 12.0 * rigidity / length.powi(3);
-            let columns = frame.columns.iter().zip(&frame.storey_heights).enumerate();
-            let columns = columns.map(|(i, (section, height))| {
+            let columns = frame.all_columns().map(|([i, _], section)| {
                 let name = format!("columns of storey {}", i + 1);
-                (name, lateral(section.flexural_rigidity, *height))
+                (
+                    name,
+                    lateral(section.flexural_rigidity, frame.storey_heights[i]),
+                )
             });
-            let beams = frame.beams.iter().enumerate().flat_map(|(i, section)| {
-                frame.spans.iter().enumerate().map(move |(bay, span)| {
-                    let name = format!("beam of floor {}, span {}", i + 1, bay + 1);
-                    (name, lateral(section.flexural_rigidity, *span))
-                })
+            let beams = frame.all_beams().map(|([i, bay], section)| {
+                let name = format!("beam of floor {}, span {}", i + 1, bay + 1);
+                (name, lateral(section.flexural_rigidity, frame.spans[bay]))
             });
-            let width: f64 = frame.spans.iter().sum();
             let floors = frame.beam_mass.iter().zip(&frame.floor_mass).enumerate();
             (
                 columns.chain(beams).collect(),
                 floors
-                    .map(|(i, (line, mass))| (format!("floor {}", i + 1), line * width + mass))
+                    .map(|(i, (line, mass))| {
+                        let length = frame.beam_length(i);
+                        (format!("floor {}", i + 1), line * length + mass)
+                    })
                     .collect(),
             )
         }

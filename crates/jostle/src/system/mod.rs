@@ -256,6 +256,7 @@ impl System {
             mass,
             floor: floor.map(|index| index + 1),
             height,
+            level: height + own.discretization.elevation,
         })
     }
 }

@@ -483,6 +483,7 @@ pub(super) fn links(
             mass: row_of_own.moving_mass(&own.equations.mass),
             floor: None,
             height: 0.0,
+            level: own.discretization.elevation,
         })
     };
     between

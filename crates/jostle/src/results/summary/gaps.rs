@@ -132,7 +132,7 @@ pub struct ContactSummary {
 impl ContactSummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::real("height_m", Unit::M, "height above the base", |c| c.height_m),
+        Quantity::<Self>::real("height_m", Unit::M, "height above the base, or above the datum of elevations", |c| c.height_m),
         Quantity::<Self>::real("width_m", Unit::M, "width at rest", |c| c.width_m),
         Quantity::<Self>::optional("crushed_depth_m", Unit::M, "depth to which the face is crushed at the end: its gap is wider by it; only with crush", |c| c.crushed_depth_m).not_in_summary(),
         Quantity::<Self>::optional("equivalent_restitution", Unit::NONE, "coefficient of restitution whose published formula gives the dashpot; only with damping", |c| c.equivalent_restitution).not_in_summary(),

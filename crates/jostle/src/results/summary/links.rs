@@ -69,7 +69,7 @@ pub struct LinkFloorSummary {
 impl LinkFloorSummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::real("height_m", Unit::M, "height above the base", |l| l.height_m),
+        Quantity::<Self>::real("height_m", Unit::M, "height above the base, or above the datum of elevations", |l| l.height_m),
         Quantity::<Self>::real("peak_force_n", Unit::N, "force of greatest magnitude, positive in compression", |l| l.peak_force_n),
         Quantity::<Self>::real("peak_force_at_s", Unit::S, "its instant", |l| l.peak_force_at_s),
         Quantity::<Self>::real("peak_stroke_m", Unit::M, "greatest change of length", |l| l.peak_stroke_m),

@@ -188,6 +188,34 @@ const CASES: &[Case] = &[
         "has 2 entries for 3 storeys",
     ),
     (
+        |m| {
+            frame_of(m).own_columns.insert([3, 0], None);
+        },
+        "building[0].column",
+        "names line 1 of storey 4",
+    ),
+    (
+        |m| {
+            frame_of(m).own_columns.insert([1, 0], None);
+        },
+        "building[0].column[2][0]",
+        "line 1 has a column in storey 3 but none in storey 2",
+    ),
+    (
+        |m| {
+            frame_of(m).own_columns.insert([2, 0], None);
+        },
+        "building[0].beam[2][0]",
+        "line 1 no joint there",
+    ),
+    (
+        |m| {
+            frame_of(m).own_beams.insert([0, 0], None);
+        },
+        "building[0].beam[0][0]",
+        "floor 1 is in two parts",
+    ),
+    (
         |m| frame_of(m).beam_mass.push(1.0),
         "building[0].beam_mass",
         "has 4 entries for 3 storeys",

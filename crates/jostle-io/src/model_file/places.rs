@@ -1,0 +1,254 @@
+//! Tables of a list that each hold for some places of a frame: later ones replace earlier ones.
+
+use jostle::{Model, Structure};
+use jostle_section::formula::Member;
+
+use super::building::has_length;
+use crate::keys::{Section, keys_of};
+use crate::reader::{Field, Reader, View, join};
+use crate::tree::{Node, Value};
+
+/// Keys of a table that say where it holds.
+const PLACE_KEYS: [&str; 5] = ["line", "bay", "storeys", "floors", "omit"];
+
+/// Which table holds for which columns or beams of a plane frame.
+pub(super) struct Layout<'n> {
+    /// The tables, in the order of the file.
+    pub(super) tables: Vec<Table<'n>>,
+    /// Index of the table by storey or floor and by line or bay, from 0; `None` where no table holds. Empty after a fault.
+    pub(super) holds: Vec<Vec<Option<usize>>>,
+}
+
+/// One table for columns or beams.
+pub(super) struct Table<'n> {
+    pub(super) field: Field<'n>,
+    /// Whether there is nothing at its places.
+    pub(super) omits: bool,
+    /// Whether it names lines or bays.
+    pub(super) names_across: bool,
+}
+
+/// The key of columns or beams, and those of their lines or bays and of their storeys or floors.
+fn keys(member: Member) -> [&'static str; 3] {
+    match member {
+        Member::Column => ["column", "line", "storeys"],
+        Member::Beam => ["beam", "bay", "floors"],
+    }
+}
+
+pub(super) fn sections(member: Member) -> &'static [Section] {
+    match member {
+        Member::Column => &[Section::Column],
+        Member::Beam => &[Section::Beam],
+    }
+}
+
+impl<'n> Layout<'n> {
+    /// Reads where tables hold; `None` without the key. `across`: number of lines or bays.
+    pub(super) fn read(
+        reader: &mut Reader<'_>,
+        view: &View<'n>,
+        member: Member,
+        storeys: Option<usize>,
+        across: usize,
+    ) -> Option<Self> {
+        let [key, across_key, up_key] = keys(member);
+        let field = reader.get(view, key)?;
+        let entries = field.entries().unwrap_or_else(|| vec![field.clone()]);
+        // A single [[building.column]] holds for all.
+        let is_list = matches!(field.node.value, Value::List(_)) && entries.len() != 1;
+        let names_places = name_places(field.node);
+        let mut sound = !is_list
+            || names_places
+            || has_length(reader, &field, entries.len(), storeys).is_some();
+        let rows = storeys.unwrap_or(1);
+        let mut holds = vec![vec![(!is_list && !names_places).then_some(0); across]; rows];
+        let mut tables = Vec::new();
+        for (index, field) in entries.into_iter().enumerate() {
+            let own = reader.reopen(&field, sections(member));
+            let place = own.map(|own| {
+                let omits = omits(reader, &own, &field);
+                let names_across = own.has(across_key);
+                let ranges = [(up_key, rows), (across_key, across)]
+                    .map(|(key, most)| range(reader, &own, key, most));
+                (omits, names_across, ranges)
+            });
+            let (omits, names_across, ranges) = place.unwrap_or((false, false, [None; 2]));
+            if names_places {
+                match ranges {
+                    [Some(up), Some(along)] => {
+                        for row in &mut holds[up[0] - 1..up[1]] {
+                            row[along[0] - 1..along[1]].fill(Some(index));
+                        }
+                    }
+                    _ => sound = false,
+                }
+            } else if is_list && let Some(row) = holds.get_mut(index) {
+                row.fill(Some(index));
+            }
+            tables.push(Table {
+                field,
+                omits,
+                names_across,
+            });
+        }
+        if !sound || storeys.is_none() {
+            holds.clear();
+        }
+        Some(Self { tables, holds })
+    }
+}
+
+/// Whether a table of a list, or the table itself, names places.
+pub(crate) fn name_places(node: &Node) -> bool {
+    match &node.value {
+        Value::List(list) => list.iter().any(name_places),
+        Value::Table(table) => PLACE_KEYS.iter().any(|key| table.get(key).is_some()),
+        _ => false,
+    }
+}
+
+/// Whether a list names its places in a building's table, so that its length is not the number of storeys.
+pub(super) fn is_by_place(reader: &mut Reader<'_>, view: &View<'_>, key: &'static str) -> bool {
+    matches!(key, "column" | "beam")
+        && reader
+            .get(view, key)
+            .is_some_and(|field| name_places(field.node))
+}
+
+/// Whether a table says that there is nothing at its places; a section beside it is a fault.
+fn omits(reader: &mut Reader<'_>, own: &View<'_>, table: &Field<'_>) -> bool {
+    if !read_omit(reader, own) {
+        return false;
+    }
+    let other = keys_of(own.sections())
+        .map(|key| key.name)
+        .find(|key| !PLACE_KEYS.contains(key) && own.has(key));
+    if let Some(key) = other {
+        *reader.bad(table, format!("has both omit and {key}")) = Some(format!(
+            "leave out {key} where there is nothing, or omit where there is a section"
+        ));
+    }
+    true
+}
+
+/// The flag `omit` of a table.
+pub(super) fn read_omit(reader: &mut Reader<'_>, own: &View<'_>) -> bool {
+    reader
+        .get(own, "omit")
+        .is_some_and(|field| reader.flag(&field).unwrap_or(false))
+}
+
+/// The first and the last that a key of a table names, counted from 1; all without it, `None` after a fault.
+pub(super) fn range(
+    reader: &mut Reader<'_>,
+    own: &View<'_>,
+    key: &'static str,
+    most: usize,
+) -> Option<[usize; 2]> {
+    match reader.get(own, key) {
+        Some(field) => read_range(reader, &field, most),
+        None => Some([1, most]),
+    }
+}
+
+/// A number, or the first and the last of a range, counted from 1.
+fn read_range(reader: &mut Reader<'_>, field: &Field<'_>, most: usize) -> Option<[usize; 2]> {
+    let range = match field.entries() {
+        None => {
+            let single = reader.count(field)?;
+            [single, single]
+        }
+        Some(entries) => {
+            let [from, to] = &entries[..] else {
+                reader.bad(
+                    field,
+                    "expected a number, or the first and the last, such as [1, 3]",
+                );
+                return None;
+            };
+            [reader.count(from)?, reader.count(to)?]
+        }
+    };
+    if range[0] == 0 || range[1] < range[0] || range[1] > most {
+        *reader.bad(
+            field,
+            format!(
+                "must rise and lie between 1 and {most}, found {} to {}",
+                range[0], range[1]
+            ),
+        ) = Some("count lines, bays and storeys from 1; a beam has the number of the line at which it begins".into());
+        return None;
+    }
+    Some(range)
+}
+
+/// Turns `building[0].column[2][1]`, the column of the third storey at the second line, into the path of the table that holds there.
+pub(super) fn rename(reader: &mut Reader<'_>, root: &Node, model: &Model, path: &mut String) {
+    let found = |member: Member| {
+        let key = format!(".{}[", keys(member)[0]);
+        let (owner, rest) = path.split_once(&key)?;
+        let (storey, rest) = rest.split_once(']')?;
+        let (line, rest) = match rest.strip_prefix('[').and_then(|own| own.split_once(']')) {
+            Some((line, rest)) => (Some(line.parse::<usize>().ok()?), rest),
+            None => (None, rest),
+        };
+        Some((member, owner, storey.parse::<usize>().ok()?, line, rest))
+    };
+    let place = found(Member::Column).or_else(|| found(Member::Beam));
+    let Some((member, owner, storey, line, rest)) = place else {
+        return;
+    };
+    let numbers = owner
+        .split(['[', ']'])
+        .filter_map(|part| part.parse::<usize>().ok());
+    let numbers: Vec<usize> = numbers.collect();
+    let building = numbers
+        .first()
+        .and_then(|index| model.buildings.get(*index));
+    let frame = match building.map(|own| &own.structure) {
+        Some(Structure::Frame(frame)) => Some(frame),
+        Some(Structure::Tiers(tiers)) => {
+            let own = numbers.get(1).and_then(|index| tiers.frames.get(*index));
+            own.map(|own| &own.frame)
+        }
+        _ => None,
+    };
+    let (Some(frame), Some(node)) = (frame, node_at(root, owner)) else {
+        return;
+    };
+    let Some(view) = reader.reopen(&Field::root(node), &[Section::Frame]) else {
+        return;
+    };
+    let across = frame.lines() - usize::from(member == Member::Beam);
+    let storeys = Some(frame.storey_heights.len());
+    let layout = reader.quietly(|reader| Layout::read(reader, &view, member, storeys, across));
+    let Some(layout) = layout else {
+        return;
+    };
+    // Without one, it is the first line.
+    let first = frame.outer_lines(storey + 1).map_or(0, |[first, _]| first);
+    let row = layout.holds.get(storey);
+    let table = row.and_then(|row| *row.get(line.unwrap_or(first))?);
+    let is_list = layout
+        .tables
+        .iter()
+        .any(|own| own.field.path.ends_with(']'));
+    let entry = match table {
+        Some(table) if is_list => format!("{}[{table}]", keys(member)[0]),
+        _ => keys(member)[0].to_owned(),
+    };
+    *path = format!("{}{rest}", join(owner, &entry));
+}
+
+/// The value at a path such as `building[0].frame[1]`.
+fn node_at<'n>(root: &'n Node, path: &str) -> Option<&'n Node> {
+    let mut parts = path
+        .split(['.', '['])
+        .map(|part| part.trim_end_matches(']'));
+    parts.try_fold(root, |node, part| match &node.value {
+        Value::List(list) => list.get(part.parse::<usize>().ok()?),
+        Value::Table(table) => table.get(part),
+        _ => None,
+    })
+}

@@ -1,0 +1,368 @@
+//! Plane frames whose columns differ by line and beams by bay, members left out, and bases at different levels.
+
+use jostle::{Frame, Structure, Summary};
+use jostle_testkit::compare::close;
+use jostle_testkit::files::{read, refusal, sound};
+use jostle_testkit::runs::{assembled, run_and_summary};
+
+const MOTION: &str = "motion = { kind = \"sine\", amplitude = 3, period = 0.6, duration = 2.5 }\nanalysis = { tolerance = 1e-5 }\n";
+
+/// Three bays below, the middle one above.
+const PODIUM: &str = r#"
+[[building]]
+name = "A"
+kind = "frame"
+storeys = 4
+storey_height = "3 m"
+spans = ["6 m", "5 m", "4 m"]
+elastic_modulus = "30 GPa"
+beam_mass = "3 t/m"
+
+[[building.column]]
+width = "0.5 m"
+depth = "0.5 m"
+
+[[building.column]]
+line = 1
+storeys = [3, 4]
+omit = true
+
+[[building.column]]
+line = 4
+storeys = [3, 4]
+omit = true
+
+[[building.column]]
+line = [2, 3]
+storeys = [3, 4]
+width = "0.4 m"
+depth = "0.4 m"
+
+[[building.beam]]
+width = "0.3 m"
+depth = "0.6 m"
+"#;
+
+const NEIGHBOUR: &str = r#"
+[[building]]
+name = "B"
+kind = "shear"
+storeys = 4
+storey_height = "3 m"
+mass = "40 t"
+stiffness = "60 MN/m"
+"#;
+
+const GAP: &str = "[[gap]]\nbetween = [\"A\", \"B\"]\nwidth = \"10 mm\"\n";
+
+fn frame(text: &str) -> Frame {
+    match &sound(text).model.buildings[0].structure {
+        Structure::Frame(frame) => frame.clone(),
+        other => panic!("{other:?}"),
+    }
+}
+
+fn summary(text: &str) -> Summary {
+    let input = sound(text);
+    let motion = input.ground_motion().expect("a sine");
+    run_and_summary(&input.model, &motion).2
+}
+
+#[test]
+fn later_tables_replace_earlier_ones() {
+    let own = frame(&format!("{MOTION}{PODIUM}"));
+    let depth = |storey, line| {
+        let section = own.column(storey, line)?;
+        Some((section.line_mass / 2500.0).sqrt())
+    };
+    assert_eq!(depth(0, 0), Some(0.5));
+    assert_eq!(depth(1, 3), Some(0.5));
+    assert_eq!(depth(2, 0), None);
+    assert!(depth(3, 2).is_some_and(|depth| (depth - 0.4).abs() < 1e-12));
+    assert_eq!(
+        (own.all_columns().count(), own.joints(2), own.joints(3)),
+        (12, 4, 2)
+    );
+    // Beams stand between joints.
+    assert_eq!(own.all_beams().count(), 8);
+    assert!(own.beam(2, 0).is_none() && own.beam(2, 1).is_some());
+    assert_eq!((own.set_back(2), own.set_back(3)), ([0.0; 2], [6.0, 4.0]));
+    assert_eq!(own.tops(), [2, 4, 4, 2]);
+}
+
+/// A single table, whether in double brackets or not, a list of one table per storey, and a list that names places are the same model, and
+/// so the same run to the last bit.
+#[test]
+fn equal_sections_are_one_frame_however_they_are_written() {
+    let column = "width = 0.5, depth = 0.5";
+    let with = |columns: &str, beams: &str| {
+        let head = &PODIUM[..PODIUM.find("[[building.column]]").expect("columns")];
+        format!("{MOTION}{head}{columns}{beams}{NEIGHBOUR}{GAP}")
+    };
+    let beam = "beam = { width = 0.3, depth = 0.6 }\n";
+    let one = with(&format!("column = {{ {column} }}\n"), beam);
+    let expected = summary(&one);
+    assert!(expected.gaps[0].impact_count > 3);
+    let table = "\n[[building.column]]\nwidth = 0.5\ndepth = 0.5\n";
+    let of_beams = "[[building.beam]]\nbay = [1, 2]\nwidth = 0.3\ndepth = 0.6\n[[building.beam]]\nbay = 3\nfloors = [1, 4]\nwidth = 0.3\ndepth = 0.6\n";
+    for other in [
+        with(table, "[[building.beam]]\nwidth = 0.3\ndepth = 0.6\n"),
+        with(
+            &table.repeat(4),
+            "[[building.beam]]\nwidth = 0.3\ndepth = 0.6\n",
+        ),
+        with(
+            &format!("{table}line = [1, 4]\nstoreys = [1, 4]\n{table}line = 2\nstoreys = 3\n"),
+            of_beams,
+        ),
+    ] {
+        assert_eq!(sound(&one).model, sound(&other).model, "{other}");
+        assert_eq!(summary(&other), expected);
+    }
+}
+
+/// Seen from behind, and shaken the other way, a frame does the same.
+#[test]
+fn a_mirrored_frame_gives_mirrored_results() {
+    let brace = "[[building.brace]]\nbay = 1\nstoreys = 1\nEA = \"300 MN\"\n";
+    let one = format!("{MOTION}{PODIUM}{brace}{NEIGHBOUR}{GAP}");
+    let flipped = PODIUM.replace("[\"6 m\", \"5 m\", \"4 m\"]", "[\"4 m\", \"5 m\", \"6 m\"]");
+    let brace = "[[building.brace]]\nbay = 3\nstoreys = 1\nEA = \"300 MN\"\ndirection = \"down\"\n";
+    let gap = "[[gap]]\nbetween = [\"B\", \"A\"]\nwidth = \"10 mm\"\n";
+    let motion = MOTION.replace("amplitude = 3", "amplitude = -3");
+    let other = format!("{motion}{NEIGHBOUR}{flipped}{brace}{gap}");
+    let [one, other] = [summary(&one), summary(&other)];
+    assert!(one.gaps[0].impact_count > 3);
+    let greatest = one.gaps[0].peak_force_n;
+    let of = |summary: &Summary| summary.buildings.iter().position(|own| own.name == "A");
+    let [a, b] = [&one, &other].map(|own| &own.buildings[of(own).expect("A")]);
+    for (a, b) in a.floors.above.iter().zip(&b.floors.above) {
+        let [a, b] = [a, b].map(|own| own.response);
+        let top = a.displacement_max_m.abs().max(a.displacement_min_m.abs());
+        close(
+            b.displacement_min_m,
+            -a.displacement_max_m,
+            top,
+            1e-6,
+            "sway to the right",
+        );
+        close(
+            b.displacement_max_m,
+            -a.displacement_min_m,
+            top,
+            1e-6,
+            "sway to the left",
+        );
+    }
+    let [p, q] = [&a.parts[0], &b.parts[0]];
+    let pairs = [
+        [p.force_max_n, q.force_max_n],
+        [p.force_min_n, q.force_min_n],
+    ];
+    for [a, b] in pairs {
+        close(b, a, a.abs(), 1e-6, "force of the brace");
+    }
+    for (a, b) in one.gaps[0].contacts.iter().zip(&other.gaps[0].contacts) {
+        assert_eq!(a.impact_count, b.impact_count);
+        assert_eq!(a.width_m, b.width_m);
+        close(
+            b.peak_force_n,
+            a.peak_force_n,
+            greatest,
+            1e-5,
+            "contact force",
+        );
+    }
+}
+
+/// A lintel that is not there carries no force, and its names are no names.
+#[test]
+fn members_that_are_left_out_are_absent_from_results() {
+    let output = "output = { members = true }\n";
+    let names: Vec<String> = summary(&format!("{output}{MOTION}{PODIUM}")).buildings[0]
+        .members
+        .iter()
+        .map(|own| own.name.clone())
+        .collect();
+    assert_eq!(names.len(), 12 + 8);
+    for name in ["A.column.2.4", "A.column.4.2", "A.beam.4.2", "A.beam.2.1"] {
+        assert!(names.iter().any(|own| own == name), "{name}");
+    }
+    for name in ["A.column.1.3", "A.beam.3.1"] {
+        assert!(!names.iter().any(|own| own == name), "{name}");
+        let said = refusal(&format!(
+            "output = {{ members = [\"{name}\"] }}\n{MOTION}{PODIUM}"
+        ));
+        assert!(said.contains("as far as they are not omitted"), "{said}");
+    }
+    // Hinges of members that do not exist have no part.
+    let hinges = "hinges = { rule = \"bilinear\", column = { yield = \"300 kN.m\", post_yield = 0.01 }, beam = { yield = \"200 kN.m\", post_yield = 0.01 } }\nbeam_mass";
+    let yielding = sound(&format!("{MOTION}{}", PODIUM.replace("beam_mass", hinges)));
+    let system = assembled(&yielding.model);
+    assert_eq!(system.buildings[0].equations.springs.len(), 2 * (12 + 8));
+}
+
+/// Edge to edge the gap has its width; a face that is set back is farther away by its set-back.
+#[test]
+fn faces_that_stand_back_have_wider_gaps() {
+    let widths = |gap: &str| -> Vec<f64> {
+        let model = sound(&format!("{MOTION}{PODIUM}{NEIGHBOUR}{gap}")).model;
+        let contacts = assembled(&model).contacts;
+        contacts.iter().map(|own| own.width).collect()
+    };
+    assert_eq!(widths(GAP), [0.01, 0.01, 4.01, 4.01]);
+    let listed = format!("{GAP}floors = [[2, 2], [4, 4]]\n");
+    assert_eq!(widths(&listed), [0.01, 4.01]);
+    // A width of every contact is that of its faces.
+    let each = GAP.replace("\"10 mm\"", "[0.01, 0.02, 0.03, 0.04]");
+    assert_eq!(widths(&each), [0.01, 0.02, 0.03, 0.04]);
+}
+
+#[test]
+fn what_does_not_stand_is_refused_with_the_remedy() {
+    let beam = "[[building.beam]]\nwidth = 0.3\ndepth = 0.6\n";
+    for (from, to, expected) in [
+        (
+            "line = 4\nstoreys = [3, 4]",
+            "line = 4\nstoreys = 3",
+            "line 4 has a column in storey 4 but none in storey 3; a column that starts on a beam is not modelled: add the column below",
+        ),
+        (
+            "line = [2, 3]\nstoreys = [3, 4]\nwidth = \"0.4 m\"\ndepth = \"0.4 m\"",
+            "storeys = 3\nomit = true",
+            "leaves storey 3 without any column",
+        ),
+        ("line = 4", "line = 5", "between 1 and 4, found 5 to 5"),
+        ("line = [2, 3]", "line = [3, 2]", "must rise"),
+        (
+            "storeys = [3, 4]",
+            "storeys = [3, 5]",
+            "between 1 and 4, found 3 to 5",
+        ),
+        (
+            "line = 4",
+            "line = 0",
+            "count lines, bays and storeys from 1",
+        ),
+        ("line = 4", "bay = 4", "unknown key \"bay\""),
+        (
+            "omit = true",
+            "omit = true\nwidth = 0.4",
+            "has both omit and width",
+        ),
+        (
+            "[[building.column]]\nwidth = \"0.5 m\"",
+            "[[building.column]]\nline = [1, 3]\nwidth = \"0.5 m\"",
+            "says nothing of line 4 in storey 1",
+        ),
+        (
+            "[[building.beam]]\n",
+            "[[building.beam]]\nbay = [1, 2]\n",
+            "says nothing of bay 3 at floor 1",
+        ),
+    ] {
+        assert!(PODIUM.contains(from), "{from}");
+        let said = refusal(&format!("{MOTION}{}", PODIUM.replacen(from, to, 1)));
+        assert!(said.contains(expected), "{from} → {to}:\n{said}");
+    }
+    for (more, expected) in [
+        (
+            format!("{beam}bay = 1\nfloors = 4\n"),
+            "bay 1 has a beam at floor 4 but line 1 no joint there",
+        ),
+        (
+            "[[building.beam]]\nbay = 2\nfloors = 4\nomit = true\n".to_owned(),
+            "floor 4 is in two parts, as no beam crosses bay 2",
+        ),
+        (
+            "[[building.column]]\nline = 1\nstoreys = [3, 4]\nwidth = 0.4\ndepth = 0.4\n[[building.column]]\nline = 2\nstoreys = [3, 4]\nomit = true\n".to_owned(),
+            "floor 3 is in two parts, as no column stands below it at line 2",
+        ),
+        (
+            format!("{beam}floors = [4, 5]\n"),
+            "between 1 and 4, found 4 to 5",
+        ),
+        (
+            "[[building.brace]]\nbay = 1\nstoreys = 4\nEA = \"300 MN\"\n".to_owned(),
+            "brace.4.1.up ends at floor 3 of line 1, where there is no joint",
+        ),
+    ] {
+        let said = refusal(&format!("{MOTION}{PODIUM}{more}"));
+        assert!(said.contains(expected), "{more}:\n{said}");
+    }
+    // The fault is shown at the table that holds there.
+    let omitted = format!("{MOTION}{PODIUM}[[building.beam]]\nbay = 2\nfloors = 4\nomit = true\n");
+    assert!(refusal(&omitted).contains("building[0].beam[1]: floor 4"));
+    let stretches = PODIUM
+        .replace("beam_mass", "axial = \"flexible\"\nbeam_mass")
+        .replace(
+            "width = \"0.4 m\"\ndepth = \"0.4 m\"",
+            "EI = \"60 MN.m2\"\nmass = 500",
+        );
+    let said = refusal(&format!("{MOTION}{stretches}"));
+    assert!(said.contains("building[0].column[3].EA"), "{said}");
+    // Braces without bays of their own stand where there are joints.
+    let braces = frame(&format!(
+        "{MOTION}{PODIUM}[[building.brace]]\nEA = \"300 MN\"\n"
+    ));
+    assert_eq!(braces.diagonals.len(), 3 + 3 + 2 + 1);
+}
+
+/// Floors and heights are compared above the datum, and so are heights of contacts.
+#[test]
+fn buildings_stand_at_their_elevations() {
+    let low = PODIUM.replace("name = \"A\"", "name = \"A\"\nelevation = \"-3 m\"");
+    let contacts = |text: &str| -> Vec<(f64, [Option<usize>; 2])> {
+        let contacts = assembled(&sound(text).model).contacts;
+        let places = contacts.iter().map(|own| (own.height, own.ports.floors()));
+        places.collect()
+    };
+    let found = contacts(&format!("{MOTION}{low}{NEIGHBOUR}{GAP}"));
+    assert_eq!(
+        found,
+        [
+            (3.0, [Some(2), Some(1)]),
+            (6.0, [Some(3), Some(2)]),
+            (9.0, [Some(4), Some(3)])
+        ]
+    );
+    let half = low.replace("-3 m", "1.25 m");
+    let between = format!("{MOTION}{half}{NEIGHBOUR}{GAP}floors = [[\"3 m\", 1], [\"9 m\", 3]]\n");
+    assert_eq!(
+        contacts(&between),
+        [(3.0, [None, Some(1)]), (9.0, [None, Some(3)])]
+    );
+    let model = sound(&between).model;
+    assert_eq!(model.points_between_floors(0), [vec![], vec![1.75, 7.75]]);
+    // Shear buildings have no columns to hit.
+    for (gap, expected) in [
+        ("", "lie at equal height"),
+        (
+            "floors = [[2, 2]]\n",
+            "floor 2 of \"A\" is at 7.250 m and floor 2 of \"B\" is at 6.000 m",
+        ),
+        ("floors = [[\"1.2 m\", 1]]\n", "below its base"),
+    ] {
+        let said = refusal(&format!("{MOTION}{half}{NEIGHBOUR}{GAP}{gap}"));
+        assert!(said.contains(expected), "{gap}:\n{said}");
+    }
+    assert!(
+        read(&format!(
+            "{MOTION}{half}{NEIGHBOUR}{GAP}floors = [[2, 2]]\nlevel_tolerance = \"1.3 m\"\n"
+        ))
+        .is_ok()
+    );
+}
+
+/// A row moves as a whole: the same elevation of all changes nothing but the heights of contacts.
+#[test]
+fn an_elevation_of_all_is_that_of_none() {
+    let flat = summary(&format!("{MOTION}{PODIUM}{NEIGHBOUR}{GAP}"));
+    let lift = |text: &str| text.replace("kind =", "elevation = \"2 m\"\nkind =");
+    let high = summary(&format!("{MOTION}{}{}{GAP}", lift(PODIUM), lift(NEIGHBOUR)));
+    assert_eq!(flat.buildings, high.buildings);
+    for (flat, high) in flat.gaps[0].contacts.iter().zip(&high.gaps[0].contacts) {
+        assert_eq!(flat.peak_force_n, high.peak_force_n);
+        assert_eq!(flat.height_m + 2.0, high.height_m);
+    }
+}

@@ -1,0 +1,215 @@
+//! Model files of the references.
+
+use std::fmt::Write;
+
+use serde_json::Value;
+
+use crate::data::{list, number, numbers};
+
+/// The references take g as 9.80665 m/s², the built-in record 9.81 m/s².
+pub(crate) const GRAVITY: f64 = 9.80665 / 9.81;
+
+/// The model file of a case.
+pub(super) fn file(input: &Value, tolerance: f64) -> String {
+    if input.get("drop_m").is_some() {
+        at_two_levels(input, tolerance)
+    } else if input["column_EI"][0].is_array() {
+        by_line(input, tolerance)
+    } else {
+        braced(input, tolerance)
+    }
+}
+
+/// Motion, tolerance and gap.
+fn beginning(input: &Value, tolerance: f64, between: [&str; 2]) -> String {
+    format!(
+        r#"motion = {{ record = "el-centro-1940-ns", scale = {scale:?}, duration = {duration:?} }}
+analysis = {{ tolerance = {tolerance:?} }}
+[[gap]]
+between = {between:?}
+width = {gap:?}
+law = "linear"
+stiffness = {stiffness:?}
+"#,
+        scale = GRAVITY * number(input, "/scale"),
+        duration = number(input, "/duration_s"),
+        gap = number(input, "/gap_m"),
+        stiffness = number(input, "/k_contact"),
+    )
+}
+
+/// The shear building beside it.
+fn neighbour(input: &Value) -> String {
+    let own = &input["neighbour"];
+    let heights = list(input, "/storey_heights_m");
+    let heights = &heights[..list(own, "/mass_kg").len()];
+    format!(
+        "[[building]]\nname = \"N\"\nkind = \"shear\"\nstorey_height = {}\nstiffness = {}\nmass = {}\ndamping = {{ alpha = {:?}, beta = 0 }}\n",
+        Value::from(heights.to_vec()),
+        own["stiffness"],
+        own["mass_kg"],
+        number(input, "/alpha")
+    )
+}
+
+/// A frame whose columns differ by line and beams by bay; null is none.
+fn by_line(input: &Value, tolerance: f64) -> String {
+    let spans = match input.get("spans_m") {
+        Some(_) => numbers(input, "/spans_m"),
+        None => {
+            let lines = numbers(input, "/lines_m");
+            lines.windows(2).map(|pair| pair[1] - pair[0]).collect()
+        }
+    };
+    let rigidity = input.get("column_EA");
+    let mut text = beginning(input, tolerance, ["F", "N"]);
+    let _ = write!(
+        text,
+        r#"[[building]]
+name = "F"
+kind = "frame"
+storey_height = {heights}
+spans = {spans:?}
+density = 0
+column_segments = 1
+beam_segments = 1
+floor_mass = {masses}
+axial = "{axial}"
+damping = {{ alpha = {alpha:?}, beta = 0 }}
+"#,
+        heights = input["storey_heights_m"],
+        masses = input["floor_mass_kg"],
+        axial = if rigidity.is_some() {
+            "flexible"
+        } else {
+            "rigid"
+        },
+        alpha = number(input, "/alpha"),
+    );
+    for [table, key, across, up] in [
+        ["column", "column_EI", "line", "storeys"],
+        ["beam", "beam_EI", "bay", "floors"],
+    ] {
+        for (storey, row) in input[key].as_array().into_iter().flatten().enumerate() {
+            for (place, bending) in row.as_array().into_iter().flatten().enumerate() {
+                let _ = writeln!(
+                    text,
+                    "[[building.{table}]]\n{across} = {}\n{up} = {}",
+                    place + 1,
+                    storey + 1
+                );
+                let _ = match (bending, rigidity.filter(|_| table == "column")) {
+                    (Value::Null, _) => writeln!(text, "omit = true"),
+                    (_, Some(all)) => {
+                        writeln!(text, "EI = {bending}\nEA = {}", all[storey][place])
+                    }
+                    (_, None) => writeln!(text, "EI = {bending}"),
+                };
+            }
+        }
+    }
+    text + &neighbour(input)
+}
+
+/// Two frames, the right one standing lower: every slab meets a column.
+fn at_two_levels(input: &Value, tolerance: f64) -> String {
+    let mut text = beginning(input, tolerance, ["A", "B"]);
+    text += "floors = \"all\"\n";
+    for (name, elevation) in [("A", 0.0), ("B", -number(input, "/drop_m"))] {
+        let own = &input[name];
+        let _ = writeln!(
+            text,
+            r#"[[building]]
+name = "{name}"
+kind = "frame"
+elevation = {elevation:?}
+storey_height = {heights}
+spans = [{span}]
+column = {{ EI = {column}, mass = {mass} }}
+beam = {{ EI = {beam} }}
+column_segments = 1
+beam_segments = 1
+floor_mass = {masses}
+axial = "rigid"
+damping = {{ alpha = {alpha:?}, beta = 0 }}"#,
+            heights = own["storey_heights_m"],
+            span = own["span_m"],
+            column = own["column_EI"],
+            mass = own["column_mass_kg_per_m"],
+            beam = own["beam_EI"],
+            masses = own["floor_mass_kg"],
+            alpha = number(input, "/alpha"),
+        );
+    }
+    text
+}
+
+/// A frame of one bay with braces or struts, one section per storey.
+fn braced(input: &Value, tolerance: f64) -> String {
+    let list_of = |key: &str, table: &dyn Fn(usize, f64) -> String| {
+        let own = numbers(input, key).into_iter().enumerate();
+        own.map(|(index, value)| table(index, value))
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
+    let rigidity = input["column_EA"].as_array().map(|own| own.to_vec());
+    let column = list_of("/column_EI", &|index, value| match &rigidity {
+        Some(own) => format!("{{ EI = {value:?}, EA = {} }}", own[index]),
+        None => format!("{{ EI = {value:?} }}"),
+    });
+    let beam = list_of("/beam_EI", &|_, value| format!("{{ EI = {value:?} }}"));
+    let axial = if rigidity.is_some() {
+        "flexible"
+    } else {
+        "rigid"
+    };
+    let (heights, alpha) = (&input["storey_heights_m"], number(input, "/alpha"));
+    let mut text = beginning(input, tolerance, ["F", "N"]);
+    let _ = write!(
+        text,
+        r#"[[building]]
+name = "F"
+kind = "frame"
+storey_height = {heights}
+spans = [{span:?}]
+column = [{column}]
+beam = [{beam}]
+density = 0
+column_segments = 1
+beam_segments = 1
+floor_mass = {masses}
+axial = "{axial}"
+damping = {{ alpha = {alpha:?}, beta = 0 }}
+"#,
+        span = number(input, "/span_m"),
+        masses = input["floor_mass_kg"],
+    );
+    for (storey, brace) in input["brace"].as_array().into_iter().flatten().enumerate() {
+        let direction = match brace["from"].as_str() {
+            Some("left") => "up",
+            _ => "down",
+        };
+        let _ = writeln!(
+            text,
+            "[[building.brace]]\nstoreys = {}\ndirection = \"{direction}\"\nstiffness = {}",
+            storey + 1,
+            brace["k"]
+        );
+        if input["elastic"] == Value::Bool(false) {
+            let _ = writeln!(
+                text,
+                "hinge = {{ rule = \"bilinear\", yield = {}, post_yield = {} }}",
+                brace["Fy"], brace["hardening"]
+            );
+        }
+    }
+    let struts = input["strut_k"].as_array().into_iter().flatten();
+    for (storey, stiffness) in struts.enumerate().filter(|(_, own)| own.is_number()) {
+        let _ = writeln!(
+            text,
+            "[[building.infill]]\nstoreys = {}\nstiffness = {stiffness}",
+            storey + 1
+        );
+    }
+    text + &neighbour(input)
+}

@@ -1,0 +1,91 @@
+//! Columns and beams of a frame that do not stand together.
+
+use super::Faults;
+use crate::model::{DiagonalPlace, Frame};
+
+/// Members and joints that a frame lacks, as faults at `path`. Lengths of lists are right.
+pub(super) fn check_places(faults: &mut Faults, path: &str, frame: &Frame) {
+    let (storeys, lines) = (frame.storey_heights.len(), frame.lines());
+    let (column, beam) = (format!("{path}.column"), format!("{path}.beam"));
+    let outside = |own: &[usize; 2], across: usize| own[0] >= storeys || own[1] >= across;
+    for [storey, line] in frame.own_columns.keys().filter(|own| outside(own, lines)) {
+        faults.add(column.as_str(), format!(
+            "names line {} of storey {}, but there are {lines} column lines and {storeys} storeys, counted from 1",
+            line + 1,
+            storey + 1
+        ));
+    }
+    for [floor, bay] in frame.own_beams.keys().filter(|own| outside(own, lines - 1)) {
+        faults.add(beam.as_str(), format!(
+            "names bay {} of floor {}, but there are {} bays and {storeys} floors, counted from 1",
+            bay + 1,
+            floor + 1,
+            lines - 1
+        ));
+    }
+    for storey in 0..storeys {
+        if frame.joints(storey + 1) == 0 {
+            faults.add(column.as_str(), format!(
+                "leaves storey {} without any column: leave out the storeys above the roof, or omit fewer columns",
+                storey + 1
+            ));
+            return;
+        }
+    }
+    let unsupported = frame
+        .all_columns()
+        .map(|(place, _)| place)
+        .filter(|[storey, line]| *storey > 0 && frame.column(storey - 1, *line).is_none());
+    for [storey, line] in unsupported {
+        faults.add(format!("{column}[{storey}][{line}]"), format!(
+            "line {} has a column in storey {} but none in storey {storey}; a column that starts on a beam is not modelled: add the column below, or omit this one",
+            line + 1,
+            storey + 1
+        ));
+    }
+    let hanging = |[floor, bay]: [usize; 2]| {
+        let ends = [bay, bay + 1];
+        ends.into_iter()
+            .find(|line| !frame.has_joint(floor + 1, *line))
+    };
+    let beams: Vec<_> = frame.all_beams().map(|(place, _)| place).collect();
+    for &[floor, bay] in &beams {
+        if let Some(line) = hanging([floor, bay]) {
+            faults.add(format!("{beam}[{floor}][{bay}]"), format!(
+                "bay {} has a beam at floor {} but line {} no joint there, as no column stands below it: omit the beam, or add the column",
+                bay + 1,
+                floor + 1,
+                line + 1
+            ));
+        }
+    }
+    for floor in 0..storeys {
+        let Some([first, last]) = frame.outer_lines(floor + 1) else {
+            continue;
+        };
+        let Some(bay) = (first..last).find(|bay| frame.beam(floor, *bay).is_none()) else {
+            continue;
+        };
+        let without = [bay, bay + 1]
+            .into_iter()
+            .find(|line| !frame.has_joint(floor + 1, *line));
+        let why = match without {
+            Some(line) => format!("no column stands below it at line {}", line + 1),
+            None => format!("no beam crosses bay {}", bay + 1),
+        };
+        faults.add(format!("{beam}[{floor}][{bay}]"), format!(
+            "floor {} is in two parts, as {why}: towers on one podium are not modelled as one building; close the gap, or omit all that stands on one side of it",
+            floor + 1
+        ));
+    }
+}
+
+/// The end of a diagonal without a joint: its floor, 0 at the ground, and its column line from 1.
+pub(super) fn loose_end(frame: &Frame, place: DiagonalPlace) -> Option<(usize, usize)> {
+    let [lower, upper] = place.lines();
+    let ends = [(place.storey - 1, lower), (place.storey, upper)];
+    let loose = ends
+        .into_iter()
+        .find(|(floor, line)| !frame.has_joint(*floor, *line));
+    loose.map(|(floor, line)| (floor, line + 1))
+}
