@@ -326,7 +326,7 @@ fn columns_and_diagonals_carry_all_that_lies_above_them() {
                 in_braces = in_braces.max(force.abs());
             }
             let above = sticks.nodes.iter().filter(|node| node.y > cut);
-            let above: f64 = above.map(|node| STANDARD_GRAVITY * node.mass).sum();
+            let above: f64 = above.map(|node| STANDARD_GRAVITY * node.mass()).sum();
             close(sum, above, above, 1e-9, "weight above");
         }
         assert!(in_braces > 1e3, "braces carry something: {in_braces}");
