@@ -18,9 +18,12 @@ pub(crate) fn parse(text: &str) -> Result<Node, Vec<SyntaxError>> {
     }
     let mut faults: Vec<SyntaxError> = errors
         .into_iter()
-        .map(|error| SyntaxError {
-            span: error.span().unwrap_or(0..0),
-            problem: problem(error.message()),
+        .map(|error| {
+            let span = error.span().unwrap_or(0..0);
+            let before = text.get(..span.start).unwrap_or_default();
+            let line = before.rsplit('\n').next().unwrap_or_default();
+            let problem = problem(error.message(), line.trim_start().starts_with("[["));
+            SyntaxError { span, problem }
         })
         .collect();
     sort_by_key(&mut faults, |fault| fault.span.start);
@@ -35,11 +38,15 @@ pub(crate) fn parse(text: &str) -> Result<Node, Vec<SyntaxError>> {
     Err(faults)
 }
 
-/// The message of a syntax error in one line, with the remedy for the usual slip with a path of Windows.
-fn problem(message: &str) -> String {
+/// The message of a syntax error in one line, with the remedies for a path of Windows and for a list of tables after a single one.
+fn problem(message: &str, in_list: bool) -> String {
     let line = message.trim().replace('\n', "; ");
     if line.contains("escaped value") {
         format!("{line}; {BACKSLASH}")
+    } else if line.contains("duplicate key") && in_list {
+        format!(
+            "{line}: write the first one as a table in double brackets too, or all of them as one list"
+        )
     } else {
         line
     }

@@ -762,3 +762,14 @@ fn braces_and_infills_of_storeys_are_dampers_without_dashpot() {
         assert!(!shown.contains("did you mean"), "{shown}");
     }
 }
+
+/// A list of tables cannot follow a single one of the same name.
+#[test]
+fn single_tables_and_lists_of_one_name_exclude_each_other() {
+    let text = "[[building]]\nname = \"A\"\ncolumn = { width = 0.5, depth = 0.5 }\n[[building.column]]\nline = 1\nomit = true\n";
+    let shown = refusal(text);
+    assert!(
+        shown.contains("duplicate key: write the first one as a table in double brackets too"),
+        "{shown}"
+    );
+}
