@@ -710,7 +710,9 @@ fn templates_and_examples_raise_at_most_one_note() {
     for name in TEMPLATE_NAMES {
         let text = jostle_io::template(name, "title").expect("it is there");
         loud.extend(too_much_at_rest(name, &sound(&text)));
-        loud.extend(too_much(name, sound(&text)));
+        if !PAIRS.contains(&name) {
+            loud.extend(too_much(name, sound(&text)));
+        }
     }
     let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples"));
     let mut count = 0;
