@@ -577,7 +577,7 @@ fn describe_building(
     let lumps = stick_model
         .nodes
         .iter()
-        .filter(|node| node.mass > 0.0)
+        .filter(|node| node.mass() > 0.0)
         .count();
     writeln!(text, "{}  {kind}", styled(BOLD, &building.name))?;
     writeln!(

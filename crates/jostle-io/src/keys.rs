@@ -638,6 +638,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Infill, "thickness", Quantity(D::Length), "Thickness of the panel.").usual("a thickness of a panel", 0.03, 1.5),
     optional(S::Infill, "width", Quantity(D::Length), "Width of the strut across its axis.").usual("a width of a strut", 0.1, 6.0),
     optional(S::Infill, "stiffness", Quantity(D::Stiffness), "Axial force per shortening of one strut, instead of modulus, thickness and width.").usual("an axial stiffness", 1e5, 1e11),
+    optional(S::Infill, "hinge", Kind::Table(S::LinkHinge), "Cracking of each strut: rule pinched and corners; without it struts stay elastic."),
     required(S::SpaceFrame, "lines_x", Quantities(D::Length), "Where the grid lines across stand along x, from the origin of the plan, rising.").usual("a length in plan", 1e-3, 5e3).possible(0.0, 1e5).signed(),
     required(S::SpaceFrame, "lines_y", Quantities(D::Length), "Where the grid lines along x stand, from the origin of the plan across, rising.").usual("a length in plan", 1e-3, 5e3).possible(0.0, 1e5).signed(),
     required(S::SpaceFrame, "column", Kind::TablePerPlace(S::SpaceColumn), "Columns at the crossings: one table for all, or [[building.column]] for some; later ones replace earlier ones. Without plan, the plan is the rectangle of the outer lines; columns and beams outside of the plan of their floor do not exist."),

@@ -201,7 +201,11 @@ const TABLES: &[(Section, &str, &str)] = &[
         "`[[wall]]`",
         "See [Isolated buildings and moat walls](how-to/isolation.md).",
     ),
-    (Section::LinkHinge, "`hinge` of a link or damper", ""),
+    (
+        Section::LinkHinge,
+        "`hinge` of a link, a damper, a brace or a panel",
+        "",
+    ),
     (
         Section::Soil,
         "`[soil]`",

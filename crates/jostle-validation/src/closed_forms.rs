@@ -116,15 +116,13 @@ fn cantilever(basic: &Value) -> Vec<Row> {
 fn portal(basic: &Value) -> Vec<Row> {
     let value = |key: &str| number(basic, &format!("/portal_fixed_base_axially_rigid/{key}"));
     let (h, l) = (value("h"), value("L"));
-    let mut nodes = vec![
+    let half = 0.5 * value("mass");
+    let nodes = vec![
         node(0.0, 0.0, Support::Fixed),
         node(l, 0.0, Support::Fixed),
-        node(0.0, h, Support::Free),
-        node(l, h, Support::Free),
+        Node::at(0.0, h).with_mass(half),
+        Node::at(l, h).with_mass(half),
     ];
-    for joint in &mut nodes[2..] {
-        joint.mass = 0.5 * value("mass");
-    }
     let members = vec![
         member(0, 2, value("EIc")),
         member(1, 3, value("EIc")),

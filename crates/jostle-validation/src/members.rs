@@ -19,7 +19,7 @@ const RUNS: [(f64, f64); 2] = [(1e-3, 1e-3), (1e-5, 1e-5)];
 /// What does not depend on time agrees with the digits that are stored.
 const STATIC: f64 = 1e-7;
 
-const CASES: [(&str, &str); 6] = [
+const CASES: [(&str, &str); 7] = [
     (
         "members/a_frame_lines_bays",
         include_str!("../data/members/a_frame_lines_bays.json"),
@@ -44,6 +44,10 @@ const CASES: [(&str, &str); 6] = [
         "members/c1_infill_compression_struts",
         include_str!("../data/members/c1_infill_compression_struts.json"),
     ),
+    (
+        "members/c2_infill_pinched_softening",
+        include_str!("../data/members/c2_infill_pinched_softening.json"),
+    ),
 ];
 
 /// All rows of this family.
@@ -53,6 +57,8 @@ pub fn rows() -> Vec<Row> {
     for (name, text) in CASES {
         let case = document(text);
         for (tolerance, close) in RUNS {
+            // One reference is less accurate than that.
+            let close = close.max(number(&case, "/accuracy/claimed_relative_of_peaks"));
             rows.extend(compare(name, &case, tolerance, close));
         }
     }
@@ -104,7 +110,7 @@ fn compare(name: &str, case: &Value, tolerance: f64, close: f64) -> Vec<Row> {
     rows.push(Row::worst_of(name, quantity, &expected, &got, close));
     let (mut expected, mut got) = (Vec::new(), Vec::new());
     for (part, stored) in entries(case, "/results/force") {
-        // "brace2" and "strut2.up" are parts of storey 2.
+        // "brace2", "strut2.up" and "panel2" are parts of storey 2.
         let (storey, rise) = part.trim_start_matches(char::is_alphabetic).split_at(1);
         let mut parts = summary.buildings[0].parts.iter();
         let own = parts

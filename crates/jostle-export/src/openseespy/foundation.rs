@@ -107,7 +107,7 @@ impl Script<'_> {
         }
         let own = |node: usize| stick_model.lever(node);
         for (number, node) in nodes.iter().enumerate() {
-            let of_mass = alpha * node.mass;
+            let of_mass = alpha * node.mass();
             if of_mass == 0.0 || number == foundation.node || node.support == Support::Fixed {
                 continue;
             }

@@ -94,6 +94,9 @@ impl Materials {
             HysteresisRule::PeakOriented => {
                 Ok(self.hysteretic(backbone, [1.0, 1.0, 0.0, 0.0, 0.0]))
             }
+            HysteresisRule::Pinched(_) if backbone.is_without_tension() => {
+                Err("pinched in compression alone")
+            }
             HysteresisRule::Pinched(pinching) => {
                 // OpenSees relates dissipated energy to the area of the whole backbone.
                 let ratio = area(backbone) / energy_to_yield(backbone);

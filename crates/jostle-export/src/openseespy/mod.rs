@@ -116,6 +116,18 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
                 "\"all\" cannot be exported: OpenSees has one list of modal ratios for all buildings together; give two modes, such as modes = [1, 2], to compare".into(),
             );
         }
+        if let jostle::Structure::Frame(frame) = &building.structure {
+            let crushed = |own: &jostle::Diagonal| {
+                let law = own.hysteresis.as_ref();
+                law.is_some_and(|law| law.backbone().is_without_tension())
+            };
+            if frame.diagonals.iter().any(crushed) {
+                refuse(
+                    format!("building[{index}].infill"),
+                    "with hinge bears compression alone, which OpenSees' Hysteretic cannot do; leave hinge out to compare with elastic struts".into(),
+                );
+            }
+        }
         // Ductility is that of the hinges of columns.
         if let Some(Hinges::Frame(hinges)) = &building.hinges
             && !hinges.columns.is_empty()

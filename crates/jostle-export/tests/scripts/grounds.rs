@@ -60,7 +60,7 @@ fn masses_are_damped_relative_to_their_ground() {
         }
         let nodes = building.discretization.stick_model.nodes.iter();
         let moving = nodes.filter(|node| node.support != Support::Fixed);
-        let mass: f64 = moving.map(|node| node.mass).sum();
+        let mass: f64 = moving.map(|node| node.mass()).sum();
         let expected = building.equations.alpha * mass;
         assert!((sum / expected - 1.0).abs() < 1e-9, "{sum} {expected}");
     }

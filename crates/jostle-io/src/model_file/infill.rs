@@ -4,6 +4,7 @@ use jostle::hysteresis::Hysteresis;
 use jostle::{Diagonal, DiagonalKind, Rise};
 
 use super::brace::{Bays, Stiffness, add, places, tables};
+use super::hinges::read_spring;
 use crate::keys::Section;
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
@@ -58,8 +59,23 @@ fn read(reader: &mut Reader<'_>, entry: &Field<'_>, bays: Bays<'_>) -> Option<Ve
     };
     let kind = DiagonalKind::Infill;
     let mut struts = places(reader, &view, kind, &Rise::BOTH, bays, stiffness_of)?;
+    let hinge = reader.get(&view, "hinge");
     for strut in &mut struts {
-        strut.hysteresis = Hysteresis::without_tension(strut.stiffness).ok();
+        let Some(field) = &hinge else {
+            strut.hysteresis = Hysteresis::without_tension(strut.stiffness).ok();
+            continue;
+        };
+        // A fault of one is that of all.
+        let (sections, initial) = (&[Section::LinkHinge], Some(strut.stiffness));
+        let own = read_spring(reader, field, sections, initial, Dimension::Force)?;
+        match own.in_compression() {
+            Ok(own) => strut.hysteresis = Some(own),
+            Err(fault) => {
+                *reader.bad(field, fault.problem) =
+                    Some("set rule = \"pinched\" with pinching, or leave hinge out: struts then stay elastic".into());
+                return None;
+            }
+        }
     }
     Some(struts)
 }

@@ -157,7 +157,7 @@ depth = 1
 kind = "frame"
 shear_failure = { strength = 1 }
 brace = [{ EA = 1 }, { stiffness = 1, hinge = { rule = "bilinear", yield = 1 } }]
-infill = [{ modulus = 1, thickness = 1, width = 1 }, { stiffness = 1 }]
+infill = [{ modulus = 1, thickness = 1, width = 1 }, { stiffness = 1, hinge = { rule = "pinched", residual = 1 } }]
 [[building]]
 kind = "shear"
 plan = [20, 12]

@@ -1,5 +1,6 @@
 //! Braces and infill panels of frames.
 
+use jostle::hysteresis::Side;
 use jostle::{DiagonalKind, Rise, Structure};
 use jostle_testkit::files::{refusal, sound};
 
@@ -103,8 +104,48 @@ fn mistakes_are_explained() {
             "[[building.infill]]\nstiffness = \"80 MN/m\"\nwidth = \"1 m\"\n",
             "and stiffness are both given",
         ),
+        (
+            "[[building.infill]]\nstiffness = \"80 MN/m\"\nhinge = { rule = \"bilinear\", yield = \"100 kN\", post_yield = 0.1 }\n",
+            "bilinear has no form that bears compression alone; take pinched",
+        ),
+        (
+            "[[building.brace]]\nEA = \"1 GN\"\nhinge = { rule = \"bilinear\", yield = \"100 kN\", post_yield = -0.1, residual = 0.2 }\n",
+            "only springs with the rule pinched lose force",
+        ),
+        (
+            &pinched("post_yield = -0.1"),
+            "must lie between 0 and 1, a ratio to the initial stiffness; found -0.1",
+        ),
+        (
+            &pinched("post_yield = 0.1\nresidual = 0.2"),
+            "must lie between -1 and 0, found 0.1; leave residual out for a line that rises",
+        ),
+        (
+            &pinched("post_yield = -0.1\nresidual = 1.2"),
+            "must be greater than 0 and less than 1, a share of the yield force; found 1.2",
+        ),
     ] {
         let shown = refusal(&format!("{FRAME}{text}"));
         assert!(shown.contains(expected), "{text}\n{shown}");
+    }
+}
+
+/// A panel whose struts crack, with some more keys.
+fn pinched(more: &str) -> String {
+    format!(
+        "[[building.infill]]\nstiffness = \"80 MN/m\"\n[building.infill.hinge]\nrule = \"pinched\"\ncracking = \"100 kN\"\nyield = \"160 kN\"\npost_cracking = 0.12\npinching = {{ deformation = 0.8, force = 0.1 }}\n{more}\n"
+    )
+}
+
+/// Struts that crack bear compression alone, and their force falls to a residual.
+#[test]
+fn panels_crack_in_compression() {
+    let text = pinched("post_yield = -0.05\nresidual = 0.25");
+    for own in diagonals(&text) {
+        let law = own.hysteresis.expect("it cracks");
+        let [tension, compression] = Side::BOTH.map(|side| *law.backbone().side(side));
+        assert_eq!(tension.force_at(0.1), 0.0);
+        assert!((compression.force_at(1.0) - 40e3).abs() < 1e-6);
+        assert_eq!(compression.yielding.force, 160e3);
     }
 }

@@ -203,6 +203,10 @@ damping = {{ alpha = {alpha:?}, beta = 0 }}
             );
         }
     }
+    let panels = input["panel"].as_array().into_iter().flatten();
+    for (storey, panel) in panels.enumerate().filter(|(_, own)| !own.is_null()) {
+        text += &one_strut(storey, panel);
+    }
     let struts = input["strut_k"].as_array().into_iter().flatten();
     for (storey, stiffness) in struts.enumerate().filter(|(_, own)| own.is_number()) {
         let _ = writeln!(
@@ -212,4 +216,34 @@ damping = {{ alpha = {alpha:?}, beta = 0 }}
         );
     }
     text + &neighbour(input)
+}
+
+/// A panel as one strut from the lower left, with an envelope of three points whose last line falls.
+fn one_strut(storey: usize, panel: &Value) -> String {
+    let [d, f] = ["/d_m", "/F_n"].map(|key| numbers(panel, key));
+    let stiffness = f[0] / d[0];
+    let slope = |from: usize| (f[from + 1] - f[from]) / (d[from + 1] - d[from]) / stiffness;
+    format!(
+        r#"[[building.brace]]
+storeys = {storey}
+direction = "up"
+stiffness = {stiffness:?}
+[building.brace.hinge]
+rule = "pinched"
+cracking = {cracking:?}
+yield = {yielding:?}
+post_cracking = {second:?}
+post_yield = {third:?}
+residual = {residual:?}
+pinching = {{ deformation = {deformation}, force = {force} }}
+"#,
+        storey = storey + 1,
+        cracking = f[0],
+        yielding = f[1],
+        second = slope(0),
+        third = slope(1),
+        residual = f[2] / f[1],
+        deformation = panel["pinch_deformation"],
+        force = panel["pinch_force"],
+    )
 }

@@ -188,6 +188,9 @@ pub struct SpringFault {
     pub problem: String,
 }
 
+/// Further than any spring goes \[m\].
+const NEVER: f64 = 1e3;
+
 impl Backbone {
     /// From an initial stiffness > 0 \[N·m/rad or N/m\] and the forces at the corners \[N·m or N\].
     ///
@@ -274,6 +277,25 @@ impl Backbone {
                 Ok(own)
             }
         }
+    }
+
+    /// The same curve on the negative side, and no force on the positive one: in tension, where deformations are elongations.
+    #[must_use]
+    pub fn without_tension(mut self) -> Self {
+        let side = &mut self.sides[Side::Positive.index()];
+        let never = Corner {
+            deformation: NEVER,
+            force: 0.0,
+        };
+        (side.cracking, side.yielding) = (never, never);
+        (side.post_cracking, side.post_yield, side.residual) = (0.0, 0.0, 0.0);
+        self
+    }
+
+    /// Whether it bears compression alone.
+    #[must_use]
+    pub fn is_without_tension(&self) -> bool {
+        self.sides[Side::Positive.index()].yielding.force == 0.0
     }
 
     /// Whether the force falls after yield.

@@ -106,6 +106,22 @@ enum Next {
     Reload,
     /// The second line of reloading.
     Stiffen,
+    /// A strut that bears compression alone opens, or is closed again.
+    Open,
+    Close,
+}
+
+/// Where a strut that bears compression alone has lost its force, if it has none; without a curve for tension, it has none beyond.
+#[inline]
+fn open_from(backbone: &Backbone, memory: &HysteresisMemory) -> Option<Corner> {
+    if !backbone.is_without_tension() || memory.force != 0.0 {
+        return None;
+    }
+    match memory.branch {
+        Branch::Virgin => Some(Corner::default()),
+        Branch::Reloading if memory.start.force == 0.0 => Some(memory.start),
+        _ => None,
+    }
 }
 
 #[inline]
@@ -163,7 +179,7 @@ fn turn_back(
     towards: Side,
 ) {
     let leads = matches!(memory.branch, Branch::Backbone | Branch::Reloading);
-    if leads && memory.side != towards {
+    if leads && memory.side != towards && open_from(backbone, memory).is_none() {
         memory.unloading = unloading_stiffness(backbone, pinching, memory);
         memory.left = memory.branch;
         memory.turn = memory.point();
@@ -176,12 +192,27 @@ fn turn_back(
 #[inline(always)] // a line then stays in registers
 fn ahead(backbone: &Backbone, memory: &HysteresisMemory, towards: Side) -> Line {
     let sign = towards.sign();
+    if let Some(zero) = open_from(backbone, memory)
+        && (towards == Side::Positive || memory.deformation > zero.deformation)
+    {
+        return Line {
+            through: zero,
+            slope: 0.0,
+            end: (towards == Side::Negative).then_some((zero, Next::Close)),
+        };
+    }
     let curve = backbone.side(towards);
     let signed = |corner: Corner| Corner {
         deformation: sign * corner.deformation,
         force: sign * corner.force,
     };
     match memory.branch {
+        // A strut that bears compression alone opens at zero.
+        Branch::Virgin if towards == Side::Positive && backbone.is_without_tension() => Line {
+            through: Corner::default(),
+            slope: backbone.initial(),
+            end: Some((Corner::default(), Next::Open)),
+        },
         Branch::Virgin => Line {
             through: Corner::default(),
             slope: backbone.initial(),
@@ -261,9 +292,18 @@ fn enter(
             memory.peaks[towards.index()] = towards.sign() * here.deformation;
         }
         Next::Return => memory.branch = memory.left,
+        Next::Open | Next::Close => {
+            (memory.deformation, memory.force) = (here.deformation, 0.0);
+        }
         Next::Reload => {
+            // Without tension it stays where it is until it is pressed again.
+            let towards = match backbone.is_without_tension() {
+                true => Side::Negative,
+                false => towards,
+            };
             memory.branch = Branch::Reloading;
             memory.side = towards;
+            (memory.deformation, memory.force) = (here.deformation, 0.0);
             memory.start = here;
             memory.peaks[towards.index()] = target(backbone, pinching, memory, towards);
             memory.knee = knee(backbone, pinching, memory, towards);
@@ -353,6 +393,9 @@ pub(super) fn unloading_stiffness(
     pinching: &Pinching,
     memory: &HysteresisMemory,
 ) -> f64 {
+    if open_from(backbone, memory).is_some_and(|zero| memory.deformation > zero.deformation) {
+        return 0.0;
+    }
     match memory.branch {
         Branch::Virgin => backbone.initial(),
         Branch::Unloading => memory.unloading,

@@ -286,6 +286,27 @@ impl Hysteresis {
         Ok(Self { rule, backbone })
     }
 
+    /// The same pinched spring in compression alone: in tension it has no force, and it bears again where it lost its force in compression.
+    ///
+    /// # Errors
+    /// Another rule.
+    pub fn in_compression(self) -> Result<Self, SpringFault> {
+        match self.rule {
+            HysteresisRule::Pinched(_) => Ok(Self {
+                backbone: self.backbone.without_tension(),
+                ..self
+            }),
+            _ => Err(SpringFault {
+                quantity: Quantity::Rule,
+                side: None,
+                problem: format!(
+                    "{} has no form that bears compression alone; take pinched",
+                    self.rule.name()
+                ),
+            }),
+        }
+    }
+
     /// A spring of this stiffness \[N/m\] that is elastic to a strength \[N\], equal in both directions, and loses it from
     /// there on.
     ///
@@ -351,6 +372,9 @@ impl Hysteresis {
     pub fn initial_tangent(&self) -> f64 {
         match self.rule {
             HysteresisRule::Stop { clearance: 0.0, .. } => 0.5 * self.backbone.initial(),
+            HysteresisRule::Pinched(_) if self.backbone.is_without_tension() => {
+                0.5 * self.backbone.initial()
+            }
             HysteresisRule::Stop { .. }
             | HysteresisRule::InPlan {
                 law: CircularLaw::Ring,

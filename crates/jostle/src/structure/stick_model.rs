@@ -60,8 +60,8 @@ pub struct Node {
     pub x: f64,
     /// Height above the base \[m\].
     pub y: f64,
-    /// Mass that it adds to that of the building, ≥ 0; zero where another node counts it \[kg\].
-    pub mass: f64,
+    /// Mass that it adds to that of the building; see [`Node::mass`].
+    pub(crate) mass: f64,
     /// What resists each of its displacements, ≥ 0: two masses and a rotary inertia \[kg, kg, kg·m²\].
     pub inertia: [f64; 3],
     /// What each of its displacements moves.
@@ -82,6 +82,12 @@ impl Node {
             influence: Influence::IN_PLANE,
             support: Support::Free,
         }
+    }
+
+    /// Mass that it adds to that of the building, ≥ 0; zero where another node counts it \[kg\].
+    #[must_use]
+    pub fn mass(&self) -> f64 {
+        self.mass
     }
 
     /// The same point, held.

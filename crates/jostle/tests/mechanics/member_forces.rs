@@ -165,7 +165,12 @@ fn out_of_balance(system: &System, elastic: &System, state: &State, ground: f64)
                 let here = |node: &&jostle::structure::Node| {
                     node.x == *x && (node.y - properties.height).abs() < 1e-9
                 };
-                let mass: f64 = stick_model.nodes.iter().filter(here).map(|n| n.mass).sum();
+                let mass: f64 = stick_model
+                    .nodes
+                    .iter()
+                    .filter(here)
+                    .map(|n| n.mass())
+                    .sum();
                 let column = |storey| MemberPlace::Column {
                     line: line + 1,
                     storey,
@@ -229,7 +234,7 @@ fn out_of_balance(system: &System, elastic: &System, state: &State, ground: f64)
                 let mut node = node.enumerate().filter(|(_, n)| n.x == x && n.y == *height);
                 let (node, properties) = node.next().expect("a node");
                 let dof = building.offset + building.equations.horizontal(node).expect("it moves");
-                let inertia = properties.mass
+                let inertia = properties.mass()
                     * (state.acceleration[dof] + ground + alpha * state.velocity[dof]);
                 let push = pushed(system, state, &links, index, [x, *height]);
                 let sum = above[1] - below[1] + beta * rate - inertia + push;

@@ -257,3 +257,108 @@ fn opensees_column_that_fails_in_shear() {
         }
     }
 }
+
+/// A force that falls after yield to a residual: every point of a path with growing and small loops, and the work of all of it.
+#[test]
+fn pinched_loops_with_a_falling_line() {
+    let stored = document(include_str!("data/pinched_falling.json"));
+    let corners = stored["corners_d_m_F_n"].as_array().expect("a list");
+    let [first, second, third] = [0, 1, 2].map(|at| numbers(&corners[at]));
+    let initial = first[1] / first[0];
+    let slope = |from: &[f64], to: &[f64]| (to[1] - from[1]) / (to[0] - from[0]) / initial;
+    let given = Corners {
+        cracking: first[1],
+        yielding: second[1],
+        post_cracking: slope(&first, &second),
+        post_yield: 0.0,
+    };
+    let (fall, residual) = (slope(&second, &third), third[1] / second[1]);
+    let backbone = Backbone::falling(initial, given, given, fall, residual).expect("sound");
+    let share = |key: &str| stored[key].as_f64().expect("a number");
+    let pinching = Pinching {
+        deformation: share("pinch_deformation"),
+        force: share("pinch_force"),
+        ..Pinching::USUAL
+    };
+    let spring = Hysteresis::new(HysteresisRule::Pinched(pinching), backbone).expect("it fits");
+    let (mut memory, mut work, mut area) = (HysteresisMemory::default(), 0.0, 0.0);
+    for point in stored["d_F"].as_array().expect("a list") {
+        let [deformation, force] = numbers(point)[..] else {
+            panic!("a point has two numbers");
+        };
+        let response = spring.respond(&memory, deformation);
+        // The same way in small steps, by trapezia.
+        let (from, mut last) = (memory.deformation(), memory.force());
+        let part = (deformation - from) / 2000.0;
+        for count in 1..=2000 {
+            let at = spring.respond(&memory, from + part * f64::from(count));
+            area += 0.5 * part * (at.force + last);
+            last = at.force;
+        }
+        // The stored forces have eight digits.
+        assert!(
+            (response.force - force).abs() < 1e-7 * second[1],
+            "{} for {force} at {deformation}",
+            response.force
+        );
+        work += response.work;
+        memory = response.memory;
+    }
+    assert!((work / area - 1.0).abs() < 1e-5, "{work} and {area}");
+    // Stored from forty steps between two reversals.
+    assert!((work / share("work_j") - 1.0).abs() < 0.01, "{work}");
+}
+
+/// The same in compression alone: no force in tension, however far; pressed again, it bears from where it lost its force, on the lines of the
+/// spring that bears both.
+#[test]
+fn pinched_struts_bear_compression_alone() {
+    let corners = Corners {
+        cracking: 150e3,
+        yielding: 260e3,
+        post_cracking: 0.12,
+        post_yield: 0.0,
+    };
+    let backbone = Backbone::falling(120e6, corners, corners, -0.05, 0.2).expect("sound");
+    let both = Hysteresis::new(HysteresisRule::Pinched(Pinching::USUAL), backbone).expect("fits");
+    let own = both.in_compression().expect("pinched");
+    let go = |spring: &Hysteresis, memory: &HysteresisMemory, to: f64| spring.respond(memory, to);
+    let at_rest = HysteresisMemory::default();
+    // Never pressed: nothing in tension, the initial stiffness in compression, in one step or in two.
+    let open = go(&own, &at_rest, 2e-3);
+    assert_eq!([open.force, open.tangent, open.work], [0.0; 3]);
+    let pressed = go(&own, &open.memory, -1e-3);
+    assert!((pressed.force + 120e3).abs() < 1e-6, "{}", pressed.force);
+    let first = go(&own, &at_rest, -1e-3);
+    assert!((first.force - pressed.force).abs() < 1e-6);
+    assert_eq!(go(&own, &first.memory, 1e-3).force, 0.0);
+    // Pressed past yield, and drawn: it opens where the other one passes zero.
+    let (mine, other) = (go(&own, &at_rest, -12e-3), go(&both, &at_rest, -12e-3));
+    assert_eq!(mine.force, other.force);
+    let zero = -12e-3 - mine.force / 120e6;
+    let closing = |to: f64| {
+        let open = go(&own, &mine.memory, to);
+        assert_eq!(open.force, 0.0);
+        [zero - 1e-4, -8e-3, -11e-3, -12e-3, -20e-3].map(|at| go(&own, &open.memory, at).force)
+    };
+    let (near, far) = (closing(zero + 1e-9), closing(30e-3));
+    for (a, b) in near.into_iter().zip(far) {
+        assert!((a - b).abs() < 1e-6, "{a} and {b}");
+    }
+    assert!(near[0] < 0.0 && near[0] > -0.3 * 260e3, "{near:?}");
+    assert!((near[3] - mine.force).abs() < 1e-6, "{near:?}");
+    // It never gives back more than it took.
+    let mut state: u64 = 7;
+    let (mut memory, mut work) = (at_rest, 0.0);
+    for _ in 0..2000 {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        let to = 40e-3 * ((state >> 33) as f64 / f64::from(1_u32 << 31) - 0.6);
+        let response = go(&own, &memory, to);
+        assert!(response.force <= 0.0);
+        work += response.work;
+        memory = response.memory;
+        assert!(work >= -1e-6, "{work}");
+    }
+}

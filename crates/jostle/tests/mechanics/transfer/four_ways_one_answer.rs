@@ -83,7 +83,7 @@ fn four_solvers_agree_on_irregular_frames() {
             let stick_model = &mut discretization.stick_model;
             for (index, node) in stick_model.nodes.iter_mut().enumerate() {
                 node.y *= 1.0 + 0.07 * node.y / 3.2;
-                let more = node.mass * 0.2 * (index % 3) as f64;
+                let more = node.mass() * 0.2 * (index % 3) as f64;
                 let turning = 10.0 * (index % 5) as f64;
                 *node = node.with_mass(more).with_rotary_inertia(turning);
             }

@@ -150,7 +150,7 @@ fn runs_agree_with_the_textbook_form() {
         let building = with_everything(building);
         let mut discretization = alone(building.clone()).buildings[0].discretization.clone();
         for node in &mut discretization.stick_model.nodes {
-            *node = node.with_rotary_inertia(0.3 * node.mass);
+            *node = node.with_rotary_inertia(0.3 * node.mass());
         }
         let mut whole = BuildingSystem::new("whole", discretization);
         whole.damp(&building.damping).expect("coefficients");

@@ -51,14 +51,14 @@ fn columns_keep_a_rocking_foundation_in_equilibrium() {
         for (index, node) in sticks.nodes.iter().enumerate() {
             let x = node.x - middle;
             if node.y == 0.0 {
-                inertia += (node.inertia[2] + node.mass * x * x) * a[turning];
+                inertia += (node.inertia[2] + node.mass() * x * x) * a[turning];
             } else if let Some(dof) = own.equations.horizontal(index) {
                 let rate = v[dof] - v[sway] + node.y * v[turning];
-                dashpots += alpha * node.mass * node.y * rate;
+                dashpots += alpha * node.mass() * node.y * rate;
                 if sticks.lever(index).is_none()
                     && let Some(dof) = own.equations.vertical(index)
                 {
-                    dashpots -= alpha * node.mass * x * (v[dof] - x * v[turning]);
+                    dashpots -= alpha * node.mass() * x * (v[dof] - x * v[turning]);
                 }
             }
         }

@@ -240,9 +240,9 @@ fn a_stiff_frame_rocks_as_a_rigid_body() {
     let place = own.foundation.expect("it stands on one");
     let (mut mass, mut first, mut polar) = (0.0, 0.0, 0.0);
     for node in &own.discretization.stick_model.nodes {
-        mass += node.mass;
-        first += node.mass * node.y;
-        polar += node.inertia[2] + node.mass * (node.y.powi(2) + (node.x - 4.5).powi(2));
+        mass += node.mass();
+        first += node.mass() * node.y;
+        polar += node.inertia[2] + node.mass() * (node.y.powi(2) + (node.x - 4.5).powi(2));
     }
     let (kx, kt) = (
         place.springs.sway_stiffness,
