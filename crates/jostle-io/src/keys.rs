@@ -700,7 +700,7 @@ pub(crate) const KEYS: &[Key] = &[
 
     optional(S::Column, "width", Quantity(D::Length), "Width, across the direction of bending.").usual("a section width", 0.05, 5.0).possible(0.005, 10.0),
     optional(S::Column, "depth", Quantity(D::Length), "Depth, in the direction of bending.").usual("a section depth", 0.05, 5.0).possible(0.005, 10.0),
-    optional(S::Column, "EI", Quantity(D::FlexuralRigidity), "Flexural rigidity, instead of width and depth.").usual("a flexural rigidity", 1e4, 1e12),
+    optional(S::Column, "EI", Quantity(D::FlexuralRigidity), "Flexural rigidity, instead of width and depth.").usual("a flexural rigidity", 1e5, 1e12),
     optional(S::Column, "EA", Quantity(D::Force), "Axial rigidity, with EI; needed for axially flexible columns.").usual("an axial rigidity", 1e5, 1e13),
     optional(S::Column, "GA", Quantity(D::Force), "Shear rigidity G·A_s, with EI; needed for columns with shear deformation.").usual("a shear rigidity", 1e4, 1e13),
     default(S::Column, "mass", Quantity(D::LineMass), "density × area", "Self mass per length of the column.").usual("a mass per length of a column", 1.0, 1e5).possible(0.0, 1e7),
@@ -709,7 +709,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Column, "omit", Flag, "false", "No columns at these places."),
     optional(S::Beam, "width", Quantity(D::Length), "Width, across the direction of bending.").usual("a section width", 0.05, 5.0).possible(0.005, 10.0),
     optional(S::Beam, "depth", Quantity(D::Length), "Depth, in the direction of bending.").usual("a section depth", 0.05, 5.0).possible(0.005, 10.0),
-    optional(S::Beam, "EI", Quantity(D::FlexuralRigidity), "Flexural rigidity, instead of width and depth.").usual("a flexural rigidity", 1e4, 1e12),
+    optional(S::Beam, "EI", Quantity(D::FlexuralRigidity), "Flexural rigidity, instead of width and depth.").usual("a flexural rigidity", 1e5, 1e12),
     optional(S::Beam, "EA", Quantity(D::Force), "Axial rigidity, with EI; needed for axially flexible beams.").usual("an axial rigidity", 1e5, 1e13),
     optional(S::Beam, "GA", Quantity(D::Force), "Shear rigidity G·A_s, with EI; needed for beams with shear deformation.").usual("a shear rigidity", 1e4, 1e13),
     default(S::Beam, "bay", Kind::FromTo, "all", "Its bay, counted from 1 at the left; or the first and the last."),

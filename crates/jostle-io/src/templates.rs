@@ -3,12 +3,20 @@
 use crate::builtin_model::model_text;
 
 /// Names of the templates; the first is the default.
-pub const TEMPLATE_NAMES: [&str; 7] = [
+pub const TEMPLATE_NAMES: [&str; 15] = [
     "frames",
     "towers",
     "single",
     "row",
     "space-frames",
+    "soft-storey",
+    "wall-frame",
+    "podium",
+    "masonry-infill",
+    "heritage",
+    "braced-steel",
+    "bridge-decks",
+    "isolated-moat",
     "paper",
     "paper-inelastic",
 ];
@@ -22,6 +30,14 @@ pub fn template(name: &str, title: &str) -> Option<String> {
         "single" => include_str!("../data/single.toml"),
         "row" => include_str!("../data/row.toml"),
         "space-frames" => include_str!("../data/space_frames.toml"),
+        "soft-storey" => include_str!("../data/soft_storey.toml"),
+        "wall-frame" => include_str!("../data/wall_frame.toml"),
+        "podium" => include_str!("../data/podium.toml"),
+        "masonry-infill" => include_str!("../data/masonry_infill.toml"),
+        "heritage" => include_str!("../data/heritage.toml"),
+        "braced-steel" => include_str!("../data/braced_steel.toml"),
+        "bridge-decks" => include_str!("../data/bridge_decks.toml"),
+        "isolated-moat" => include_str!("../data/isolated_moat.toml"),
         _ => return model_text(name).map(ToOwned::to_owned),
     };
     // Quotes, backslashes and control characters would end or change the TOML string.

@@ -167,7 +167,7 @@ pub const CHECKS: &[Check] = &[
         unit: "–",
         limits: &[above(0.0, Note)],
         sources: &[JUDGEMENT],
-        remedy: "leave out p_delta = false",
+        remedy: "write p_delta = true",
         measure: yielding::without_p_delta,
     },
     Check {
