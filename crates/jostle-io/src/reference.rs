@@ -66,7 +66,7 @@ const TABLES: &[(Section, &str, &str)] = &[
     (
         Section::Infill,
         "`[[building.infill]]`",
-        "A panel is two struts between opposite joints that bear compression alone and stay elastic: compare their greatest force with what the panel bears. Modes and damping ratios count both with half their stiffness, since one of two acts.",
+        "A panel is two struts between opposite joints that bear compression alone. Without hinge they stay elastic: compare their greatest force with what the panel bears. Modes and damping ratios count both with half their stiffness, since one of two acts.",
     ),
     (
         Section::SpaceFrame,

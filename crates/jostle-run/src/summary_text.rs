@@ -414,7 +414,6 @@ fn write_shear_failures(text: &mut String, buildings: &[BuildingSummary]) -> std
     Ok(())
 }
 
-/// The first member beyond its capacity, and the worst; one line if none is beyond it.
 /// The greatest forces of braces and of struts of every building.
 fn write_parts(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::Result {
     for (kind, noun) in [("brace", "Braces"), ("infill", "Infill struts")] {
@@ -429,11 +428,15 @@ fn write_parts(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::Re
                 true => format!("; {:.1} kJ dissipated in all", dissipated / 1e3),
                 false => String::new(),
             };
+            // Struts have no tension.
+            let tension = match kind {
+                "infill" => String::new(),
+                _ => format!("{:.0} kN of tension and ", worst.force_max_n / 1e3),
+            };
             writeln!(
                 text,
-                "\n{noun} of {}: up to {:.0} kN of tension and {:.0} kN of compression in {}{spent}",
+                "\n{noun} of {}: up to {tension}{:.0} kN of compression in {}{spent}",
                 building.name,
-                worst.force_max_n / 1e3,
                 -worst.force_min_n / 1e3,
                 worst.name
             )?;

@@ -163,8 +163,8 @@ fn what_does_not_fit_is_refused_with_the_remedy() {
         ),
         (
             "mass = \"90 t\"",
-            "mass = \"90 t\"\ngravity = true",
-            "p_delta alone",
+            "mass = \"90 t\"\ngravity = true\naxial = \"rigid\"",
+            "needs columns that shorten under the weight",
         ),
         (
             "mass = \"90 t\"",

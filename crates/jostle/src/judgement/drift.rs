@@ -1,5 +1,6 @@
 //! B2 and B8: drifts of storeys, at their peak and at the end.
 
+use super::record::lost;
 use super::yielding::structure_yields;
 use super::{Known, Tally};
 use crate::results::summary::Summary;
@@ -30,8 +31,14 @@ pub(super) fn peak(known: &Known<'_>, tally: &mut Tally<'_>) {
     }
 }
 
-/// Drift at the end of buildings that yield; elastic ones are still swinging, and a run that ended early has no end.
+/// Share of the Arias intensity after the end beyond which buildings have not come to rest, that of check A13 \[–\].
+const SHAKING_AFTER: f64 = 0.05;
+
+/// Drift at the end of buildings that yield; elastic ones are still swinging, and so are all in a run that ended early or cut its record.
 pub(super) fn residual(known: &Known<'_>, tally: &mut Tally<'_>) {
+    if lost(known) > SHAKING_AFTER {
+        return;
+    }
     let complete = |(summary, _): &(&Summary, _)| summary.ended_early.is_none();
     let Some((summary, _)) = known.results.filter(complete) else {
         return;

@@ -33,22 +33,32 @@ pub(super) fn cut(known: &Known<'_>, tally: &mut Tally<'_>) {
     let Some((motion, step, acceleration)) = record(known) else {
         return;
     };
-    let kept = (motion.duration / step * (1.0 + 1e-12)).floor() as usize;
-    if kept + 1 >= acceleration.len() {
+    let lost = lost(known);
+    if lost == 0.0 {
         return;
     }
-    let squares = |values: &[f64]| values.iter().map(|a| a * a).sum::<f64>();
-    let (lost, all) = (squares(&acceleration[kept + 1..]), squares(acceleration));
-    tally.add(lost / all, || {
+    tally.add(lost, || {
         let text = format!(
             "{}: the cut at {:.1} s drops {:.0} % of the shaking (Arias intensity) of a record of {:.1} s",
             motion.name,
             motion.duration,
-            100.0 * lost / all,
+            100.0 * lost,
             step * (acceleration.len() - 1) as f64
         );
         (motion.name.clone(), text)
     });
+}
+
+/// Share of the Arias intensity of the record after the end of the analysis \[–\].
+pub(super) fn lost(known: &Known<'_>) -> f64 {
+    let Some((motion, step, acceleration)) = record(known) else {
+        return 0.0;
+    };
+    let kept = (motion.duration / step * (1.0 + 1e-12)).floor() as usize;
+    let squares = |values: &[f64]| values.iter().map(|a| a * a).sum::<f64>();
+    let after = acceleration.get(kept + 1..).unwrap_or_default();
+    let all = squares(acceleration);
+    if all > 0.0 { squares(after) / all } else { 0.0 }
 }
 
 /// Factor on the record, either sign.
