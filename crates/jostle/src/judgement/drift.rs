@@ -31,8 +31,8 @@ pub(super) fn peak(known: &Known<'_>, tally: &mut Tally<'_>) {
     }
 }
 
-/// Share of the Arias intensity after the end beyond which buildings have not come to rest, that of check A13 \[–\].
-const SHAKING_AFTER: f64 = 0.05;
+/// Share of the Arias intensity after the end beyond which a drift is that of a building in motion \[–\].
+const SHAKING_AFTER: f64 = 0.25;
 
 /// Drift at the end of buildings that yield; elastic ones are still swinging, and so are all in a run that ended early or cut its record.
 pub(super) fn residual(known: &Known<'_>, tally: &mut Tally<'_>) {

@@ -96,9 +96,9 @@ fn discretize(plan_frame: &PlanFrame, frame: &Frame) -> Discretization {
 fn carry_floors(tiers: &Tiers, shared: &[SharedColumn], frame: usize, sticks: &mut StickModel) {
     let is_doubled = |place: [usize; 2]| shared.iter().any(|own| own.lines[1] == place);
     let columns_of = |index: usize, storey: usize| {
-        let own = &tiers.frames[index];
-        let reaches = storey < own.frame.storey_heights.len();
-        (0..own.column_lines()).filter(move |line| reaches && !is_doubled([index, *line]))
+        let own = &tiers.frames[index].frame;
+        let reaches = move |line: &usize| own.has_joint(storey + 1, *line);
+        (0..own.lines()).filter(move |line| reaches(line) && !is_doubled([index, *line]))
     };
     let own = &tiers.frames[frame];
     let mut height = 0.0;
@@ -107,7 +107,7 @@ fn carry_floors(tiers: &Tiers, shared: &[SharedColumn], frame: usize, sticks: &m
         let all = (0..tiers.frames.len()).map(|index| columns_of(index, storey).count());
         let share = tiers.floors[storey].mass / all.sum::<usize>() as f64;
         for line in columns_of(frame, storey) {
-            let along: f64 = own.frame.spans.iter().take(line).sum();
+            let along = own.frame.line_positions()[line];
             // Joints come before what stands beside them beyond hinges.
             let mut nodes = sticks.nodes.iter_mut();
             let joint = nodes

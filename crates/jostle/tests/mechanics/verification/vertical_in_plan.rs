@@ -328,3 +328,16 @@ fn a_push_along_the_row_takes_the_mode_along_the_row() {
         close(*a, *b, *b, 1e-6, "load");
     }
 }
+
+/// Columns that a frame lacks carry nothing, and the others all of it.
+#[test]
+fn columns_that_stand_carry_the_whole_slab() {
+    let slab = 90e3;
+    let mut own = frame(0.0);
+    own.own_columns.insert([STOREYS - 1, 2], None);
+    own.own_beams.insert([STOREYS - 1, 1], None);
+    let space = in_plan(slab, &own, &FrameHinges::default());
+    let system = runs::assembled(&model(vec![space], vec![], None));
+    let rising: f64 = system.buildings[0].equations.vertical_mass.iter().sum();
+    close(rising, slab * STOREYS as f64, rising, 1e-12, "mass");
+}
