@@ -363,6 +363,10 @@ pub(crate) const RESTITUTION_IS: &[&str] = names!(RestitutionIs);
 pub(crate) const RULES: &[&str] = names!(HysteresisRule);
 /// Where shear springs of columns stand.
 pub(crate) const SHEAR_ENDS: &[&str] = &["foot", "both"];
+/// Rules of hinges of frames: fibres are several springs.
+pub(crate) const HINGE_RULES: &[&str] = &joined::<8>(&[RULES, &["fibre"]]);
+/// Where fibres stand: at both ends of all columns, or at their feet on the ground.
+pub(crate) const FIBRE_ENDS: &[&str] = &["both", "base"];
 pub(crate) const HINGE_SOURCES: &[&str] = &["section"];
 pub(crate) const HINGE_METHODS: &[&str] = &["formula", "fibre"];
 pub(crate) const WAVES: &[&str] = &["sine", "ricker"];
@@ -807,7 +811,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::ShearFailure, "slope", PerStorey(D::Stiffness), "by Elwood and Moehle, from their axial load and ties", "Shear that a column loses per drift after failure; required with strength.").usual("a slope", 1e3, 9e10).signed(),
     default(S::ShearFailure, "residual", Quantity(D::Dimensionless), "0", "Shear strength that remains, over that at failure.").usual("a ratio", 1e-4, 1.0),
     default(S::ShearFailure, "ends", Choice(SHEAR_ENDS), "both where neighbours can strike a column between floors", "Where shear springs stand."),
-    required(S::Hinges, "rule", Choice(RULES), "Unloading and reloading rule of hinges."),
+    required(S::Hinges, "rule", Choice(HINGE_RULES), "Unloading and reloading rule of hinges; fibre: ends of columns are fibres of concrete and steel, so that their strength follows their axial force."),
     default(S::Hinges, "gamma", Quantity(D::Dimensionless), "0.4", "Exponent of the unloading stiffness of takeda.").usual("an exponent", 1e-3, 1.0),
     optional(S::Hinges, "pinching", Kind::Table(S::Pinching), "Where reloading stiffens; required with the rule pinched."),
     default(S::Hinges, "unloading_exponent", Quantity(D::Dimensionless), "0", "Exponent with which the unloading stiffness of pinched falls with the peak, 0 to 1.").usual("an exponent", 1e-3, 1.0),
@@ -817,6 +821,14 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Hinges, "method", Choice(HINGE_METHODS), "\"formula\"", "Published formulas, or fibre analysis."),
     optional(S::Hinges, "column", TablePerStorey(S::Hinge), "Hinges of the columns; without it they are elastic."),
     optional(S::Hinges, "beam", TablePerStorey(S::Hinge), "Hinges of the beams; without it they are elastic."),
+    optional(S::Hinges, "length", WordOr("paulay-priestley", D::Length), "Length over which fibres share a deformation; \"paulay-priestley\" is 0.08 L + 0.022 d f, with half the storey height L, the diameter d of the thickest bars and their yield strength f in MPa. Required with rule = \"fibre\".").usual("a length of a hinge", 0.02, 5.0),
+    default(S::Hinges, "fibres", Count, "40", "Layers of concrete over the depth of a column, 2 to 400."),
+    default(S::Hinges, "ends", Choice(FIBRE_ENDS), "\"both\"", "Where fibres stand: at both ends of all columns, or at the feet of the lowest alone."),
+    default(S::Hinges, "peak_strain", Quantity(D::Dimensionless), "that of the concrete, confined by ties where there are any", "Strain of concrete at its strength.").usual("a strain", 1e-3, 2e-2),
+    default(S::Hinges, "residual", Quantity(D::Dimensionless), "0.2", "Strength of crushed concrete over its strength.").usual("a ratio", 1e-3, 1.0),
+    default(S::Hinges, "ultimate_strain", Quantity(D::Dimensionless), "on the straight line through its stress at the crushing strain", "Strain at which concrete has fallen to its residual strength.").usual("a strain", 2e-3, 0.3),
+    default(S::Hinges, "hardening", Quantity(D::Dimensionless), "that of the steel", "Modulus of bars after yield over that before.").usual("a ratio of stiffnesses", 1e-4, 0.2),
+    default(S::Hinges, "beam_rule", Choice(RULES), "\"peak-oriented\"", "Rule of the hinges of beams beside fibres in columns; from = \"section\" computes their moments."),
 
     optional(S::Hinge, "cracking", Quantity(D::Moment), "Cracking moment.").usual("a cracking moment", 1e3, 1e9),
     optional(S::Hinge, "yield", Quantity(D::Moment), "Yield moment.").usual("a yield moment", 1e3, 1e9),

@@ -12,6 +12,7 @@ mod capacity;
 mod codes;
 mod contact_law;
 mod damper;
+mod fibre_hinges;
 mod floor_spectra;
 mod frame;
 mod frame_members;

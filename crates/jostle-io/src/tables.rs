@@ -571,6 +571,15 @@ fn parts(place: Option<SpringPlace>) -> (&'static str, Option<usize>, Option<usi
             };
             ("column shear", Some(storey), Some(line), end)
         }
+        Some(SpringPlace::Fibre {
+            storey, line, end, ..
+        }) => {
+            let end = match end {
+                MemberEnd::First => "foot",
+                MemberEnd::Last => "head",
+            };
+            ("column fibre", Some(storey), Some(line), end)
+        }
         Some(SpringPlace::Diagonal { place, .. }) => (
             place.kind.name(),
             Some(place.storey),
@@ -695,6 +704,7 @@ fn column_name(model: &Model, contacts: &[String], links: &[String], column: Col
         Owner::Run
         | Owner::Building(_)
         | Owner::Bearing { .. }
+        | Owner::Section { .. }
         | Owner::Foundation(_)
         | Owner::Gap(_)
         | Owner::Spring(_) => String::new(),

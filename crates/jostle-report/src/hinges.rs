@@ -146,6 +146,9 @@ pub(crate) fn coordinates(at: SpringPlace) -> (char, usize, usize, usize) {
         SpringPlace::Column { storey, line, end } => ('c', storey, line, last(end)),
         SpringPlace::Beam { floor, bay, end } => ('b', floor, bay, last(end)),
         SpringPlace::Shear { storey, line, end } => ('v', storey, line, last(end)),
+        SpringPlace::Fibre {
+            storey, line, end, ..
+        } => ('c', storey, line, last(end)),
         SpringPlace::Storey { storey }
         | SpringPlace::PlanStorey { storey, .. }
         | SpringPlace::Element { storey, .. }

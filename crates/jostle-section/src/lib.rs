@@ -14,6 +14,7 @@ pub mod capacity;
 pub mod formula;
 
 mod bars;
+mod column_fibres;
 mod concrete;
 mod curve;
 mod fibre;
@@ -25,6 +26,7 @@ mod steel;
 mod survey;
 
 pub use bars::{Bar, BarsError, Reinforcement, Ties};
+pub use column_fibres::FibreOptions;
 pub use concrete::{CONCRETE_GRADES, Concrete, EN_CONCRETE_GRADES, StrengthLevel};
 pub use curve::{AnalysisError, Event, EventKind, MomentCurvature, Options};
 pub use fibre::{Fibres, Resultants};

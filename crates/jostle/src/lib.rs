@@ -113,8 +113,8 @@ pub use contact::{ContactLaw, LawKind, RestitutionIs};
 pub use history::{Column, EnergyTerm, History, Impact};
 pub use interface::{UnmatchedFloors, floor_and_height, sticking_stiffness};
 pub use model::{
-    Analysis, Axial, Base, BearingBounds, BearingFactors, Building, Damping, Diagonal,
-    DiagonalKind, DiagonalPlace, FloorMatrices, FloorPairs, Foundation, FoundationSprings, Frame,
+    Analysis, Axial, Base, BearingBounds, BearingFactors, Building, ColumnFibres, Damping, Diagonal,
+    DiagonalKind, DiagonalPlace, Fibre, FloorMatrices, FloorPairs, Foundation, FoundationSprings, Frame,
     FrameHinges, FramePlace, Gap, Given, GivenFloor, GivenInPlan, Gravity, HalfSpace, Hinges,
     Integrator, Isolation, Isolator, IsolatorDamping, Joint, JointRequest, Level, Link, LinkLaw,
     MemberRequest, Model, ModelFault, PlanArea, PlanAxis, PlanContact, PlanFrame, PlanPoint,

@@ -1,14 +1,17 @@
 //! `hinges`: where a building cracks and yields.
 
+use std::collections::BTreeMap;
+
 use jostle::hysteresis::{
     Backbone, Corners, DEFAULT_TAKEDA_EXPONENT, GREATEST_DAMAGE, Hysteresis, HysteresisRule,
     Pinching, Quantity, Side, SpringFault,
 };
-use jostle::{Frame, FrameHinges, Hinges, Shear};
+use jostle::{ColumnFibres, Frame, FrameHinges, FramePlace, Hinges, Shear};
 use jostle_section::formula::Member;
 use jostle_section::{EndCurve, Options};
 
 use super::building::{has_length, per_storey};
+use super::fibre_hinges;
 use super::frame_members::filled;
 use super::reinforced::ReinforcedMember;
 use crate::keys::{HINGE_METHODS, HINGE_SOURCES, RULES, Section};
@@ -22,10 +25,19 @@ const RIGID_INITIAL: f64 = 1e5;
 
 /// Reads the rule; `None` after a fault.
 pub(super) fn read_rule(reader: &mut Reader<'_>, view: &View<'_>) -> Option<HysteresisRule> {
-    let name = match reader.get(view, "rule") {
+    read_rule_at(reader, view, "rule")
+}
+
+/// The same from another key.
+fn read_rule_at(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    key: &'static str,
+) -> Option<HysteresisRule> {
+    let name = match reader.get(view, key) {
         Some(field) => reader.choice(&field, RULES, &[]),
         None => {
-            reader.missing(view, "rule", "add rule = \"peak-oriented\"");
+            reader.missing(view, key, format!("add {key} = \"peak-oriented\""));
             None
         }
     };
@@ -63,6 +75,7 @@ pub(super) fn read_rule(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Hyst
         HysteresisRule::Sliding { .. }
         | HysteresisRule::Stop { .. }
         | HysteresisRule::Failing(_)
+        | HysteresisRule::Concrete(_)
         | HysteresisRule::InPlan { .. } => return None,
     })
 }
@@ -161,7 +174,17 @@ pub(super) fn read_frame(
     members: Option<&[ReinforcedMember]>,
 ) -> Option<Hinges> {
     let view = reader.open(field, &[Section::Hinges])?;
-    let rule = read_rule(reader, &view);
+    let fibres = if fibre_hinges::asked(reader, &view) {
+        Some(fibre_hinges::read(reader, field, &view, frame, members))
+    } else {
+        fibre_hinges::refuse(reader, &view);
+        None
+    };
+    let rule = match &fibres {
+        Some(_) if view.has("beam_rule") => read_rule_at(reader, &view, "beam_rule"),
+        Some(_) => Some(HysteresisRule::PeakOriented),
+        None => read_rule(reader, &view),
+    };
     let initial = read_initial(reader, &view);
     let source = reader
         .get(&view, "from")
@@ -184,20 +207,44 @@ pub(super) fn read_frame(
                 );
             }
         }
-        return of_sections(reader, field, frame, rule?, initial?, method?, members?);
+        let kinds = match fibres {
+            Some(_) => &[(Member::Beam, "beam")][..],
+            None => &[(Member::Column, "column"), (Member::Beam, "beam")],
+        };
+        let hinges = of_sections(
+            reader, field, frame, kinds, rule?, initial?, method?, members?,
+        )?;
+        return with_fibres(hinges, fibres);
+    }
+    if let (Some(_), Some(field)) = (&fibres, reader.get(&view, "column")) {
+        *reader.bad(&field, "cannot be combined with rule = \"fibre\"") =
+            Some("remove it: fibres follow from the bars of the columns".into());
     }
     let (columns, beams) = (
         read_members(reader, &view, "column", frame, rule, initial),
         read_members(reader, &view, "beam", frame, rule, initial),
     );
-    if !view.has("column") && !view.has("beam") {
+    if fibres.is_none() && !view.has("column") && !view.has("beam") {
         *reader.bad(field, "has no moments") = Some("add column or beam = { cracking = \"120 kN.m\", yield = \"400 kN.m\", post_cracking = 0.3, post_yield = 0.02 }, or from = \"section\"".into());
     }
-    Some(Hinges::Frame(FrameHinges {
+    let hinges = FrameHinges {
         columns: columns?,
         beams: beams?,
         ..FrameHinges::default()
-    }))
+    };
+    with_fibres(hinges, fibres)
+}
+
+/// Hinges beside the fibres that were asked for; `None` after faults in these.
+fn with_fibres(
+    hinges: FrameHinges,
+    fibres: Option<Option<BTreeMap<FramePlace, ColumnFibres>>>,
+) -> Option<Hinges> {
+    let fibres = match fibres {
+        Some(fibres) => fibres?,
+        None => BTreeMap::new(),
+    };
+    Some(Hinges::Frame(FrameHinges { fibres, ..hinges }))
 }
 
 /// Stiffness of a hinge before it cracks.
@@ -443,15 +490,16 @@ fn of_sections(
     reader: &mut Reader<'_>,
     field: &Field<'_>,
     frame: &Frame,
+    kinds: &[(Member, &str)],
     rule: HysteresisRule,
     initial: Initial,
     method: &str,
     members: &[ReinforcedMember],
-) -> Option<Hinges> {
+) -> Option<FrameHinges> {
     let storeys = frame.storey_heights.len();
     let mut hinges = FrameHinges::default();
     let mut sound = true;
-    for (kind, word) in [(Member::Column, "column"), (Member::Beam, "beam")] {
+    for &(kind, word) in kinds {
         let (per_storey, count) = match kind {
             Member::Column => (frame.lines(), frame.all_columns().count()),
             Member::Beam => (frame.spans.len(), frame.all_beams().count()),
@@ -522,7 +570,7 @@ fn of_sections(
             Member::Beam => hinges.beams = rows,
         }
     }
-    sound.then_some(Hinges::Frame(hinges))
+    sound.then_some(hinges)
 }
 
 /// The hinge of a reinforced member.
@@ -584,6 +632,7 @@ fn corners_of(rule: HysteresisRule, numbers: [Option<f64>; 4]) -> Option<Corners
         | HysteresisRule::Sliding { .. }
         | HysteresisRule::Stop { .. }
         | HysteresisRule::Failing(_)
+        | HysteresisRule::Concrete(_)
         | HysteresisRule::InPlan { .. } => Corners {
             cracking: cracking?,
             yielding: yielding?,

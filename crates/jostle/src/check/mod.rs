@@ -277,6 +277,23 @@ fn check_frame_hinges(faults: &mut Faults, path: &str, hinges: &FrameHinges, fra
         format!("{path}.shear"),
         || "takes springs that lose their strength, from Hysteresis::failing".into(),
     );
+    for ([storey, line], own) in &hinges.fibres {
+        let path = format!("{path}.fibres");
+        faults.require(frame.column(*storey, *line).is_some(), &path, || {
+            format!("stand where there is no column: storey {}, line {}", storey + 1, line + 1)
+        });
+        faults.positive(own.length, format!("{path}.length"), "m");
+        faults.require(own.fibres.len() >= 2, &path, || {
+            "need at least two: one cannot bend".into()
+        });
+        let sound = own.fibres.iter().all(|fibre| fibre.at.is_finite());
+        faults.require(sound, &path, || "must stand at finite distances".into());
+    }
+    faults.require(
+        hinges.fibres.is_empty() || frame.axial.columns_flexible,
+        format!("{path}.fibres"),
+        || "need columns that change their length: without it their axial force is not known".into(),
+    );
     let members = [
         ("column", &hinges.columns, frame.spans.len() + 1),
         ("beam", &hinges.beams, frame.spans.len()),

@@ -56,6 +56,13 @@ pub enum Owner {
         /// Bearing, from 0.
         bearing: usize,
     },
+    /// An end of a column that is made of fibres: it stretches (up) and turns.
+    Section {
+        /// Building index.
+        building: usize,
+        /// Its number in the building, from 0.
+        section: usize,
+    },
     /// The rigid foundation of a building on soil.
     Foundation(usize),
     /// The ground under a building or a wall; walls are counted on from the buildings.
@@ -299,6 +306,7 @@ impl Column {
             Owner::Run => [0, 0],
             Owner::Floor { building, floor } => [building, floor],
             Owner::Bearing { building, bearing } => [building, bearing],
+            Owner::Section { building, section } => [building, section],
             Owner::Building(index)
             | Owner::Support(index)
             | Owner::Foundation(index)
@@ -321,6 +329,7 @@ impl Owner {
             Self::Floor { .. } => "floor",
             Self::Support(_) => "isolation",
             Self::Bearing { .. } => "bearing",
+            Self::Section { .. } => "section",
             Self::Foundation(_) => "foundation",
             Self::Ground(_) => "ground",
             Self::Contact(_) => "contact",
@@ -338,6 +347,7 @@ impl Owner {
             | Self::Floor { building, .. }
             | Self::Support(building)
             | Self::Bearing { building, .. }
+            | Self::Section { building, .. }
             | Self::Foundation(building)
             | Self::Ground(building) => Some(building),
             Self::Run | Self::Contact(_) | Self::Gap(_) | Self::Link(_) | Self::Spring(_) => None,

@@ -24,6 +24,7 @@
 
 mod backbone;
 mod circular;
+mod concrete;
 mod degrading;
 mod failing;
 mod friction;
@@ -35,6 +36,7 @@ mod sliders;
 
 pub use backbone::{Backbone, BackboneSide, Corner, Corners, Quantity, Side, SpringFault};
 pub use circular::{CircularLaw, ForceRow};
+pub use concrete::ConcreteFall;
 pub use failing::FallingBranch;
 pub use friction::Rates;
 pub use memory::{HysteresisMemory, Response, Stage};

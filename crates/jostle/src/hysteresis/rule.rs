@@ -2,6 +2,7 @@
 
 use super::backbone::{Backbone, Corner, Corners, Quantity, Side, SpringFault};
 use super::circular::{CircularLaw, ForceRow};
+use super::concrete::{self, ConcreteFall};
 use super::failing::{self, FallingBranch};
 use super::friction::{Rates, Strength};
 use super::memory::{Branch, HysteresisMemory, Response, Stage};
@@ -54,6 +55,8 @@ pub enum HysteresisRule {
     /// Elastic to the yield force, then falling to a residual force: columns that fail in shear;
     /// [`Hysteresis::failing`] makes it.
     Failing(FallingBranch),
+    /// Concrete that bears compression alone, crushes, and unloads towards a strain that stays; [`Hysteresis::concrete`] makes it.
+    Concrete(ConcreteFall),
     /// A row of a force in plan that is the same in every direction; [`Hysteresis::in_plan`] makes all three. On its own a row
     /// along x or across is that force on a straight line.
     InPlan {
@@ -102,6 +105,7 @@ impl HysteresisRule {
             | Self::Stop { .. }
             | Self::Pinched(_)
             | Self::Failing(_)
+            | Self::Concrete(_)
             | Self::InPlan { .. } => false,
         }
     }
@@ -120,6 +124,7 @@ impl HysteresisRule {
             Self::Stop { .. } => "stop",
             Self::Pinched(_) => "pinched",
             Self::Failing(_) => "failing",
+            Self::Concrete(_) => "concrete",
             Self::InPlan { law, .. } => match law {
                 CircularLaw::Slider | CircularLaw::Friction { .. } => "friction in plan",
                 CircularLaw::Ring => "ring",
@@ -332,6 +337,38 @@ impl Hysteresis {
         }
     }
 
+    /// A fibre of concrete that bears compression alone: its strength \[N\], the compression at it \[m\], and how it falls beyond. It
+    /// starts with the slope 2 strength / compression.
+    ///
+    /// # Errors
+    /// Numbers that are not positive, or a fall out of range.
+    pub fn concrete(
+        strength: f64,
+        compression: f64,
+        fall: ConcreteFall,
+    ) -> Result<Self, Vec<SpringFault>> {
+        // Two chords stand for the parabola: through the point at half of the strength, with the initial slope.
+        let corners = Corners {
+            cracking: 0.5 * strength,
+            yielding: strength,
+            post_cracking: 1.0 / 3.0,
+            post_yield: 0.0,
+        };
+        let initial = 2.0 * strength / compression;
+        let backbone = Backbone::from_forces(initial, corners, corners)?.without_tension();
+        match fall.fault() {
+            None => Ok(Self {
+                rule: HysteresisRule::Concrete(fall),
+                backbone,
+            }),
+            Some(problem) => Err(vec![SpringFault {
+                quantity: Quantity::Rule,
+                side: None,
+                problem,
+            }]),
+        }
+    }
+
     /// What happens beyond the strength, for a spring that loses it.
     #[must_use]
     pub fn falling_branch(&self) -> Option<FallingBranch> {
@@ -392,6 +429,7 @@ impl Hysteresis {
             | HysteresisRule::DegradingTrilinear
             | HysteresisRule::Pinched(_)
             | HysteresisRule::Failing(_)
+            | HysteresisRule::Concrete(_)
             | HysteresisRule::InPlan { .. }
             | HysteresisRule::Sliding { .. } => self.backbone.initial(),
         }
@@ -483,6 +521,9 @@ impl Hysteresis {
             HysteresisRule::Failing(falling) => {
                 failing::respond(&self.backbone, &falling, memory, deformation)
             }
+            HysteresisRule::Concrete(fall) => {
+                concrete::respond(&self.backbone, &fall, memory, deformation)
+            }
             HysteresisRule::InPlan { row, .. } => self.on_a_line(row, memory, deformation),
         };
         let force = response.force;
@@ -542,6 +583,7 @@ impl Hysteresis {
             | HysteresisRule::Stop { .. }
             | HysteresisRule::Pinched(_)
             | HysteresisRule::Failing(_)
+            | HysteresisRule::Concrete(_)
             | HysteresisRule::InPlan { .. } => {
                 let response = self.respond(memory, deformation);
                 [response.force, response.tangent]
@@ -571,7 +613,8 @@ impl Hysteresis {
             | HysteresisRule::DegradingTrilinear
             | HysteresisRule::Stop { .. }
             | HysteresisRule::Pinched(_)
-            | HysteresisRule::Failing(_) => *memory = self.respond(memory, deformation).memory,
+            | HysteresisRule::Failing(_)
+            | HysteresisRule::Concrete(_) => *memory = self.respond(memory, deformation).memory,
         }
     }
 
@@ -617,6 +660,9 @@ impl Hysteresis {
             | HysteresisRule::Stop { .. } => self.backbone.initial(),
             HysteresisRule::Pinched(pinching) => {
                 pinched::unloading_stiffness(&self.backbone, &pinching, memory)
+            }
+            HysteresisRule::Concrete(fall) => {
+                concrete::unloading_stiffness(&self.backbone, &fall, memory)
             }
         }
     }
@@ -672,6 +718,9 @@ impl Hysteresis {
             HysteresisRule::Failing(falling) => {
                 failing::next_corner(&self.backbone, &falling, memory, towards)
             }
+            HysteresisRule::Concrete(fall) => {
+                concrete::next_corner(&self.backbone, &fall, memory, towards)
+            }
             HysteresisRule::InPlan { .. } => towards.sign() * f64::INFINITY,
         }
     }
@@ -698,6 +747,15 @@ impl Hysteresis {
             HysteresisRule::Elastic | HysteresisRule::Stop { .. } | HysteresisRule::InPlan { .. }
         ) {
             return Stage::Uncracked;
+        }
+        if let HysteresisRule::Concrete(_) = self.rule {
+            // It begins to crush at its strength.
+            let peak = self.backbone.side(Side::Negative).yielding.deformation;
+            return if memory.greatest(Side::Negative) > peak {
+                Stage::Yielded
+            } else {
+                Stage::Uncracked
+            };
         }
         let of = |side: Side| {
             let (curve, reached) = (self.backbone.side(side), memory.greatest(side));

@@ -16,6 +16,7 @@ mod members;
 mod plan_bearings;
 mod plan_frame;
 mod plan_spring;
+mod fibres;
 mod shear_spring;
 mod soil;
 mod space_frame;
@@ -43,6 +44,7 @@ pub use link_law::LinkLaw;
 pub use members::{JointRequest, MemberRequest};
 pub use plan_frame::{LumpedFloor, PlanFrame, SharedColumn};
 pub use plan_spring::{PlanAxis, PlanSpring};
+pub use fibres::{ColumnFibres, Fibre};
 pub use shear_spring::{ShearEnds, ShearSpring};
 pub use soil::{Foundation, FoundationSprings, HalfSpace, Soil, SoilCoupling};
 pub use space_frame::{SpaceFrame, SpaceMember, SpacePlace, SpaceSection};
@@ -296,6 +298,8 @@ pub struct FrameHinges {
     pub beams: Vec<Vec<Hysteresis>>,
     /// Failure in shear of the columns by storey and column line; empty if their strength has no limit.
     pub shear: Vec<Vec<ShearSpring>>,
+    /// Columns whose ends are made of fibres, by storey and column line from 0; they have no hinge in `columns`.
+    pub fibres: BTreeMap<FramePlace, ColumnFibres>,
 }
 
 /// Structural type of a building.

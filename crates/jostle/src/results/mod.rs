@@ -14,6 +14,7 @@ mod isolation;
 pub mod isolation_bounds;
 mod members;
 mod parts;
+mod sections;
 pub mod registry;
 mod required;
 pub mod response;

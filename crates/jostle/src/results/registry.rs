@@ -11,7 +11,7 @@ use super::summary::{
     AcceptanceSummary, AcrossSummary, AxialFailureSummary, BuildingSummary, CapacitySummary,
     ContactSummary, EnergySummary, ExceededSummary, FloorSummary, ForcesSummary, FoundationSummary,
     GapSummary, HingeSummary, ImpactSummary, IsolationInPlan, IsolationSummary, JointRatio,
-    JointSummary, LinkFloorSummary, LinkSummary, MemberComparison, MotionSummary, PartSummary,
+    JointSummary, LinkFloorSummary, LinkSummary, MemberComparison, MotionSummary, PartSummary, FibreSummary,
     PromiseSummary, RatioPlace, RatioSummary, SectionSummary, ShearFailure, ShearFailureSummary,
     SpringSummary, StruckSummary, Summary, WallSummary, WorkSummary,
 };
@@ -102,6 +102,7 @@ const OWNERS: &[Row] = &[
     ("Columns that fail in shear", "buildings[].shear_failures", None, "J1.shear_failures_", &[entries!(ShearFailureSummary::QUANTITIES)]),
     ("Failures in shear", "buildings[].shear_failures.list[]", None, "", &[entries!(ShearFailure::QUANTITIES)]),
     ("Braces and struts", "buildings[].parts[]", None, "", &[entries!(PartSummary::QUANTITIES)]),
+    ("Ends of columns made of fibres", "buildings[].sections[]", None, "", &[entries!(FibreSummary::QUANTITIES)]),
     ("Sections of columns and beams", "buildings[].members[].ends[]", None, "", &[entries!(SectionSummary::QUANTITIES)]),
     ("Sections of space frames", "buildings[].members[].ends[]", None, "", &[entries!(AcrossSummary::QUANTITIES)]),
     ("Columns and beams with contact and without", "buildings[].members[].compared", None, "", &[entries!(MemberComparison::QUANTITIES)]),

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::column_ends::FibreSection;
 use super::diagonals::FrameDiagonal;
 use super::element::{Element, Part, Place, THETA, X};
 use super::member_forces::{FrameMember, MemberPlace};
@@ -37,6 +38,8 @@ pub struct Discretization {
     pub members: Vec<FrameMember>,
     /// Braces and struts of frames.
     pub diagonals: Vec<FrameDiagonal>,
+    /// Ends of columns that are made of fibres.
+    pub sections: Vec<FibreSection>,
     /// Centre of mass of every floor on the site, from the ground up; empty for a building in one plane \[m\].
     pub centres: Vec<[f64; 2]>,
     /// Names of the frames that stand in a plan.
@@ -477,10 +480,18 @@ pub(super) fn discretize_frame(
             };
             let is_outer = [0, 1].map(|side| outer.is_some_and(|outer| outer[side] == line));
             let mut ends = [from, to];
+            let fibres = hinges.fibres.get(&[storey, line]);
             let hinge = hinges.columns.get(storey).and_then(|row| row.get(line));
+            let hinge = hinge.filter(|_| fibres.is_none());
             let shear = hinges.shear.get(storey).and_then(|row| row.get(line));
             for (joint, end) in [(from, MemberEnd::First), (to, MemberEnd::Last)] {
                 let node = &mut ends[end as usize];
+                if let Some(own) = fibres.filter(|own| own.at_ends[end as usize]) {
+                    let place = [storey + 1, line + 1];
+                    let (beyond, section) = stick_model.add_fibres(joint, own, place, end);
+                    *node = beyond;
+                    discretization.sections.push(section);
+                }
                 if let Some(hysteresis) = hinge {
                     *node = stick_model.yielding(joint, *hysteresis, end);
                     discretization.spring_places.push(SpringPlace::Column {
@@ -585,6 +596,8 @@ pub(super) fn discretize_frame(
             .extend(at_the_base(BaseMotion::Sliding));
     }
     discretization.spring_places.append(&mut shear_places);
+    let of_fibres: Vec<SpringPlace> = discretization.places_of_fibres().collect();
+    discretization.spring_places.extend(of_fibres);
     discretization.stick_model = stick_model;
     discretization.add_diagonals(&frame.diagonals, &all_joints);
     discretization

@@ -162,6 +162,9 @@ pub struct MemberForces {
     pub joints: Vec<JointCore>,
     /// Braces and struts of frames, which are always followed.
     pub diagonals: Vec<DiagonalForce>,
+    /// Ends of columns that are made of fibres, in the order of [`crate::structure::Discretization::sections`]: axial force, positive in tension, and
+    /// moment, positive where it stretches the right side; indices into [`MemberForces::forms`]. They are always followed.
+    pub sections: Vec<[usize; 2]>,
     /// Every force once; members of one element have one shear.
     pub forms: Vec<LinearForm>,
 }
@@ -245,11 +248,25 @@ impl LinearForm {
 }
 
 impl MemberForces {
-    /// Forces of braces and struts alone.
-    pub(crate) fn of_diagonals(building: &AssembledBuilding) -> Self {
+    /// Forces that are followed always: those of braces and struts, and of sections of fibres.
+    pub(crate) fn followed_always(building: &AssembledBuilding) -> Self {
         let mut forces = Self::default();
         forces.add_diagonals(building);
+        forces.add_sections(&building.discretization);
         forces
+    }
+
+    fn add_sections(&mut self, discretization: &Discretization) {
+        for section in &discretization.sections {
+            let springs = discretization.springs_of_section(section);
+            let sum = |share: &dyn Fn(f64) -> f64| LinearForm {
+                springs: springs.clone().zip(&section.at).map(|(spring, at)| (spring, share(*at))).collect(),
+                ..LinearForm::default()
+            };
+            let forms = [sum(&|_| 1.0), sum(&|at| at)];
+            let forms = forms.map(|form| self.index_of(form));
+            self.sections.push(forms);
+        }
     }
 
     fn add_diagonals(&mut self, building: &AssembledBuilding) {
@@ -282,7 +299,7 @@ impl MemberForces {
         gravity: f64,
         struck: impl Fn(usize) -> bool,
     ) -> Self {
-        let mut forces = Self::of_diagonals(building);
+        let mut forces = Self::followed_always(building);
         if let Some(frame) = &building.discretization.space_frame {
             forces.add_space_frame(building, frame);
         }

@@ -1,6 +1,7 @@
 //! One building as equations: lumped masses, massless elements, and their matrices.
 
 mod assembled_building;
+mod column_ends;
 mod diagonals;
 mod discretization;
 pub(crate) mod element;
@@ -27,6 +28,7 @@ pub(crate) mod testkit;
 mod tiers;
 
 pub use assembled_building::AssembledBuilding;
+pub use column_ends::FibreSection;
 pub use diagonals::FrameDiagonal;
 pub use discretization::{Discretization, Mat};
 pub use element::{Element, Part};

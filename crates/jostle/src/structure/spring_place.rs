@@ -91,6 +91,17 @@ pub enum SpringPlace {
         /// Along which lines it bends.
         axis: PlanAxis,
     },
+    /// In a section of fibres at an end of a column.
+    Fibre {
+        /// Storey.
+        storey: usize,
+        /// Column line.
+        line: usize,
+        /// Which end.
+        end: MemberEnd,
+        /// Its number in the section.
+        fibre: usize,
+    },
     /// A brace or a strut of a frame.
     Diagonal {
         /// Its frame, where several stand in a plan.
@@ -217,7 +228,7 @@ impl SpringPlace {
     #[must_use]
     pub fn is_damped_with_structure(&self) -> bool {
         match self {
-            Self::Base { .. } | Self::Shear { .. } => false,
+            Self::Base { .. } | Self::Shear { .. } | Self::Fibre { .. } => false,
             Self::Diagonal { place, .. } => place.kind == DiagonalKind::Brace,
             own => !own.is_isolation(),
         }
@@ -255,13 +266,14 @@ impl SpringPlace {
         }
     }
 
-    /// Whether it counts among the hinges of a building: what cracks and yields, without isolation, columns that fail in shear, and
-    /// struts that lift off.
+    /// Whether it counts among the hinges of a building: what cracks and yields, without isolation, columns that fail in shear,
+    /// struts that lift off, and fibres, which are many in one section.
     #[must_use]
     pub fn is_hinge(&self) -> bool {
         let strut =
             matches!(self, Self::Diagonal { place, .. } if place.kind == DiagonalKind::Infill);
-        !(self.is_isolation() || self.is_shear() || strut)
+        let fibre = matches!(self, Self::Fibre { .. });
+        !(self.is_isolation() || self.is_shear() || strut || fibre)
     }
 
     /// Whether it is the shear of a column, which fails rather than yields.
@@ -349,6 +361,16 @@ impl std::fmt::Display for SpringPlace {
                     SpacePlace::BeamX { .. } | SpacePlace::BeamY { .. } => Ok(()),
                 }
             }
+            Self::Fibre {
+                storey,
+                line,
+                end,
+                fibre,
+            } => write!(
+                formatter,
+                "{}, fibre {fibre}",
+                Self::Column { storey, line, end }
+            ),
             Self::Diagonal { place, .. } => formatter.write_str(&in_words(place)),
             Self::Storey { storey } => write!(formatter, "storey {storey}"),
             Self::Base { line, motion } => {

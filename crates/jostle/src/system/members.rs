@@ -15,7 +15,7 @@ impl System {
             self.buildings[index].members = if request.envelopes {
                 self.member_forces(index)
             } else {
-                MemberForces::of_diagonals(&self.buildings[index].structure)
+                MemberForces::followed_always(&self.buildings[index].structure)
             };
         }
         for wanted in &request.histories {

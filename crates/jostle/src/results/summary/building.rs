@@ -9,6 +9,7 @@ use super::isolation::{Floors, IsolationSummary};
 use super::joints::JointSummary;
 use super::members::MemberSummary;
 use super::parts::PartSummary;
+use super::sections::FibreSummary;
 use super::shear_failure::ShearFailureSummary;
 use crate::quantity::{Quantity, Unit};
 use crate::results::ground::GroundSummary;
@@ -60,6 +61,9 @@ pub struct BuildingSummary {
     /// Braces and struts; absent if it has none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<PartSummary>,
+    /// Ends of columns that are made of fibres, storey by storey; absent if it has none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub sections: Vec<FibreSummary>,
     /// Columns and beams, storey by storey from the ground up, columns first; absent unless asked for.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub members: Vec<MemberSummary>,

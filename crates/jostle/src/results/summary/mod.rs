@@ -14,6 +14,7 @@ mod joints;
 mod links;
 mod members;
 mod parts;
+mod sections;
 mod shear_failure;
 
 pub use super::ground::{GroundInPlan, GroundSummary};
@@ -35,6 +36,7 @@ pub use members::{
     AcrossSummary, ForcesSummary, MemberComparison, MemberSummary, SectionSummary, StruckSummary,
 };
 pub use parts::PartSummary;
+pub use sections::FibreSummary;
 pub use shear_failure::{ShearFailure, ShearFailureSummary};
 
 use serde::Serialize;

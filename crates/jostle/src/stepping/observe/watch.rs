@@ -3,6 +3,7 @@
 use crate::history::{Column, Kind, Owner};
 use crate::linear::Row;
 use crate::stepping::floor_peaks::floor_of;
+use crate::structure::Discretization;
 use crate::system::{BuildingSystem, System, Track};
 
 /// A number over displacements of the system, whose peak is reported under a column. Watches of the same column follow each other and
@@ -54,6 +55,7 @@ pub(super) fn watches(system: &System, rises: bool) -> Vec<Watch> {
         of_floors(index, building, &mut all);
         of_support(index, building, &mut all);
         of_foundation(index, building, &mut all);
+        of_sections(index, building, &mut all);
         if rises {
             all.extend(building.vertical_points().map(|(floor, dof)| {
                 let column = Column::displacement(index, floor + 1).up();
@@ -142,6 +144,27 @@ fn of_foundation(index: usize, building: &BuildingSystem, all: &mut Vec<Watch>) 
     all.push(moved(displacement.turning(), own.dofs[1]));
     let dashpots = Statistic::Dashpots(own.own_damping, own.dofs.map(Row::single));
     all.push(Watch::new(of(Kind::Work), dashpots));
+}
+
+/// Ends of columns that are made of fibres.
+fn of_sections(index: usize, building: &BuildingSystem, all: &mut Vec<Watch>) {
+    let Discretization {
+        stick_model,
+        sections,
+        ..
+    } = &building.discretization;
+    for (section, own) in sections.iter().enumerate() {
+        let owner = Owner::Section {
+            building: index,
+            section,
+        };
+        let moved = Column::along(owner, Kind::Displacement);
+        for (column, row) in [(moved.up(), &own.elongation), (moved.turning(), &own.rotation)] {
+            let row = building.equations.row(&stick_model.carried_row(row));
+            let row = row.moved_up(building.offset);
+            all.push(Watch::new(column, Statistic::Extremes(row)));
+        }
+    }
 }
 
 /// The greatest and the least value of a displacement.

@@ -1,0 +1,97 @@
+//! Peaks of ends of columns that are made of fibres.
+
+use super::summarise::springs_of;
+use super::summary::{FibreSummary, SpringSummary};
+use crate::history::{Kind, Owner};
+use crate::hysteresis::HysteresisRule;
+use crate::stepping::Outcome;
+use crate::structure::FibreSection;
+use crate::system::{BuildingSystem, Direction};
+
+/// Ends of columns that are made of fibres, storey by storey.
+pub(super) fn sections_of(
+    index: usize,
+    building: &BuildingSystem,
+    outcome: &Outcome,
+) -> Vec<FibreSummary> {
+    let sections = &building.discretization.sections;
+    if sections.is_empty() {
+        return Vec::new();
+    }
+    let springs = springs_of(building, outcome);
+    let all = sections.iter().zip(&building.members.sections).enumerate();
+    all.map(|(number, (section, forms))| {
+        let fibres = &springs[building.discretization.springs_of_section(section)];
+        let [axial, moment] = forms.map(|form| outcome.members[index][form]);
+        let moved = |direction| {
+            let owner = Owner::Section {
+                building: index,
+                section: number,
+            };
+            let own = outcome.peaks.owned_by(owner).to(direction);
+            let peak = own.of(Kind::Displacement);
+            [peak.greatest.value, peak.least.value]
+        };
+        let ([elongation_max_m, elongation_min_m], [rotation_max_rad, rotation_min_rad]) =
+            (moved(Direction::Up), moved(Direction::Turning));
+        let strains = Strains::of(building, section, fibres);
+        FibreSummary {
+            name: format!("{}.{section}", building.name),
+            axial_max_n: axial[0],
+            axial_min_n: axial[1],
+            moment_max_n_m: moment[0],
+            moment_min_n_m: moment[1],
+            rotation_max_rad,
+            rotation_min_rad,
+            elongation_max_m,
+            elongation_min_m,
+            concrete_strain: strains.concrete,
+            crushed_s: strains.crushed_s,
+            crushed_share: strains.crushed_share,
+            steel_strain: strains.steel,
+            yielded_s: strains.yielded_s,
+            dissipated_j: fibres.iter().map(|own| own.dissipated_j).sum(),
+        }
+    })
+    .collect()
+}
+
+/// What fibres went through.
+#[derive(Default)]
+struct Strains {
+    concrete: Option<f64>,
+    crushed_s: Option<f64>,
+    crushed_share: f64,
+    steel: Option<f64>,
+    yielded_s: Option<f64>,
+}
+
+impl Strains {
+    fn of(building: &BuildingSystem, section: &FibreSection, fibres: &[SpringSummary]) -> Self {
+        let mut own = Self::default();
+        let (mut crushed, mut concrete) = (0, 0);
+        let earlier = |known: Option<f64>, new: Option<f64>| match (known, new) {
+            (Some(a), Some(b)) => Some(a.min(b)),
+            (known, new) => known.or(new),
+        };
+        let greater = |known: &mut Option<f64>, strain: f64| {
+            *known = Some(known.unwrap_or(0.0).max(strain / section.length));
+        };
+        for fibre in fibres {
+            let rule = building.equations.springs[fibre.index].hysteresis.rule();
+            if let HysteresisRule::Concrete(_) = rule {
+                concrete += 1;
+                crushed += usize::from(fibre.yielded_s.is_some());
+                greater(&mut own.concrete, fibre.deformation_min);
+                own.crushed_s = earlier(own.crushed_s, fibre.yielded_s);
+            } else {
+                greater(&mut own.steel, fibre.deformation_max);
+                own.yielded_s = earlier(own.yielded_s, fibre.yielded_s);
+            }
+        }
+        if concrete > 0 {
+            own.crushed_share = crushed as f64 / concrete as f64;
+        }
+        own
+    }
+}

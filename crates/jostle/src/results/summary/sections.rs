@@ -1,0 +1,66 @@
+//! Ends of columns that are made of fibres.
+
+use serde::Serialize;
+
+use crate::quantity::{Quantity, Unit};
+
+/// An end of a column that is made of fibres. Forces are positive in tension, moments and rotations where they stretch the right side,
+/// strains in tension.
+#[derive(Clone, Debug, Serialize, PartialEq)]
+pub struct FibreSummary {
+    /// Name: `BUILDING.column.LINE.STOREY.foot` or `head`.
+    pub name: String,
+    /// Greatest axial force \[N\].
+    pub axial_max_n: f64,
+    /// Least axial force: greatest compression as a negative force \[N\].
+    pub axial_min_n: f64,
+    /// Greatest moment \[N·m\].
+    pub moment_max_n_m: f64,
+    /// Least moment \[N·m\].
+    pub moment_min_n_m: f64,
+    /// Greatest rotation \[rad\].
+    pub rotation_max_rad: f64,
+    /// Least rotation \[rad\].
+    pub rotation_min_rad: f64,
+    /// Greatest elongation of its axis \[m\].
+    pub elongation_max_m: f64,
+    /// Least elongation: greatest shortening as a negative length \[m\].
+    pub elongation_min_m: f64,
+    /// Greatest compressive strain of concrete, ≥ 0; absent without concrete \[–\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub concrete_strain: Option<f64>,
+    /// When concrete first passed the strain at its strength \[s\]; absent if it did not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub crushed_s: Option<f64>,
+    /// Share of the concrete fibres that passed it \[–\].
+    pub crushed_share: f64,
+    /// Greatest strain of bars in tension, ≥ 0; absent without bars \[–\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub steel_strain: Option<f64>,
+    /// When bars first yielded \[s\]; absent if they did not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub yielded_s: Option<f64>,
+    /// Energy dissipated \[J\].
+    pub dissipated_j: f64,
+}
+
+#[rustfmt::skip]
+impl FibreSummary {
+    /// Its numbers.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::real("axial_max_n", Unit::N, "greatest axial force, positive in tension", |s| s.axial_max_n),
+        Quantity::<Self>::real("axial_min_n", Unit::N, "least axial force: greatest compression, negative", |s| s.axial_min_n),
+        Quantity::<Self>::real("moment_max_n_m", Unit::NM, "greatest moment, positive where it stretches the right side", |s| s.moment_max_n_m),
+        Quantity::<Self>::real("moment_min_n_m", Unit::NM, "least moment", |s| s.moment_min_n_m),
+        Quantity::<Self>::real("rotation_max_rad", Unit::RAD, "greatest rotation, positive where it stretches the right side", |s| s.rotation_max_rad),
+        Quantity::<Self>::real("rotation_min_rad", Unit::RAD, "least rotation", |s| s.rotation_min_rad),
+        Quantity::<Self>::real("elongation_max_m", Unit::M, "greatest elongation of the axis", |s| s.elongation_max_m),
+        Quantity::<Self>::real("elongation_min_m", Unit::M, "least elongation: greatest shortening, negative", |s| s.elongation_min_m),
+        Quantity::<Self>::optional("concrete_strain", Unit::NONE, "greatest compressive strain of concrete", |s| s.concrete_strain),
+        Quantity::<Self>::optional("crushed_s", Unit::S, "when concrete first passed the strain at its strength", |s| s.crushed_s),
+        Quantity::<Self>::real("crushed_share", Unit::NONE, "share of the concrete fibres that passed it", |s| s.crushed_share),
+        Quantity::<Self>::optional("steel_strain", Unit::NONE, "greatest strain of bars in tension", |s| s.steel_strain),
+        Quantity::<Self>::optional("yielded_s", Unit::S, "when bars first yielded", |s| s.yielded_s),
+        Quantity::<Self>::real("dissipated_j", Unit::J, "energy dissipated", |s| s.dissipated_j),
+    ];
+}
