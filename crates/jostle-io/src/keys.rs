@@ -573,6 +573,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Frame, "stiffness_factor", NumberOrTable(S::StiffnessFactor), "1", "Factor on every EI, for cracked sections.").usual("a stiffness factor", 0.01, 10.0).possible(1e-6, 1e6),
     default(S::Frame, "density", Quantity(D::Density), "\"2500 kg/m3\"", "Density of columns; a weight per volume is converted.").usual("a density", 100.0, 2e4).possible(0.0, 1e6),
     optional(S::Frame, "beam_mass", PerStorey(D::LineMass), "Mass carried by the beams, self weight included; needed unless floor_mass is given. A weight per length is converted.").usual("a beam mass", 100.0, 1e5).possible(0.0, 1e6),
+    default(S::Frame, "floor_load", PerStorey(D::Force), "0", "Weight of a whole floor that its columns carry beyond that of its masses, shared by its joints: load that does not sway with the frame; negative where other columns carry part of the weight. It acts with gravity or p_delta.").usual("a load of a floor", 1e3, 1e9).signed(),
     default(S::Frame, "floor_mass", PerStorey(D::Mass), "0", "Additional mass of a whole floor, shared by its joints. A weight is converted.").usual("a floor mass", 100.0, 1e8),
     default(S::Frame, "column_segments", Count, "4", "Segments of a column in one storey; k segments have k − 1 lumped masses between them."),
     default(S::Frame, "beam_segments", CountPerSpan, "4", "Segments of the beams: one value, or one per span."),

@@ -109,6 +109,12 @@ fn read_members(
     let [(columns, own_columns), (beams, own_beams)] =
         frame_members::read(reader, view, count, spans.len(), materials);
     let (beam_mass, floor_mass) = masses(reader);
+    // Frames in plan have no such key.
+    let floor_load = view
+        .has("floor_load")
+        .then(|| reader.get(view, "floor_load"))
+        .flatten()
+        .and_then(|field| per_storey(reader, &field, Dimension::Force, count));
     let column_segments = match reader.get(view, "column_segments") {
         Some(field) => reader.count(&field).unwrap_or(1),
         None => defaults.segments,
@@ -123,6 +129,7 @@ fn read_members(
         own_beams,
         beam_mass,
         floor_mass,
+        floor_load: floor_load.unwrap_or_default(),
         column_segments,
         joint: joint(reader, view),
         ..Frame::default()

@@ -14,8 +14,8 @@ use members::check_members;
 use neighbours::check_neighbours;
 
 use crate::model::{
-    Base, Building, Damping, Frame, FrameHinges, Hinges, Model, ModelFault, Shear, ShearSpring,
-    Structure, WALL,
+    Base, Building, Damping, Frame, FrameHinges, Hinges, Model, ModelFault, STANDARD_GRAVITY,
+    Shear, ShearSpring, Structure, WALL,
 };
 
 /// Collects faults under the path of the part being checked.
@@ -334,6 +334,20 @@ fn check_members_of(faults: &mut Faults, path: &str, frame: &Frame) {
     });
     for (field, span) in each(&frame.spans, &format!("{path}.spans")) {
         faults.positive(*span, field, "m");
+    }
+    let loads = frame.floor_load.len();
+    faults.require(
+        loads == 0 || loads == storeys,
+        format!("{path}.floor_load"),
+        || format!("has {loads} entries for {storeys} storeys; give one value, or one per storey from the ground up"),
+    );
+    for (floor, (field, load)) in each(&frame.floor_load, &format!("{path}.floor_load")).enumerate() {
+        let line = frame.beam_mass.get(floor).copied().unwrap_or(0.0);
+        let mass = frame.floor_mass.get(floor).copied().unwrap_or(0.0);
+        let weight = STANDARD_GRAVITY * (line * frame.beam_length(floor) + mass);
+        faults.require(load.is_finite() && *load >= -weight, field, || {
+            format!("takes away more than the weight of the floor: {load} N of {weight:.0} N")
+        });
     }
     let per_storey = [
         ("column", frame.columns.len()),

@@ -359,6 +359,9 @@ pub struct Frame {
     pub beam_mass: Vec<f64>,
     /// Additional mass of every floor, shared equally by its joints, ≥ 0 \[kg\].
     pub floor_mass: Vec<f64>,
+    /// Weight that the columns of every floor carry beyond that of its masses, shared equally by its joints; negative where other
+    /// columns carry part of that. Empty for none \[N\].
+    pub floor_load: Vec<f64>,
     /// Segments of a column line in one storey, ≥ 1 \[–\]; k segments have k − 1 interior masses.
     pub column_segments: usize,
     /// Segments of the beams of every bay, ≥ 1 \[–\].

@@ -31,7 +31,7 @@ pub fn static_displacement(
     )?;
     let mut displacement: Vec<f64> = building
         .equations
-        .vertical_mass
+        .weighing_mass
         .iter()
         .map(|mass| -mass * gravity)
         .collect();
@@ -207,7 +207,7 @@ fn hung_on_nodes(
     let mut hung: Vec<f64> = stick_model
         .nodes
         .iter()
-        .map(|node| node.inertia[Y] * gravity)
+        .map(|node| (node.inertia[Y] + node.load / STANDARD_GRAVITY) * gravity)
         .collect();
     let nodes = &stick_model.nodes;
     let beams = stick_model.members.iter();

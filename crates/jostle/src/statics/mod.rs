@@ -30,7 +30,7 @@ pub struct Settled {
 /// # Errors
 /// [`PathError`] when the building cannot carry it.
 pub fn settle(building: &AssembledBuilding, gravity: f64) -> Result<Settled, PathError> {
-    let weight = building.equations.vertical_mass.iter();
+    let weight = building.equations.weighing_mass.iter();
     let pattern = weight.map(|mass| -mass * gravity).collect();
     let mut path = EquilibriumPath::loaded(building, pattern);
     while path.load() < 1.0 {

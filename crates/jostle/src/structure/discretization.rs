@@ -585,6 +585,8 @@ pub(super) fn discretize_frame(
         let standing = frame.joints(storey + 1);
         for &joint in joints.iter().flatten() {
             stick_model.nodes[joint].add_mass(frame.floor_mass[storey] / standing as f64);
+            let load = frame.floor_load.get(storey).copied().unwrap_or(0.0);
+            stick_model.nodes[joint].load = load / standing as f64;
         }
         discretization.floors.extend(joints.iter().flatten().next());
         all_joints.push(joints.clone());

@@ -2,7 +2,7 @@
 
 use crate::hysteresis::{Hysteresis, HysteresisMemory};
 use crate::linear::{Row, SparseSymmetric};
-use crate::model::ProportionalDamping;
+use crate::model::{ProportionalDamping, STANDARD_GRAVITY};
 use crate::motion::Ground;
 use crate::simd;
 use crate::structure::element::{self, Part, Place, X, Y, over_nodes};
@@ -21,6 +21,8 @@ pub struct Equations {
     pub driven_mass: Vec<f64>,
     /// M r upwards: the mass that rises and sinks \[kg\].
     pub vertical_mass: Vec<f64>,
+    /// The mass that weighs: that which rises and sinks, and that of loads at rest \[kg\].
+    pub weighing_mass: Vec<f64>,
     /// M r across the row: the mass on which ground acceleration across acts; empty in one plane \[kg\].
     pub driven_across: Vec<f64>,
     /// M r of a rotation of every floor about its centre of mass; used for participation only; empty in one plane \[kg·m,
@@ -84,6 +86,7 @@ impl Equations {
         let n = path.len();
         let (mut mass, mut driven_mass, mut vertical_mass) =
             (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
+        let mut loads = vec![0.0; n];
         let across = if stick_model.moves_across() { n } else { 0 };
         let (mut driven_across, mut driven_turning) = (vec![0.0; across], vec![0.0; across]);
         let (mut polar_mass, mut moved_mass) = (0.0, [0.0; 2]);
@@ -93,6 +96,13 @@ impl Equations {
                 continue;
             }
             total_mass += node.mass;
+            if node.load != 0.0 {
+                for (place, share) in element::places(&stick_model.carried((index, Y))) {
+                    if let Some(dof) = path.dof(place.0, place.1) {
+                        loads[dof] += node.load * share / STANDARD_GRAVITY;
+                    }
+                }
+            }
             for (component, inertia) in node.inertia.into_iter().enumerate() {
                 let carried = stick_model.carried((index, component));
                 let [(place, share)] = *carried.entries() else {
@@ -172,7 +182,9 @@ impl Equations {
         let single_springs = springs.len() - 3 * in_plan.count();
         let [stiffness, undamped, dashpots] =
             triplets.map(|triplets| SparseSymmetric::from_triplets(n, &triplets));
+        let weighs = vertical_mass.iter().zip(loads);
         Self {
+            weighing_mass: weighs.map(|(mass, load)| mass + load).collect(),
             plain: undamped.is_zero() && dashpots.is_zero(),
             mass,
             driven_mass,

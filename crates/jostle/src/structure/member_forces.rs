@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::linear::Row;
-use crate::model::{SharedColumn, SpacePlace};
+use crate::model::{STANDARD_GRAVITY, SharedColumn, SpacePlace};
 use crate::structure::element::{self, ElementStiffness, Part, THETA, X, Y, index_of};
 use crate::structure::stick_elements;
 use crate::structure::{AssembledBuilding, Discretization, Member, MemberEnd, SpringPlace};
@@ -647,7 +647,7 @@ impl<'a> Cuts<'a> {
                 form.acceleration.add(dof, -mass);
                 form.velocity.add(dof, -equations.alpha * mass);
             }
-            form.constant -= self.gravity * node.inertia[Y];
+            form.constant -= self.gravity * (node.inertia[Y] + node.load / STANDARD_GRAVITY);
         }
         if self.gravity == 0.0 {
             form.constant = -cut.compression;

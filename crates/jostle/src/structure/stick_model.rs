@@ -62,6 +62,8 @@ pub struct Node {
     pub y: f64,
     /// Mass that it adds to that of the building; see [`Node::mass`].
     pub(crate) mass: f64,
+    /// Weight that it carries beyond that of its mass, downwards \[N\].
+    pub load: f64,
     /// What resists each of its displacements, ≥ 0: two masses and a rotary inertia \[kg, kg, kg·m²\].
     pub inertia: [f64; 3],
     /// What each of its displacements moves.
@@ -78,6 +80,7 @@ impl Node {
             x,
             y,
             mass: 0.0,
+            load: 0.0,
             inertia: [0.0; 3],
             influence: Influence::IN_PLANE,
             support: Support::Free,

@@ -324,7 +324,7 @@ impl Direct {
                 self.audit.damped += equations.dashpots.quadratic_form(rises) / k.step;
             }
             if !building.rest.displacement.is_empty() {
-                let sunk = simd::dot(&equations.vertical_mass, rises);
+                let sunk = simd::dot(&equations.weighing_mass, rises);
                 self.audit.input -= STANDARD_GRAVITY * sunk;
             }
         }
@@ -635,7 +635,7 @@ fn unbalanced_load(
             let weight = if building.rest.displacement.is_empty() {
                 0.0
             } else {
-                STANDARD_GRAVITY * equations.vertical_mass[k]
+                STANDARD_GRAVITY * equations.weighing_mass[k]
             } + up * equations.vertical_mass[k];
             let across = match equations.driven_across.get(k) {
                 Some(driven) => driven * across,
