@@ -574,6 +574,9 @@ impl Hysteresis {
                 let answer = sliders::answer(&self.backbone, memory, deformation);
                 [answer.force, answer.tangent]
             }
+            HysteresisRule::Concrete(fall) if deformation != memory.deformation => {
+                concrete::answer(&self.backbone, &fall, memory, deformation)
+            }
             HysteresisRule::Elastic
             | HysteresisRule::Bilinear
             | HysteresisRule::Normal
@@ -595,7 +598,9 @@ impl Hysteresis {
     #[inline]
     pub(crate) fn commit(&self, memory: &mut HysteresisMemory, deformation: f64, force: f64) {
         match self.rule {
-            HysteresisRule::Sliding { .. } | HysteresisRule::InPlan { .. } => {
+            HysteresisRule::Sliding { .. }
+            | HysteresisRule::Concrete(_)
+            | HysteresisRule::InPlan { .. } => {
                 let side = Side::from_change(deformation - memory.deformation);
                 memory.stand_at(deformation, force, side);
             }
@@ -613,8 +618,7 @@ impl Hysteresis {
             | HysteresisRule::DegradingTrilinear
             | HysteresisRule::Stop { .. }
             | HysteresisRule::Pinched(_)
-            | HysteresisRule::Failing(_)
-            | HysteresisRule::Concrete(_) => *memory = self.respond(memory, deformation).memory,
+            | HysteresisRule::Failing(_) => *memory = self.respond(memory, deformation).memory,
         }
     }
 
@@ -842,7 +846,12 @@ mod tests {
         let springs = rules.into_iter().map(|(rule, backbone)| {
             Hysteresis::new(rule, backbone.expect("sound")).expect("sound")
         });
-        for spring in springs.chain([failing]) {
+        let fall = ConcreteFall {
+            residual: 0.2,
+            ultimate: 4.0,
+        };
+        let concrete = Hysteresis::concrete(250.0, 0.004, fall).expect("sound");
+        for spring in springs.chain([failing, concrete]) {
             let rule = spring.rule();
             let (mut known, mut kept) = (HysteresisMemory::default(), HysteresisMemory::default());
             let mut furthest = 0.0_f64;

@@ -1,0 +1,225 @@
+//! Ends of columns made of fibres, against fibres integrated by other programs.
+
+use jostle::hysteresis::HysteresisMemory;
+use jostle::{Fibre, Hinges};
+use serde_json::Value;
+
+use super::files::GRAVITY;
+use super::summary_of;
+use crate::data::{document, list, number, numbers};
+use crate::files::model;
+use crate::row::Row;
+
+const CANTILEVER: (&str, &str) = (
+    "members/e1_fibre_cantilever",
+    include_str!("../../data/members/e1_fibre_cantilever.json"),
+);
+const PORTAL: (&str, &str) = (
+    "members/e2_fibre_portal_overturning",
+    include_str!("../../data/members/e2_fibre_portal_overturning.json"),
+);
+
+/// The parabola of concrete is a polygon here.
+const POLYGON: f64 = 2e-4;
+
+/// The references change by this when their steps of 0.5 ms are halved.
+const STEPS: f64 = 1.5e-3;
+
+/// All rows of these cases.
+pub(super) fn rows() -> Vec<Row> {
+    // Both cases have the same section.
+    let section = fibres_of(&file(&document(PORTAL.1)["input"], 1e-3));
+    let mut rows = pushed_to_and_fro(CANTILEVER.0, &document(CANTILEVER.1), &section);
+    for (name, text) in [PORTAL] {
+        let case = document(text);
+        for tolerance in [1e-3, 1e-5] {
+            rows.extend(shaken(name, &case, tolerance));
+        }
+    }
+    rows
+}
+
+/// The fibres of the first column of a file.
+fn fibres_of(file: &str) -> Vec<Fibre> {
+    let input = model(file);
+    let Some(Hinges::Frame(hinges)) = &input.model.buildings[0].hinges else {
+        unreachable!("it asks for fibres");
+    };
+    hinges.fibres[&[0, 0]].fibres.to_vec()
+}
+
+/// A cantilever on its section of fibres under a constant axial force, whose top is led to and fro: two equations for the elongation and
+/// the rotation of the section, solved by Newton's method.
+fn pushed_to_and_fro(name: &str, case: &Value, fibres: &[Fibre]) -> Vec<Row> {
+    let input = &case["input"];
+    let of = |key: &str| number(input, &format!("/{key}"));
+    let (height, axial) = (of("height_m"), -of("N"));
+    let bends = height * height / (3.0 * of("EI"));
+    let mut memories = vec![HysteresisMemory::default(); fibres.len()];
+    let mut moved = [0.0; 2];
+    let mut got: [Vec<f64>; 5] = Default::default();
+    for (step, top) in std::iter::once(0.0).chain(path(&numbers(input, "/cycles_m"))).enumerate() {
+        let mut forces = [0.0; 2];
+        for _ in 0..60 {
+            let mut tangent = [0.0; 3];
+            forces = [0.0; 2];
+            for (fibre, memory) in fibres.iter().zip(&memories) {
+                let own = fibre.spring.respond(memory, moved[0] + fibre.at * moved[1]);
+                forces[0] += own.force;
+                forces[1] += own.force * fibre.at;
+                // Where it does not move, its slope is that of the crack that is still closed.
+                let slope = if own.force == 0.0 && memory.deformation() == 0.0 {
+                    fibre.spring.initial_tangent()
+                } else {
+                    own.tangent
+                };
+                for (power, sum) in tangent.iter_mut().enumerate() {
+                    *sum += slope * fibre.at.powi(power as i32);
+                }
+            }
+            let left = [
+                forces[0] - axial,
+                -moved[1] * height - forces[1] * bends - top,
+            ];
+            if left[0].abs() < 1e-6 * axial.abs() && left[1].abs() < 1e-12 {
+                break;
+            }
+            let [a, b] = [tangent[0], tangent[1]];
+            let [c, d] = [-tangent[1] * bends, -height - tangent[2] * bends];
+            let determinant = a * d - b * c;
+            moved[0] -= (d * left[0] - b * left[1]) / determinant;
+            moved[1] -= (a * left[1] - c * left[0]) / determinant;
+        }
+        for (fibre, memory) in fibres.iter().zip(&mut memories) {
+            *memory = fibre.spring.respond(memory, moved[0] + fibre.at * moved[1]).memory;
+        }
+        if step > 0 && step % 10 == 0 {
+            let values = [-forces[1] / height, forces[0], forces[1], moved[0], moved[1]];
+            for (list, value) in got.iter_mut().zip(values) {
+                list.push(value);
+            }
+        }
+    }
+    let keys = ["V_n", "hinge.N", "hinge.M", "hinge.elongation_m", "hinge.rotation"];
+    let what = [
+        "force at the top, led to and fro [N]",
+        "axial force of the section [N]",
+        "moment of the section [N·m]",
+        "elongation of the section [m]",
+        "rotation of the section [rad]",
+    ];
+    let points = list(case, "/static/points");
+    keys.iter()
+        .zip(what)
+        .zip(got)
+        .map(|((key, what), got)| {
+            let expected: Vec<f64> = points.iter().map(|point| point[key].as_f64().expect("a number")).collect();
+            Row::worst_of(name, what, &expected, &got[..expected.len()], POLYGON)
+        })
+        .collect()
+}
+
+/// Displacements of the top: to each amplitude and to the other side, in steps of a hundredth of the last amplitude.
+fn path(amplitudes: &[f64]) -> Vec<f64> {
+    let largest = amplitudes[amplitudes.len() - 1];
+    let mut all = Vec::new();
+    let mut last = 0.0;
+    let turns = amplitudes.iter().flat_map(|a| [*a, -a]);
+    for target in turns {
+        let count = (100.0 * (target - last).abs() / largest).round().max(2.0);
+        all.extend((1..=count as usize).map(|k| last + (target - last) * k as f64 / count));
+        last = target;
+    }
+    all.extend((1..=100).map(|k| last * (1.0 - f64::from(k) / 100.0)));
+    all
+}
+
+/// The model file of a case; weights that do not sway are loads of the floor.
+fn file(input: &Value, tolerance: f64) -> String {
+    let of = |key: &str| number(input, key);
+    let section = |key: &str| number(input, &format!("/section/{key}"));
+    let spans: Vec<f64> = input.get("span_m").and_then(Value::as_f64).into_iter().collect();
+    let columns = (spans.len() + 1) as f64;
+    let mass = of("/mass_kg");
+    let area = section("width_m") * section("depth_m");
+    let modulus = of("/EA") / area;
+    let inertia = area * section("depth_m").powi(2) / 12.0;
+    format!(
+        r#"motion = {{ record = "el-centro-1940-ns", scale = {scale:?}, duration = {duration:?} }}
+analysis = {{ tolerance = {tolerance:?} }}
+[[building]]
+name = "P"
+kind = "frame"
+storeys = 1
+storey_height = {height:?}
+spans = {spans:?}
+density = 0
+column_segments = 1
+beam_segments = 1
+floor_mass = {mass:?}
+floor_load = {load:?}
+gravity = true
+p_delta = false
+axial = {{ columns = "flexible", beams = "rigid" }}
+elastic_modulus = {modulus:?}
+stiffness_factor = {{ column = {factor:?} }}
+damping = {{ alpha = {alpha:?}, beta = 0 }}
+column = {{ width = {width:?}, depth = {depth:?}, concrete = {strength:?}, steel = {yields:?}, bars = {{ top = "4 d25", bottom = "4 d25", sides = "2 d25" }}, cover = {cover:?} }}
+beam = {{ EI = {beam:?} }}
+hinges = {{ rule = "fibre", length = {length:?}, fibres = {layers}, ends = "base", peak_strain = {peak:?}, residual = {residual:?}, ultimate_strain = {ultimate:?}, hardening = {hardening:?} }}
+"#,
+        scale = GRAVITY * of("/scale"),
+        duration = of("/duration_s"),
+        height = of("/height_m"),
+        load = columns * of("/N") - mass * 9.80665,
+        factor = of("/EI") / (modulus * inertia),
+        alpha = of("/alpha"),
+        width = section("width_m"),
+        depth = section("depth_m"),
+        strength = section("fc"),
+        yields = section("fy"),
+        cover = section("cover_to_bar_m") - 0.0125,
+        beam = input.get("beam_EI").and_then(Value::as_f64).unwrap_or(1e8),
+        length = section("hinge_length_m"),
+        layers = section("fibres_depth"),
+        peak = section("ec0"),
+        residual = section("fcu") / section("fc"),
+        ultimate = section("ecu"),
+        hardening = section("b"),
+    )
+}
+
+fn shaken(name: &str, case: &Value, tolerance: f64) -> Vec<Row> {
+    let summary = summary_of(&file(&case["input"], tolerance));
+    let building = &summary.buildings[0];
+    let top = &building.floors.above[0].response;
+    let (mut forces, mut moments, mut turns) = (Vec::new(), Vec::new(), Vec::new());
+    let mut expected: [Vec<f64>; 3] = Default::default();
+    let single = building.sections.len() == 1;
+    for (number_of, own) in building.sections.iter().enumerate() {
+        forces.extend([own.axial_max_n, own.axial_min_n]);
+        moments.extend([own.moment_max_n_m, own.moment_min_n_m]);
+        turns.extend([own.rotation_max_rad, own.rotation_min_rad]);
+        let (hinge, node) = if single {
+            ("hinge".to_owned(), "hinge".to_owned())
+        } else {
+            (format!("hinge{}", number_of + 1), format!("h{}", number_of + 1))
+        };
+        let names = [format!("{hinge}.N"), format!("{hinge}.M"), format!("{node}.rotation")];
+        for (list, name) in expected.iter_mut().zip(names) {
+            let of = |key: &str| number(&case["dynamic"]["peaks"][&name], key);
+            list.extend([of("/max"), of("/min")]);
+        }
+    }
+    let with = |what: &str| format!("{what}, tolerance {tolerance:e}");
+    let close = STEPS.max(tolerance);
+    let of_top = ["max", "min"].map(|key| number(case, &format!("/dynamic/peaks/top/{key}")));
+    let got = [top.displacement_max_m, top.displacement_min_m];
+    let [axial, moment, turned] = expected;
+    vec![
+        Row::worst_of(name, with("displacement of the top [m]"), &of_top, &got, close),
+        Row::worst_of(name, with("axial forces of sections [N]"), &axial, &forces, close),
+        Row::worst_of(name, with("moments of sections [N·m]"), &moment, &moments, close),
+        Row::worst_of(name, with("rotations of sections [rad]"), &turned, &turns, close),
+    ]
+}
