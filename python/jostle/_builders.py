@@ -97,6 +97,7 @@ class Frame(Part):
         density: density of columns, 2500 kg/m³ by default.
         beam_mass: mass per length on the beams, self weight included: one, or a list from the ground up.
         floor_mass: additional mass of a whole floor: one, or a list from the ground up.
+        floor_load: weight that the columns carry beyond that of the masses: one, or a list from the ground up.
         column_segments: segments of a column in one storey, 4 by default.
         beam_segments: segments of the beams, 4 by default: one count, or one per span.
         axial: ``"rigid"`` or ``"flexible"`` columns, or ``{"columns": …, "beams": …}``; by default columns with ``EA`` are flexible
@@ -110,7 +111,8 @@ class Frame(Part):
         foundation: rigid foundation on the ``soil`` of the model, ``{"length": "12 m", "width": "12 m", "mass": "120 t"}``.
         hinges: plastic hinges at the member ends; without them the frame is elastic:
             ``{"rule": "peak-oriented", "from": "section"}`` or
-            ``{"rule": "normal", "initial": 100, "column": {"cracking": "120 kN.m", …}, "beam": {…}}``.
+            ``{"rule": "normal", "initial": 100, "column": {"cracking": "120 kN.m", …}, "beam": {…}}``. With
+            ``{"rule": "fibre", "length": "0.4 m"}`` the ends of columns with bars are fibres, whose strength follows the axial force.
         shear_failure: columns that fail in shear: ``{"rule": "sezen-moehle", "residual": 0.2}`` or
             ``{"strength": "300 kN", "slope": "5 MN/m"}``; without it their shear strength has no limit.
         brace: braces between joints: ``[{"storeys": [1, 3], "bay": 1, "direction": "both", "EA": "600 MN"}]``; with ``"hinge"`` they
@@ -152,6 +154,7 @@ class Frame(Part):
         density: Quantity | None = None,
         beam_mass: Quantities | None = None,
         floor_mass: Quantities | None = None,
+        floor_load: Quantities | None = None,
         column_segments: int | None = None,
         beam_segments: int | Iterable[int] | None = None,
         axial: _Flexibility | Table | None = None,
@@ -191,6 +194,7 @@ class Frame(Part):
                 "density": density,
                 "beam_mass": beam_mass,
                 "floor_mass": floor_mass,
+                "floor_load": floor_load,
                 "column_segments": column_segments,
                 "beam_segments": beam_segments,
                 "axial": axial,

@@ -128,6 +128,12 @@ const FRAME_BY_LINE: &str = "column = [{ width = 0.5, depth = 0.5 }, { line = 2,
 
 const COLUMNS: &str = "COLUMNS";
 
+/// Stands for columns whose ends are made of fibres.
+const FIBRES: &str = "FIBRES";
+
+/// Keys of these.
+const OF_FIBRES: &str = "column = { width = 0.5, depth = 0.5, concrete = \"C30\", steel = \"HRB400\", bars = \"12 d20\" }\naxial = \"flexible\"\ngravity = true\nhinges = { rule = \"fibre\", length = \"0.4 m\" }\n";
+
 #[rustfmt::skip]
 fn features() -> Vec<Feature> {
     let link = |name, law| Feature { name, more: law, ..USUAL };
@@ -150,6 +156,7 @@ fn features() -> Vec<Feature> {
         Feature { name: "braces", tables: "[[building.brace]]\nEA = \"300 MN\"\n", ..USUAL },
         Feature { name: "infill panels", tables: "[[building.infill]]\nstiffness = \"80 MN/m\"\n", ..USUAL },
         Feature { name: "cracking and yielding", keys: OWN_WORDS, ..USUAL },
+        Feature { name: "columns that follow their axial force", keys: FIBRES, ..USUAL },
         Feature { name: "columns that fail in shear", keys: "shear_failure = { strength = \"300 kN\", slope = \"5 MN/m\" }\n", ..USUAL },
         Feature { name: "springs under the base", keys: "base = { horizontal_stiffness = \"400 MN/m\" }\n", ..USUAL },
         Feature { name: "bearings", tables: "[building.isolation]\nkind = \"lead-rubber\"\nmat_mass = \"50 t\"\nstiffness = \"20 MN/m\"\nyield = \"60 kN\"\npost_yield = 0.1\n", ..USUAL },
@@ -265,13 +272,18 @@ fn model(kind: usize, feature: &Feature) -> String {
             let lines = text.lines().filter(|line| !is_column(line));
             lines.map(|line| format!("{line}\n")).collect::<String>()
         };
-        let (keys, own_tables) = match feature.keys {
-            COLUMNS => (
+        let columns = match feature.keys {
+            COLUMNS => Some(BY_LINE[kind]),
+            FIBRES => Some(OF_FIBRES),
+            _ => None,
+        };
+        let (keys, own_tables) = match columns {
+            Some(columns) => (
                 without(&keys),
                 own.tables
-                    .replace("column = { width = 0.5, depth = 0.5 }\n", BY_LINE[kind]),
+                    .replace("column = { width = 0.5, depth = 0.5 }\n", columns),
             ),
-            _ => (keys, own.tables.to_owned()),
+            None => (keys, own.tables.to_owned()),
         };
         let (more, tables) = match feature.keys {
             // Frames at lines of a plan say it frame by frame.
@@ -282,8 +294,8 @@ fn model(kind: usize, feature: &Feature) -> String {
             ),
             OWN_WORDS => (YIELDING[kind], own.tables.to_owned()),
             // Frames at lines of a plan have theirs in their tables.
-            COLUMNS if own.tables.contains("column =") => ("", own_tables),
-            COLUMNS => (BY_LINE[kind], own_tables),
+            _ if columns.is_some() && own.tables.contains("column =") => ("", own_tables),
+            _ if columns.is_some() => (columns.unwrap_or_default(), own_tables),
             keys => (keys, own.tables.to_owned()),
         };
         // What stands in frames of a plan belongs to them.

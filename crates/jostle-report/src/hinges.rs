@@ -24,6 +24,8 @@ pub(crate) struct Place {
     pub(crate) building: usize,
     /// Index among the springs of all buildings.
     pub(crate) spring: usize,
+    /// Index among the springs of its building.
+    pub(crate) index: usize,
     /// Where it is.
     pub(crate) at: SpringPlace,
     /// Its rule.
@@ -37,11 +39,12 @@ pub(crate) fn places(model: &Model) -> Vec<Place> {
         if !building.may_yield() {
             continue;
         }
-        for at in Discretization::new(building).spring_places {
+        for (own, at) in Discretization::new(building).spring_places.into_iter().enumerate() {
             if let Some(hysteresis) = hysteresis_of(building, at) {
                 places.push(Place {
                     building: index,
                     spring: count,
+                    index: own,
                     at,
                     hysteresis,
                 });
@@ -172,7 +175,8 @@ pub(crate) fn in_order<'a>(page: &Page<'a>, places: &[Place]) -> Vec<(Place, &'a
     for (index, building) in page.summary.buildings.iter().enumerate() {
         let own: Vec<&Place> = places.iter().filter(|p| p.building == index).collect();
         for spring in &building.hinges.list {
-            if let Some(place) = own.get(spring.index) {
+            let place = own.iter().find(|place| place.index == spring.index);
+            if let Some(place) = place {
                 found.push((**place, spring));
             }
         }

@@ -19,6 +19,7 @@ mod encode;
 mod envelope;
 mod face_pressure;
 mod facts;
+mod fibres;
 mod floor_spectra;
 mod format;
 mod friction;

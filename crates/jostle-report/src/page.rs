@@ -9,7 +9,7 @@ use crate::site_drawing::SITE_STYLE;
 use crate::verdict::{closest_approach, nearest, outside, peak_closing, verdict};
 use crate::{
     Page, bounds, calculation, checks, contact_box, describe, devices, floor_spectra, format,
-    friction, grounds, hinges, joints, members, method, payload, shear_failures, site_plan, spread,
+    fibres, friction, grounds, hinges, joints, members, method, payload, shear_failures, site_plan, spread,
     tables,
 };
 
@@ -92,6 +92,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                         p.note { (message::no_time_histories_were_recorded()) }
                     }
                     @if let Some(hinges) = hinges::section(page) { (hinges) }
+                    @if let Some(fibres) = fibres::section(page) { (fibres) }
                     @if let Some(failures) = shear_failures::section(page) { (failures) }
                     @if let Some(devices) = devices::section(page) { (devices) }
                     section #impacts.muted[outside.is_some()] {

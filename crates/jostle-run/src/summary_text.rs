@@ -1,5 +1,7 @@
 //! The summary of a run on one screen.
 
+mod sections;
+
 use std::fmt::Write;
 use std::path::Path;
 
@@ -71,6 +73,7 @@ fn write_all(
     write_hinges(text, &summary.buildings)?;
     write_shear_failures(text, &summary.buildings)?;
     write_parts(text, &summary.buildings)?;
+    sections::write_sections(text, &summary.buildings)?;
     write_capacity(text, &summary.buildings)?;
     for (index, gap) in summary.gaps.iter().enumerate() {
         let required = summary.required_gaps(&input.model, index, &input.codes);

@@ -2,14 +2,17 @@
 
 use std::fmt::Write as _;
 
-use jostle::hysteresis::{Hysteresis, Side};
+use jostle::hysteresis::{Hysteresis, HysteresisRule, Side};
 use jostle::model::{Hinges, PlanAxis, PlanSpring, Tiers};
-use jostle::{SpaceFrame, SpaceMember, SpacePlace};
+use jostle::{ColumnFibres, FrameHinges, SpaceFrame, SpaceMember, SpacePlace};
 use jostle_run::counted;
 
 pub(super) fn describe_hinges(text: &mut String, hinges: &Hinges) -> std::fmt::Result {
     match hinges {
         Hinges::Frame(hinges) => {
+            if let Some(line) = fibres(hinges) {
+                writeln!(text, "  {line}")?;
+            }
             for (name, rows) in [("columns", &hinges.columns), ("beams", &hinges.beams)] {
                 let springs: Vec<&Hysteresis> = rows.iter().flatten().collect();
                 let sides = [(Side::Positive, " +"), (Side::Negative, " −")];
@@ -47,6 +50,30 @@ pub(super) fn describe_hinges(text: &mut String, hinges: &Hinges) -> std::fmt::R
         }
     }
     Ok(())
+}
+
+/// Columns whose ends are made of fibres: how many, and how strong the first of them is.
+fn fibres(hinges: &FrameHinges) -> Option<String> {
+    let ends = |own: &ColumnFibres| own.at_ends.into_iter().filter(|stands| *stands).count();
+    let count: usize = hinges.fibres.values().map(ends).sum();
+    let ([storey, line], first) = hinges.fibres.first_key_value()?;
+    let ([concrete, steel], layers) = first.fibres.iter().fold(([0.0; 2], 0), |(sums, layers), own| {
+        let force = own.spring.backbone().side(Side::Negative).yielding.force;
+        match own.spring.rule() {
+            HysteresisRule::Concrete(_) => ([sums[0] + force, sums[1]], layers + 1),
+            _ => ([sums[0], sums[1] + force], layers),
+        }
+    });
+    Some(format!(
+        "fibres at {} of columns; column {} of storey {}: {} over {}, {} kN of concrete and {} kN of bars",
+        counted(count, "end"),
+        line + 1,
+        storey + 1,
+        counted(layers, "concrete fibre"),
+        format_args!("{:.3} m", first.length),
+        (concrete / 1e3).round(),
+        (steel / 1e3).round(),
+    ))
 }
 
 /// What yields of a building in plan: frames, whole storeys, and every column or wall, by direction.

@@ -50,6 +50,18 @@ pub(super) fn read(
     frame: &Frame,
     members: Option<&[ReinforcedMember]>,
 ) -> Option<BTreeMap<FramePlace, ColumnFibres>> {
+    let all = read_all(reader, field, view, frame, members);
+    // Each of several faults is said.
+    all.filter(|_| frame.axial.columns_flexible)
+}
+
+fn read_all(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    view: &View<'_>,
+    frame: &Frame,
+    members: Option<&[ReinforcedMember]>,
+) -> Option<BTreeMap<FramePlace, ColumnFibres>> {
     if !frame.axial.columns_flexible {
         *reader.bad(field, "needs columns that change their length: without it their axial force is not known") =
             Some("add axial = \"flexible\" to the building".into());

@@ -117,6 +117,11 @@ motion = { kind = "ricker" }
 column = { width = 1, depth = 1, bars = { top = "4 d20" } }
 beam = { EI = 1 }
 hinges = { rule = "normal", from = "section" }
+[[building]]
+column = { width = 1, depth = 1, bars = { top = "4 d20" } }
+beam = { EI = 1 }
+axial = "flexible"
+hinges = { rule = "fibre", length = 1, beam_rule = "takeda", beam = { yield = 1 } }
 "#,
     r#"
 [[building]]

@@ -1050,6 +1050,16 @@ messages! {
     cursor_of_the_map = "cursor of the map";
     no_connection_to_jostle = "No connection to jostle. If it has ended, start it again. Reconnecting …";
 
+    // fibres
+    columns_that_follow_their_axial_force = "Columns that follow their axial force";
+    ends_that_yielded_and_crushed(name, yielded, crushed, total) = "{name}: bars yielded at {yielded} of {total} ends of columns, and concrete passed its strength at {crushed}.";
+    least_compression = "least compression";
+    greatest_moment = "greatest moment";
+    greatest_rotation = "greatest rotation";
+    strain_of_bars = "tensile strain of bars";
+    strain_of_concrete = "strain of concrete";
+    past_its_strength = "past its strength";
+
     // shear_failures
     columns_that_fail_in_shear = "Columns that fail in shear";
     columns_failed_in_shear(name, failed, total, first, dissipated) = "{name}: {failed} of {total} columns fail in shear, first at {first}; {dissipated} dissipated.";

@@ -141,6 +141,12 @@ fn check_building(faults: &mut Faults, path: &str, building: &Building) {
             hinges,
             &building.structure,
         );
+        let of_fibres = matches!(hinges, Hinges::Frame(hinges) if !hinges.fibres.is_empty());
+        faults.require(
+            !of_fibres || building.gravity.preload,
+            format!("{path}.hinges"),
+            || "needs the weight of the building, because what fibres bear follows the axial force: add gravity = true".into(),
+        );
     }
     match &building.damping {
         Damping::Ratio { ratio, modes } => {

@@ -40,15 +40,15 @@ pub(super) fn change_of_peaks(system: &System, [a, b]: [&Outcome; 2]) -> f64 {
             worst = worst.max(IN_PARTS * change / greatest);
         }
         floors_before += building.tracks.len();
+        for force in 0..2 {
+            let forms = building.members.sections.iter().map(|own| own[force]);
+            worst = worst.max(change_of_forms(index, forms, [a, b]).relative_to(0.0));
+        }
         for kind in 0..MEMBER_FORCES {
             let members = building.members.members.iter();
             let forms = members.flat_map(|m| m.sections.iter().flat_map(MemberSection::by_kind));
             let forms = forms.filter(|(own, _)| *own == kind).map(|(_, form)| form);
-            let pairs = forms.flat_map(|form| {
-                let [a, b] = [a, b].map(|run| run.members[index][form]);
-                [0, 1].map(|side| [a[side], b[side]])
-            });
-            worst = worst.max(Change::of(pairs).relative_to(0.0));
+            worst = worst.max(change_of_forms(index, forms, [a, b]).relative_to(0.0));
         }
     }
     let gaps = system.contacts.last().map_or(0, |contact| contact.gap + 1);
@@ -62,6 +62,18 @@ pub(super) fn change_of_peaks(system: &System, [a, b]: [&Outcome; 2]) -> f64 {
         }
     }
     worst
+}
+
+/// Change of forces of a building that are measured by the greatest of them.
+fn change_of_forms(
+    building: usize,
+    forms: impl Iterator<Item = usize>,
+    [a, b]: [&Outcome; 2],
+) -> Change {
+    Change::of(forms.flat_map(|form| {
+        let [a, b] = [a, b].map(|run| run.members[building][form]);
+        [0, 1].map(|side| [a[side], b[side]])
+    }))
 }
 
 /// Peaks that are measured by the greatest of them: those of the floors of a building, of the links of a model.
@@ -125,7 +137,7 @@ fn alike(system: &System, [a, b]: [&Outcome; 2]) -> BTreeMap<Pool, Change> {
         };
         let pool = Pool::greatest(of_all);
         match (column.kind, column.owner) {
-            (Kind::Displacement, Owner::Foundation(_)) => {
+            (Kind::Displacement, Owner::Foundation(_) | Owner::Section { .. }) => {
                 add(pool, |peak| peak.greatest.value);
                 add(pool, |peak| peak.least.value);
             }
@@ -169,6 +181,10 @@ fn measured_with(system: &System, column: Column, linear: bool) -> Option<Column
         }
         Owner::Foundation(_) | Owner::Contact(_) | Owner::Gap(_) if kind != Kind::Work => {
             Some(column)
+        }
+        Owner::Section { building, .. } => {
+            let section = 0;
+            Some(Column::new(Owner::Section { building, section }, kind, direction))
         }
         Owner::Building(_) if along => Some(column),
         Owner::Support(_) if along && kind == Kind::Force => Some(column),

@@ -1,0 +1,92 @@
+//! Ends of columns that are made of fibres: what they bore, and how far they stretched.
+
+use jostle::results::summary::FibreSummary;
+use maud::{Markup, html};
+
+use crate::{Page, format, message};
+
+/// Most rows of the table.
+const MOST_ROWS: usize = 200;
+
+/// The section; `None` without such columns.
+pub(crate) fn section(page: &Page) -> Option<Markup> {
+    let buildings = page.summary.buildings.iter();
+    let own = buildings.filter(|building| !building.sections.is_empty());
+    let own: Vec<_> = own.map(|building| (&building.name[..], &building.sections[..])).collect();
+    if own.is_empty() {
+        return None;
+    }
+    let all: Vec<&FibreSummary> = own.iter().flat_map(|(_, all)| *all).collect();
+    Some(html! {
+        section #fibres {
+            h2 { (message::columns_that_follow_their_axial_force()) }
+            @for (name, all) in &own { p { (sentence(name, all)) } }
+            (table(&all))
+        }
+    })
+}
+
+fn sentence(name: &str, all: &[FibreSummary]) -> String {
+    let count = |has: fn(&FibreSummary) -> bool| all.iter().filter(|own| has(own)).count();
+    message::ends_that_yielded_and_crushed(
+        name,
+        count(|own| own.yielded_s.is_some()),
+        count(|own| own.crushed_s.is_some()),
+        all.len(),
+    )
+}
+
+fn table(all: &[&FibreSummary]) -> Markup {
+    let columns = [
+        (message::greatest_compression(), "kN"),
+        (message::least_compression(), "kN"),
+        (message::greatest_moment(), "kN·m"),
+        (message::greatest_rotation(), "mrad"),
+        (message::strain_of_bars(), "‰"),
+        (message::yielded(), "s"),
+        (message::strain_of_concrete(), "‰"),
+        (message::past_its_strength(), "s"),
+        (message::dissipated(), "kJ"),
+    ];
+    html! {
+        @if all.len() > MOST_ROWS {
+            p.quiet { (message::the_first_of_in_order(MOST_ROWS, all.len())) }
+        }
+        div.scroll {
+            table {
+                thead { tr {
+                    th scope="col" { (message::column()) }
+                    @for (name, unit) in columns {
+                        th.number scope="col" { (name) br; span.unit { "[" (unit) "]" } }
+                    }
+                } }
+                tbody {
+                    @for own in all.iter().take(MOST_ROWS) {
+                        tr {
+                            th scope="row" { (own.name) }
+                            @for value in cells(own) { td.number { (value) } }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn cells(own: &FibreSummary) -> [String; 9] {
+    let nothing = || format::NOTHING.to_owned();
+    let strain = |strain: Option<f64>| strain.map_or_else(nothing, |own| format::significant(1e3 * own, 3));
+    let instant = |at: Option<f64>| at.map_or_else(nothing, |at| format::fixed(at, 3));
+    let greatest = |a: f64, b: f64, unit: f64| format::significant(a.max(-b) / unit, 4);
+    [
+        format::significant(-own.axial_min_n / 1e3, 4),
+        format::significant(-own.axial_max_n / 1e3, 4),
+        greatest(own.moment_max_n_m, own.moment_min_n_m, 1e3),
+        greatest(own.rotation_max_rad, own.rotation_min_rad, 1e-3),
+        strain(own.steel_strain),
+        instant(own.yielded_s),
+        strain(own.concrete_strain),
+        instant(own.crushed_s),
+        format::significant(own.dissipated_j / 1e3, 3),
+    ]
+}
