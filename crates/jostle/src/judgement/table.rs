@@ -336,7 +336,7 @@ pub const CHECKS: &[Check] = &[
         unit: "–",
         limits: &[above(0.1, Note)],
         sources: &[JUDGEMENT],
-        remedy: "run once more with axial_load near the force that it reaches, and compare",
+        remedy: "let the columns follow their axial force by rule = \"fibre\" under hinges, or run once more with axial_load near the force that it reaches",
         measure: yielding::hinge_axial_force,
     },
     Check {

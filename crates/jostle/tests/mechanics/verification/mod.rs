@@ -7,6 +7,7 @@ mod contact_constants;
 mod contact_laws;
 mod corners;
 mod damping_of_yielding;
+mod column_fibres;
 mod diagonals;
 mod direct_in_space;
 mod direct_runs_refine_their_steps;
