@@ -823,7 +823,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Hinges, "column", TablePerStorey(S::Hinge), "Hinges of the columns; without it they are elastic."),
     optional(S::Hinges, "beam", TablePerStorey(S::Hinge), "Hinges of the beams; without it they are elastic."),
     optional(S::Hinges, "length", WordOr("paulay-priestley", D::Length), "Length over which fibres share a deformation; \"paulay-priestley\" is 0.08 L + 0.022 d f, with half the storey height L, the diameter d of the thickest bars and their yield strength f in MPa. Required with rule = \"fibre\".").usual("a length of a hinge", 0.02, 5.0),
-    default(S::Hinges, "fibres", Count, "40", "Layers of concrete over the depth of a column, 2 to 400."),
+    default(S::Hinges, "fibres", Count, "20", "Layers of concrete over the depth of a column, 2 to 400."),
     default(S::Hinges, "ends", Choice(FIBRE_ENDS), "\"both\"", "Where fibres stand: at both ends of all columns, or at the feet of the lowest alone."),
     default(S::Hinges, "peak_strain", Quantity(D::Dimensionless), "that of the concrete, confined by ties where there are any", "Strain of concrete at its strength.").usual("a strain", 1e-3, 2e-2),
     default(S::Hinges, "residual", Quantity(D::Dimensionless), "0.2", "Strength of crushed concrete over its strength.").usual("a ratio", 1e-3, 1.0),

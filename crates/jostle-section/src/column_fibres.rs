@@ -28,11 +28,11 @@ pub struct FibreOptions {
 }
 
 impl FibreOptions {
-    /// 40 layers, materials of the section; a fifth of the strength stays (Scott, Park and Priestley, 1982).
+    /// 20 layers, materials of the section; a fifth of the strength stays (Scott, Park and Priestley, 1982).
     #[must_use]
     pub fn over(length: f64) -> Self {
         Self {
-            layers: 40,
+            layers: 20,
             length,
             peak_strain: None,
             residual: 0.2,
