@@ -18,7 +18,7 @@ use crate::results::friction::friction_warnings;
 use crate::results::ground::{closing_of_grounds, ground_summary};
 use crate::results::isolation::{isolation_summary, mat_summary, wall_summaries};
 use crate::results::members::members_of;
-use crate::results::parts::parts_of;
+use crate::results::parts::{degree_of_coupling, parts_of};
 use crate::results::response::{
     Amplification, BuildingResponse, FloorResponse, building_response, floor_responses,
 };
@@ -180,6 +180,7 @@ fn building_summary(index: usize, run: &Run) -> BuildingSummary {
         joints,
         members,
         parts: parts_of(index, building, run.outcome),
+        degree_of_coupling: degree_of_coupling(index, building, run.outcome),
         shear_failures: shear_failures(index, run),
         name: building.name.clone(),
         mass_kg: building.equations.total_mass(),

@@ -6,6 +6,7 @@ use crate::linear::Row;
 use crate::model::{SharedColumn, SpacePlace};
 use crate::structure::element::{self, ElementStiffness, Part, THETA, X, Y, index_of};
 use crate::structure::stick_elements;
+use crate::structure::wall_forces::{AtRest, Coupling, CouplingForce, WallForce};
 use crate::structure::{AssembledBuilding, Discretization, Member, MemberEnd, SpringPlace};
 
 /// Where a column or a beam of a frame is; all count from 1.
@@ -162,6 +163,12 @@ pub struct MemberForces {
     pub joints: Vec<JointCore>,
     /// Braces and struts of frames, which are always followed.
     pub diagonals: Vec<DiagonalForce>,
+    /// Walls of frames, which are always followed.
+    pub walls: Vec<WallForce>,
+    /// Coupling beams of frames, which are always followed.
+    pub coupling_beams: Vec<CouplingForce>,
+    /// Moments at the base of coupled walls.
+    pub coupling: Option<Coupling>,
     /// Every force once; members of one element have one shear.
     pub forms: Vec<LinearForm>,
 }
@@ -245,10 +252,11 @@ impl LinearForm {
 }
 
 impl MemberForces {
-    /// Forces of braces and struts alone.
-    pub(crate) fn of_diagonals(building: &AssembledBuilding) -> Self {
+    /// Forces of braces, struts, walls and coupling beams alone.
+    pub(crate) fn of_parts(building: &AssembledBuilding, rest: AtRest<'_>) -> Self {
         let mut forces = Self::default();
         forces.add_diagonals(building);
+        forces.add_walls(building, rest);
         forces
     }
 
@@ -275,14 +283,13 @@ impl MemberForces {
     }
 
     /// Forces of all members of a frame; none for a building without members. `struck` tells whether a neighbour can
-    /// strike the node with this horizontal displacement of the building. `gravity`: that of the weight in the
-    /// displacements at rest; 0 without it \[m/s²\].
+    /// strike the node with this horizontal displacement of the building.
     pub(crate) fn new(
         building: &AssembledBuilding,
-        gravity: f64,
+        rest: AtRest<'_>,
         struck: impl Fn(usize) -> bool,
     ) -> Self {
-        let mut forces = Self::of_diagonals(building);
+        let mut forces = Self::of_parts(building, rest);
         if let Some(frame) = &building.discretization.space_frame {
             forces.add_space_frame(building, frame);
         }
@@ -292,7 +299,7 @@ impl MemberForces {
         if building.discretization.members.is_empty() {
             return forces;
         }
-        let cuts = Cuts::new(building, gravity);
+        let cuts = Cuts::new(building, rest.gravity);
         let stick_model = &building.discretization.stick_model;
         for member in &building.discretization.members {
             let range = member.elements.clone();
@@ -439,7 +446,7 @@ impl MemberForces {
 }
 
 /// The stick model of a building, ready to be cut.
-struct Cuts<'a> {
+pub(super) struct Cuts<'a> {
     building: &'a AssembledBuilding,
     gravity: f64,
     elements: Vec<Element>,
@@ -463,7 +470,7 @@ struct Element {
 const SAME_LINE: f64 = 1e-6;
 
 impl<'a> Cuts<'a> {
-    fn new(building: &'a AssembledBuilding, gravity: f64) -> Self {
+    pub(super) fn new(building: &'a AssembledBuilding, gravity: f64) -> Self {
         let stick_model = &building.discretization.stick_model;
         let nodes = &stick_model.nodes;
         let of_member = |member: &Member| {
@@ -506,6 +513,26 @@ impl<'a> Cuts<'a> {
             elements: stick_model.members.iter().map(of_member).collect(),
             rows,
         }
+    }
+
+    /// Axial force, shear and moment at the lower or left end of a member.
+    pub(super) fn at_foot(&self, member: &FrameMember) -> [LinearForm; 3] {
+        let element = member.elements.start;
+        [
+            self.axial(element, 0),
+            self.shear(element, 0),
+            self.moment(member, SectionAt::First, element, 0),
+        ]
+    }
+
+    /// The node at its lower or left end.
+    pub(super) fn first_node(&self, member: &FrameMember) -> usize {
+        self.elements[member.elements.start].ends[0]
+    }
+
+    /// The node at its upper or right end.
+    pub(super) fn last_node(&self, member: &FrameMember) -> usize {
+        self.elements[member.elements.end - 1].ends[1]
     }
 
     /// What displacements do to one component of the force that bends or stretches an element at an end.
@@ -559,12 +586,7 @@ impl<'a> Cuts<'a> {
                 },
                 MemberPlace::InSpace(_) => return None,
             };
-            let hinge = match member.frame {
-                Some(frame) => hinge.in_frame(frame + 1)?,
-                None => hinge,
-            };
-            let mut places = self.building.discretization.spring_places.iter();
-            places.position(|place| *place == hinge)
+            self.building.discretization.spring_at(member.frame, hinge)
         });
         match hinge {
             Some(spring) => LinearForm {
@@ -604,12 +626,14 @@ impl<'a> Cuts<'a> {
     fn carried_by_column(&self, cut: &Element) -> LinearForm {
         let stick_model = &self.building.discretization.stick_model;
         let top = stick_model.nodes[cut.ends[1]];
-        let elevation = stick_model.turn(cut.ends[1]).elevation;
+        let line = stick_model.turn(cut.ends[1]);
         let equations = &self.building.equations;
         let mut form = LinearForm::default();
         for (index, node) in stick_model.nodes.iter().enumerate() {
-            let beside = stick_model.turn(index).elevation != elevation
-                || (node.x - top.x).abs() > SAME_LINE;
+            // Faces of a wall are on the line of its axis.
+            let own = stick_model.turn(index);
+            let beside =
+                own.elevation != line.elevation || (own.position - line.position).abs() > SAME_LINE;
             if beside || node.y < top.y - SAME_LINE {
                 continue;
             }
