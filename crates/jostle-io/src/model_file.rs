@@ -15,6 +15,7 @@ mod damper;
 mod floor_spectra;
 mod frame;
 mod frame_members;
+mod frame_walls;
 mod gap;
 mod given;
 mod given_in_plan;
