@@ -2,6 +2,7 @@
 
 use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule, Pinching};
 use jostle::linear::StepMatrix;
+use jostle::statics::{STANDARD_GRAVITY, compressions};
 use jostle::structure::solve_once;
 use jostle::{
     Axial, Base, Building, CouplingBeam, Damping, Foundation, Frame, FrameHinges, FrameWall,
@@ -609,5 +610,40 @@ fn frames_in_a_plan_have_the_same_walls() {
                 "moment",
             );
         }
+    }
+}
+
+/// Cut through any storey, walls and columns carry the weight above; no mass is lost between faces and axes.
+#[test]
+fn walls_carry_all_that_lies_above_them() {
+    for columns_flexible in [false, true] {
+        let mut own = coupled(3, false);
+        own.axial.columns_flexible = columns_flexible;
+        let system = assembled(&alone(own.clone()));
+        let building = &system.buildings[0].structure;
+        let carried = compressions(building, STANDARD_GRAVITY).expect("it stands");
+        let sticks = &building.discretization.stick_model;
+        for cut in [1.0, 4.0, 7.0] {
+            let through = sticks.members.iter().zip(&carried);
+            let through = through.filter(|(member, _)| {
+                let [a, b] = member.ends.map(|end| sticks.nodes[end].y);
+                a.min(b) < cut && a.max(b) > cut
+            });
+            let sum: f64 = through.map(|(_, force)| force).sum();
+            let above = sticks.nodes.iter().filter(|node| node.y > cut);
+            let above: f64 = above.map(|node| STANDARD_GRAVITY * node.mass()).sum();
+            close(sum, above, above, 1e-9, "weight above");
+        }
+        let beams = 4000.0 * 9.0 + 3e4;
+        // Half of the lowest storey stands on the ground.
+        let walls = 2500.0 * 0.2 * 5.0 * (9.0 - 0.25 * 3.0);
+        let expected = 3.0 * beams + walls;
+        close(
+            building.equations.total_mass(),
+            expected,
+            expected,
+            1e-12,
+            "mass",
+        );
     }
 }
