@@ -91,7 +91,7 @@ fn of_wall(
         moment_min_n_m: Some(moment[1]),
         rotation_max_rad: turned(|own| own.deformation_max),
         rotation_min_rad: turned(|own| own.deformation_min),
-        dissipated_j: dissipated.map(|own| own.dissipated_j).sum(),
+        dissipated_j: dissipated.fold(0.0, |sum, own| sum + own.dissipated_j),
     }
 }
 

@@ -242,7 +242,8 @@ fn hinge_summary(building: &BuildingSystem, outcome: &Outcome) -> HingeSummary {
 #[must_use]
 pub fn springs_of(building: &BuildingSystem, outcome: &Outcome) -> Vec<SpringSummary> {
     let springs = building.equations.springs.iter().enumerate();
-    let behind = end_stiffnesses(&building.discretization.stick_model);
+    let discretization = &building.discretization;
+    let behind = end_stiffnesses(&discretization.stick_model);
     let when = |spring: usize, reached: Stage, stage: Stage| {
         let mut events = outcome.spring_events.iter();
         // A spring may yield in the step in which it cracks, and crack under weight alone.
@@ -278,6 +279,7 @@ pub fn springs_of(building: &BuildingSystem, outcome: &Outcome) -> Vec<SpringSum
                 .map(|side| {
                     // A base has no member end in series.
                     let member = behind.get(index).copied().flatten();
+                    let member = member.or_else(|| discretization.bending_behind(*place?));
                     let member =
                         member.filter(|_| !matches!(place, Some(SpringPlace::Base { .. })));
                     ductility(rule, memory.greatest(side), side, member)

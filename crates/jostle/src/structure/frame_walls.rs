@@ -114,6 +114,23 @@ impl Discretization {
         places.position(|place| *place == wanted)
     }
 
+    /// Stiffness 12 EI/l³ of the bending of a coupling beam beside its shear, if that is what yields at a place \[N/m\].
+    pub(crate) fn bending_behind(&self, place: SpringPlace) -> Option<f64> {
+        let SpringPlace::Sliding {
+            frame,
+            member: member @ MemberPlace::Beam { .. },
+        } = place
+        else {
+            return None;
+        };
+        let own = self.member_at(frame.map(|number| number - 1), member)?;
+        let beams = &self.stick_model.members[own.elements.clone()];
+        let (first, last) = (beams.first()?, beams.last()?);
+        let nodes = &self.stick_model.nodes;
+        let length = nodes[last.ends[1]].x - nodes[first.ends[0]].x;
+        Some(12.0 * first.flexural_rigidity / (length * length * length))
+    }
+
     /// Elements of a member of a frame.
     pub(crate) fn member_at(
         &self,
