@@ -119,6 +119,10 @@ class Frame(Part):
             yield.
         infill: masonry panels in the bays, as struts that bear compression alone:
             ``[{"storeys": [2, 4], "modulus": "4 GPa", "thickness": "200 mm", "width": "1.4 m"}]``.
+        wall: walls, each in place of a column line: ``[{"at": "4.5 m", "length": "3 m", "thickness": "250 mm"}]``; with ``"hinge"``
+            they yield at their feet.
+        coupling_beam: beams between walls with properties of their own, whose forces are reported:
+            ``[{"between": [1, 2], "width": "250 mm", "depth": "800 mm"}]``.
         elevation: height of the base above a datum that all buildings share, 0 by default; neighbours face each other by it.
         position: place along the row, for ``apparent_velocity`` and ``coherency`` of the motion.
         motion: the ground under this building, if it differs: ``{"arrival": "30 ms"}``, ``{"record": …, "scale": …}``.
@@ -167,6 +171,8 @@ class Frame(Part):
         shear_failure: Table | None = None,
         brace: Sequence[Table] | None = None,
         infill: Sequence[Table] | None = None,
+        wall: Sequence[Table] | None = None,
+        coupling_beam: Sequence[Table] | None = None,
         elevation: Quantity | None = None,
         position: Quantity | None = None,
         motion: Table | None = None,
@@ -207,6 +213,8 @@ class Frame(Part):
                 "shear_failure": shear_failure,
                 "brace": brace,
                 "infill": infill,
+                "wall": wall,
+                "coupling_beam": coupling_beam,
                 "elevation": elevation,
                 "position": position,
                 "motion": motion,

@@ -21,7 +21,7 @@ use crate::failure::Failure;
 use crate::replace::Target;
 use crate::terminal;
 use base::{describe_bearing_places, describe_bearings, describe_foundation};
-use frames::{axial_of_columns, diagonals, members};
+use frames::{axial_of_columns, diagonals, members, walls};
 use hinges::{describe_hinges, describe_yielding_in_plan};
 use jostle_report::{SitePlace, site_svg};
 use jostle_run::{BOLD, LOUD, styled};
@@ -255,6 +255,7 @@ fn describe(
                 let own = stated.buildings.get(index);
                 let is_stated = own.is_some_and(|own| own.axial);
                 writeln!(text, "  {}", axial_of_columns(frame, Some(is_stated)))?;
+                text.push_str(&walls(frame));
             }
             Structure::Tiers(tiers) => {
                 // Frames of one plan are as high; the file says it of each.

@@ -155,6 +155,7 @@ fn features() -> Vec<Feature> {
         Feature { name: "elevation of the base", keys: "elevation = \"-1.4 m\"\n", ..USUAL },
         Feature { name: "braces", tables: "[[building.brace]]\nEA = \"300 MN\"\n", ..USUAL },
         Feature { name: "infill panels", tables: "[[building.infill]]\nstiffness = \"80 MN/m\"\n", ..USUAL },
+        Feature { name: "walls", tables: "[[building.wall]]\nline = 1\nlength = 2\nEI = \"2 GN.m2\"\nEA = \"5 GN\"\nGA = \"2 GN\"\nmass = 0\n", ..USUAL },
         Feature { name: "cracking and yielding", keys: OWN_WORDS, ..USUAL },
         Feature { name: "columns that follow their axial force", keys: FIBRES, ..USUAL },
         Feature { name: "columns that fail in shear", keys: "shear_failure = { strength = \"300 kN\", slope = \"5 MN/m\" }\n", ..USUAL },
@@ -299,8 +300,8 @@ fn model(kind: usize, feature: &Feature) -> String {
             keys => (keys, own.tables.to_owned()),
         };
         // What stands in frames of a plan belongs to them.
-        let inside =
-            feature.tables.contains("building.brace") || feature.tables.contains("building.infill");
+        let parts = ["building.brace", "building.infill", "building.wall"];
+        let inside = parts.iter().any(|part| feature.tables.contains(part));
         let added = match inside && !own.tables.is_empty() {
             true => feature.tables.replace("building.", "building.frame."),
             false => feature.tables.to_owned(),

@@ -42,6 +42,14 @@ pub(crate) enum Section {
     Brace,
     /// Panels of masonry in them.
     Infill,
+    /// Walls at column lines of a frame.
+    FrameWall,
+    /// Yielding at the foot of a wall.
+    WallHinge,
+    /// Beams between walls.
+    CouplingBeam,
+    /// Stiffness of shear that yields.
+    Sliding,
     /// Further keys of `kind = "space-frame"`.
     SpaceFrame,
     /// Columns of it at some places.
@@ -197,6 +205,8 @@ pub(crate) enum Kind {
     Choice(&'static [&'static str]),
     /// A word in place of a value.
     WordOr(&'static str, Dimension),
+    /// One of these words, or a quantity.
+    ChoiceOr(&'static [&'static str], Dimension),
     /// A word for the default, or a table.
     WordOrTable(&'static str, &'static [Section]),
     /// A word for all, or a table.
@@ -256,6 +266,7 @@ impl Kind {
             | Self::Quantities(dimension)
             | Self::OneOrMore(dimension)
             | Self::WordOr(_, dimension)
+            | Self::ChoiceOr(_, dimension)
             | Self::PerContact(dimension) => Some(dimension),
             Self::ContactStiffness => Some(Dimension::HertzStiffness),
             Self::LinkDamping => Some(Dimension::Damping),
@@ -359,6 +370,8 @@ pub(crate) const SOLVERS: &[&str] = &[
 ];
 pub(crate) const INTEGRATORS: &[&str] = names!(IntegratorMethod);
 pub(crate) const AXIAL: &[&str] = &["rigid", "flexible"];
+/// Rules for the stiffness of cracked walls.
+pub(crate) const WALL_STIFFNESS: &[&str] = &["asce41-23", "en1998"];
 pub(crate) const RESTITUTION_IS: &[&str] = names!(RestitutionIs);
 pub(crate) const RULES: &[&str] = names!(HysteresisRule);
 /// Where shear springs of columns stand.
@@ -566,8 +579,8 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Frame, "isolation", Kind::Table(S::Isolation), "Bearings and a mat under the building, instead of base."),
     optional(S::Frame, "foundation", Kind::Table(S::Foundation), "Rigid foundation on [soil], instead of base; in one plane."),
     required(S::Frame, "spans", Quantities(D::Length), "Widths of the bays from left to right.").usual("a span", 0.5, 60.0).possible(0.01, 1000.0),
-    required(S::Frame, "column", TablePerStorey(S::Column), "Column section: one for all, a list from the ground up, or [[building.column]] with line, storeys or omit for some; later ones replace earlier ones."),
-    required(S::Frame, "beam", TablePerStorey(S::Beam), "Beam section: one for all, a list from the ground up, or [[building.beam]] with bay, floors or omit for some; later ones replace earlier ones. Beams stand between joints, which are where a column stands below."),
+    optional(S::Frame, "column", TablePerStorey(S::Column), "Column section, needed unless walls stand at every line: one for all, a list from the ground up, or [[building.column]] with line, storeys or omit for some; later ones replace earlier ones."),
+    optional(S::Frame, "beam", TablePerStorey(S::Beam), "Beam section, needed unless coupling beams cross every bay: one for all, a list from the ground up, or [[building.beam]] with bay, floors or omit for some; later ones replace earlier ones. Beams stand between joints, which are where a column stands below."),
     optional(S::Frame, "elastic_modulus", Quantity(D::Modulus), "Modulus of elasticity of columns and beams.").usual("a modulus of elasticity", 1e9, 1e12).possible(1e6, 1e14),
     optional(S::Frame, "concrete", Kind::Concrete(CONCRETES), "Concrete instead of elastic_modulus: a grade of GB 50010 (C30) or EN 1992-1-1 (C30/37), or the cylinder strength of ACI 318 (f'c = 4 ksi).").usual("a strength of concrete", 1e6, 2e8),
     default(S::Frame, "stiffness_factor", NumberOrTable(S::StiffnessFactor), "1", "Factor on every EI, for cracked sections.").usual("a stiffness factor", 0.01, 10.0).possible(1e-6, 1e6),
@@ -577,13 +590,15 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Frame, "floor_mass", PerStorey(D::Mass), "0", "Additional mass of a whole floor, shared by its joints. A weight is converted.").usual("a floor mass", 100.0, 1e8),
     default(S::Frame, "column_segments", Count, "4", "Segments of a column in one storey; k segments have k − 1 lumped masses between them."),
     default(S::Frame, "beam_segments", CountPerSpan, "4", "Segments of the beams: one value, or one per span."),
-    default(S::Frame, "axial", ChoiceOrTable(AXIAL, S::Axial), "\"flexible\" for columns with EA of frames above 3 times as high as wide or ten storeys, except on a foundation; otherwise \"rigid\"", "Axial deformation: \"flexible\" is that of columns, `{ columns = \"flexible\", beams = \"flexible\" }` lets beams stretch too, as without a slab: a neighbour then strikes joints instead of floors."),
+    default(S::Frame, "axial", ChoiceOrTable(AXIAL, S::Axial), "\"flexible\" for columns with EA of frames with walls, above 3 times as high as wide or ten storeys, except on a foundation; otherwise \"rigid\"", "Axial deformation: \"flexible\" is that of columns, `{ columns = \"flexible\", beams = \"flexible\" }` lets beams stretch too, as without a slab: a neighbour then strikes joints instead of floors."),
     default(S::Frame, "shear", ChoiceOrTable(AXIAL, S::ShearDeformation), "\"rigid\"", "Shear deformation of members (Timoshenko)."),
     default(S::Frame, "poisson_ratio", Quantity(D::Dimensionless), "0.2", "Poisson's ratio, for the shear modulus.").usual("a Poisson's ratio", 0.01, 0.5),
     optional(S::Frame, "joint", Kind::Table(S::Joint), "Elastic hinge at the beam ends."),
     optional(S::Frame, "hinges", Kind::Table(S::Hinges), "Plastic hinges at the member ends; without them the frame is elastic."),
     optional(S::Frame, "brace", Tables(&[S::Brace]), "Braces between joints."),
     optional(S::Frame, "infill", Tables(&[S::Infill]), "Masonry panels in the bays."),
+    optional(S::Frame, "wall", Tables(&[S::FrameWall]), "Walls, each in place of a column line."),
+    optional(S::Frame, "coupling_beam", Tables(&[S::CouplingBeam]), "Beams between walls with properties of their own."),
     optional(S::Frame, "shear_failure", Kind::Table(S::ShearFailure), "Lets columns fail in shear; without it their shear strength has no limit."),
 
     default(S::Shear, "base", WordOrTable("fixed", &[S::ShearBase]), "\"fixed\"", "Horizontal spring and dashpot under the building."),
@@ -614,8 +629,8 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::PlanFrame, "storeys", Count, "all", "Number of its storeys, the lowest ones of the building."),
     optional(S::PlanFrame, "lines", Kind::Texts, "Names of its column lines, \"\" for none. Columns of the same name in two frames are one column, whose axial forces add."),
     required(S::PlanFrame, "spans", Quantities(D::Length), "Widths of its bays, from the first column line on.").usual("a span", 0.5, 60.0).possible(0.01, 1000.0),
-    required(S::PlanFrame, "column", TablePerStorey(S::Column), "Column section: one for all, a list from the ground up, or [[building.column]] with line, storeys or omit for some; later ones replace earlier ones."),
-    required(S::PlanFrame, "beam", TablePerStorey(S::Beam), "Beam section: one for all, a list from the ground up, or [[building.beam]] with bay, floors or omit for some; later ones replace earlier ones. Beams stand between joints, which are where a column stands below."),
+    optional(S::PlanFrame, "column", TablePerStorey(S::Column), "Column section, needed unless walls stand at every line: one for all, a list from the ground up, or [[building.column]] with line, storeys or omit for some; later ones replace earlier ones."),
+    optional(S::PlanFrame, "beam", TablePerStorey(S::Beam), "Beam section, needed unless coupling beams cross every bay: one for all, a list from the ground up, or [[building.beam]] with bay, floors or omit for some; later ones replace earlier ones. Beams stand between joints, which are where a column stands below."),
     optional(S::PlanFrame, "elastic_modulus", Quantity(D::Modulus), "Modulus of elasticity of columns and beams.").usual("a modulus of elasticity", 1e9, 1e12).possible(1e6, 1e14),
     optional(S::PlanFrame, "concrete", Kind::Concrete(CONCRETES), "Concrete instead of elastic_modulus, as for a plane frame.").usual("a strength of concrete", 1e6, 2e8),
     default(S::PlanFrame, "stiffness_factor", NumberOrTable(S::StiffnessFactor), "1", "Factor on every EI, for cracked sections.").usual("a stiffness factor", 0.01, 10.0).possible(1e-6, 1e6),
@@ -623,13 +638,15 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::PlanFrame, "beam_mass", PerStorey(D::LineMass), "0", "Mass carried by the beams, if mass of the building does not include it.").usual("a beam mass", 100.0, 1e5).possible(0.0, 1e6),
     default(S::PlanFrame, "column_segments", Count, "1", "Segments of a column in one storey; k segments have k − 1 lumped masses between them, if columns have mass."),
     default(S::PlanFrame, "beam_segments", CountPerSpan, "1", "Segments of the beams: one value, or one per span."),
-    default(S::PlanFrame, "axial", ChoiceOrTable(AXIAL, S::Axial), "\"flexible\" for columns with EA of frames above 3 times as high as wide or ten storeys, except on a foundation; otherwise \"rigid\"", "Axial deformation of columns; floors are rigid."),
+    default(S::PlanFrame, "axial", ChoiceOrTable(AXIAL, S::Axial), "\"flexible\" for columns with EA of frames with walls, above 3 times as high as wide or ten storeys, except on a foundation; otherwise \"rigid\"", "Axial deformation of columns; floors are rigid."),
     default(S::PlanFrame, "shear", ChoiceOrTable(AXIAL, S::ShearDeformation), "\"rigid\"", "Shear deformation of members (Timoshenko)."),
     default(S::PlanFrame, "poisson_ratio", Quantity(D::Dimensionless), "0.2", "Poisson's ratio, for the shear modulus.").usual("a Poisson's ratio", 0.01, 0.5),
     optional(S::PlanFrame, "joint", Kind::Table(S::Joint), "Elastic hinge at the beam ends."),
     optional(S::PlanFrame, "hinges", Kind::Table(S::Hinges), "Plastic hinges at the ends of its members, given by moments; without them it is elastic."),
     optional(S::PlanFrame, "brace", Tables(&[S::Brace]), "Braces between joints."),
     optional(S::PlanFrame, "infill", Tables(&[S::Infill]), "Masonry panels in the bays."),
+    optional(S::PlanFrame, "wall", Tables(&[S::FrameWall]), "Walls, each in place of a column line."),
+    optional(S::PlanFrame, "coupling_beam", Tables(&[S::CouplingBeam]), "Beams between walls with properties of their own."),
     default(S::PlanFrame, "base", WordOrTable("fixed", &[S::ShearBase, S::FrameBase]), "\"fixed\"", "Springs and dashpots under every column."),
     default(S::Brace, "storeys", Kind::FromTo, "all", "Its storey, counted from 1; or the first and the last."),
     default(S::Brace, "bay", Kind::FromTo, "all", "Its bay, likewise, from the left."),
@@ -644,6 +661,43 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Infill, "width", Quantity(D::Length), "Width of the strut across its axis.").usual("a width of a strut", 0.1, 6.0),
     optional(S::Infill, "stiffness", Quantity(D::Stiffness), "Axial force per shortening of one strut, instead of modulus, thickness and width.").usual("an axial stiffness", 1e5, 1e11),
     optional(S::Infill, "hinge", Kind::Table(S::LinkHinge), "Cracking of each strut: rule pinched and corners; without it struts stay elastic."),
+    optional(S::FrameWall, "at", Quantity(D::Length), "Where its axis stands, from the first column line on: at one of the lines.").usual("a place along the frame", 1e-3, 5e3).signed(),
+    optional(S::FrameWall, "line", Count, "Its column line instead of at, counted from 1."),
+    default(S::FrameWall, "storeys", Kind::FromTo, "all", "Its storey, counted from 1; or the first and the last."),
+    required(S::FrameWall, "length", Quantity(D::Length), "Length along the frame. Beams meet its ends, and rise and sink with them.").usual("a length of a wall", 0.5, 40.0),
+    optional(S::FrameWall, "thickness", Quantity(D::Length), "Thickness; with length and the modulus of the building it gives EI, EA and GA = 5/6 G A.").usual("a thickness of a wall", 0.08, 2.0),
+    optional(S::FrameWall, "EI", Quantity(D::FlexuralRigidity), "Flexural rigidity, instead of thickness.").usual("a flexural rigidity", 1e6, 1e14),
+    optional(S::FrameWall, "EA", Quantity(D::Force), "Axial rigidity.").usual("an axial rigidity", 1e8, 1e13),
+    optional(S::FrameWall, "GA", Quantity(D::Force), "Shear rigidity.").usual("a shear rigidity", 1e7, 1e13),
+    optional(S::FrameWall, "mass", Quantity(D::LineMass), "Self mass; default from the density. A weight per length is converted.").usual("a line mass", 10.0, 1e6).possible(0.0, 1e7),
+    default(S::FrameWall, "shear", Choice(AXIAL), "\"flexible\"", "Shear deformation."),
+    default(S::FrameWall, "stiffness_factor", Kind::ChoiceOr(WALL_STIFFNESS, D::Dimensionless), "that of columns", "Factor on EI of the whole section. `asce41-23`, by ACI 369.1-22: 0.25 on EI, and GA = 0.15 E A; `en1998`, by EN 1998-1 4.3.1(7): half of EI and GA.").usual("a stiffness factor", 0.01, 10.0).possible(1e-6, 1e6),
+    optional(S::FrameWall, "hinge", Kind::Table(S::WallHinge), "Yielding at its foot; without it the wall is elastic. Hinges of columns do not act on walls."),
+    optional(S::FrameWall, "shear_hinge", Kind::TableOf(&[S::LinkHinge, S::Sliding]), "Yielding in shear of its lowest storey."),
+    required(S::WallHinge, "rule", Choice(RULES), "Unloading and reloading rule."),
+    default(S::WallHinge, "gamma", Quantity(D::Dimensionless), "0.4", "Exponent of the unloading stiffness of takeda.").usual("an exponent", 1e-3, 1.0),
+    optional(S::WallHinge, "pinching", Kind::Table(S::Pinching), "Where reloading stiffens; required with the rule pinched."),
+    default(S::WallHinge, "unloading_exponent", Quantity(D::Dimensionless), "0", "Exponent with which the unloading stiffness of pinched falls with the peak, 0 to 1.").usual("an exponent", 1e-3, 1.0),
+    optional(S::WallHinge, "damage", Kind::Table(S::Damage), "Growth of the peaks of pinched; without this table they stay."),
+    optional(S::WallHinge, "cracking", Quantity(D::Moment), "Moment at the first corner; not for bilinear.").usual("a cracking moment", 1e3, 1e10),
+    optional(S::WallHinge, "yield", Quantity(D::Moment), "Moment at yield.").usual("a yield moment", 1e3, 1e10),
+    optional(S::WallHinge, "post_cracking", Quantity(D::Dimensionless), "Ratio of the stiffness after the first corner to the initial one of the hinge; with length, of the flexural rigidity there to EI.").usual("a ratio of stiffnesses", 1e-6, 1.0).signed(),
+    optional(S::WallHinge, "post_yield", Quantity(D::Dimensionless), "The same after yield.").usual("a ratio of stiffnesses", 1e-6, 1.0).signed(),
+    optional(S::WallHinge, "stiffness", Quantity(D::RotationalStiffness), "Initial stiffness, in series with the wall.").usual("a rotational stiffness", 1e6, 1e15),
+    optional(S::WallHinge, "initial", Quantity(D::Dimensionless), "The same in units of EI over the height of the lowest storey; 100 with length.").usual("a ratio of stiffnesses", 1.0, 1e6),
+    optional(S::WallHinge, "length", WordOr("paulay-priestley", D::Length), "Length of the hinge: ratios are then of flexural rigidity over that length, elastic bending of the wall included. `paulay-priestley`: 0.2 of the length of the wall and 0.044 of two thirds of its height.").usual("a length of a hinge", 0.05, 10.0),
+    optional(S::CouplingBeam, "between", Kind::FromTo, "Numbers of its two walls, in the order of [[building.wall]]."),
+    optional(S::CouplingBeam, "bay", Kind::FromTo, "Its bay instead, counted from 1; or the first and the last."),
+    default(S::CouplingBeam, "floors", Kind::FromTo, "all at which both walls stand", "Its floor, counted from 1; or the first and the last."),
+    optional(S::CouplingBeam, "width", Quantity(D::Length), "Width; with depth and the modulus of the building it gives EI, EA and GA = 5/6 G A.").usual("a width", 0.05, 5.0),
+    optional(S::CouplingBeam, "depth", Quantity(D::Length), "Depth.").usual("a depth", 0.05, 5.0),
+    optional(S::CouplingBeam, "EI", Quantity(D::FlexuralRigidity), "Flexural rigidity, instead of width and depth.").usual("a flexural rigidity", 1e4, 1e13),
+    optional(S::CouplingBeam, "EA", Quantity(D::Force), "Axial rigidity.").usual("an axial rigidity", 1e6, 1e13),
+    optional(S::CouplingBeam, "GA", Quantity(D::Force), "Shear rigidity.").usual("a shear rigidity", 1e6, 1e13),
+    default(S::CouplingBeam, "shear", Choice(AXIAL), "\"flexible\"", "Shear deformation."),
+    default(S::CouplingBeam, "stiffness_factor", Kind::ChoiceOr(WALL_STIFFNESS, D::Dimensionless), "that of beams", "Factor on EI of the whole section. `asce41-23`, by ACI 369.1-22: 0.05 of clear length over depth on EI, at most 0.2, and GA = 0.2 E A; `en1998`: half of EI and GA.").usual("a stiffness factor", 0.01, 10.0).possible(1e-6, 1e6),
+    optional(S::CouplingBeam, "hinge", Kind::TableOf(&[S::LinkHinge, S::Sliding]), "Yielding in shear, such as bilinear for diagonal bars and pinched for stirrups; without it the beam is elastic."),
+    optional(S::Sliding, "stiffness", Quantity(D::Stiffness), "Force over sliding before it yields, in place of GA over the length. Ratios are parts of it.").usual("a shear stiffness", 1e6, 1e13),
     required(S::SpaceFrame, "lines_x", Quantities(D::Length), "Where the grid lines across stand along x, from the origin of the plan, rising.").usual("a length in plan", 1e-3, 5e3).possible(0.0, 1e5).signed(),
     required(S::SpaceFrame, "lines_y", Quantities(D::Length), "Where the grid lines along x stand, from the origin of the plan across, rising.").usual("a length in plan", 1e-3, 5e3).possible(0.0, 1e5).signed(),
     required(S::SpaceFrame, "column", Kind::TablePerPlace(S::SpaceColumn), "Columns at the crossings: one table for all, or [[building.column]] for some; later ones replace earlier ones. Without plan, the plan is the rectangle of the outer lines; columns and beams outside of the plan of their floor do not exist."),

@@ -16,6 +16,7 @@ mod fibre_hinges;
 mod floor_spectra;
 mod frame;
 mod frame_members;
+mod frame_walls;
 mod gap;
 mod given;
 mod given_in_plan;

@@ -490,8 +490,8 @@ fn suggest(key: &str, sections: &'static [Section]) -> String {
         (Section::Given, "given"),
         (Section::SpaceFrame, "space-frame"),
     ];
-    // Frames have braces and infills of their own.
-    let of_frames = sections.contains(&Section::Frame) && !matches!(key, "wall" | "strut");
+    // Frames have braces, infills and walls of their own.
+    let of_frames = sections.contains(&Section::Frame) && key != "strut";
     if sections.contains(&Section::Building) && NOT_MEMBERS.contains(&key) && !of_frames {
         return "what stands between two floors beside columns is a [[building.damper]], without dashpot too: floors = [1, 2] with the horizontal stiffness, and law = \"yielding\" with its strength".into();
     }

@@ -69,6 +69,22 @@ const TABLES: &[(Section, &str, &str)] = &[
         "A panel is two struts between opposite joints that bear compression alone. Without hinge they stay elastic: compare their greatest force with what the panel bears. Modes and damping ratios count both with half their stiffness, since one of two acts.",
     ),
     (
+        Section::FrameWall,
+        "`[[building.wall]]`",
+        "Of a plane frame, also of a frame at a line of a plan. A wall is a wide column with a rigid cross-section: beams span between faces and turn with them. See [Walls and coupling beams](how-to/walls.md).",
+    ),
+    (Section::WallHinge, "`hinge` of a wall", ""),
+    (
+        Section::CouplingBeam,
+        "`[[building.coupling_beam]]`",
+        "Beams between walls whose forces are reported; what a table leaves to `[[building.beam]]` are ordinary beams between faces. A coupling beam yields in shear: its shear deformation is a spring with the rule and the corners of `hinge`.",
+    ),
+    (
+        Section::Sliding,
+        "`hinge` of a coupling beam, `shear_hinge` of a wall, further keys",
+        "",
+    ),
+    (
         Section::SpaceFrame,
         "`[[building]]` with `kind = \"space-frame\"`",
         "And the keys of `kind = \"shear\"`, `frame` excepted. See [Space frames](how-to/space-frames.md).",
@@ -203,7 +219,7 @@ const TABLES: &[(Section, &str, &str)] = &[
     ),
     (
         Section::LinkHinge,
-        "`hinge` of a link, a damper, a brace or a panel",
+        "`hinge` of a link, a damper, a brace, a panel or a coupling beam, `shear_hinge` of a wall",
         "",
     ),
     (
@@ -417,6 +433,9 @@ fn value(key: &Key) -> String {
         Kind::Modes => "one or two mode numbers".into(),
         Kind::Choice(choices) | Kind::Word(choices) => words(choices),
         Kind::WordOr(word, dimension) => format!("`{word}`; {}", quantity(dimension)),
+        Kind::ChoiceOr(choices, dimension) => {
+            format!("{}; {}", words(choices), quantity(dimension))
+        }
         Kind::WordOrTable(word, _) => format!("`{word}`, or a table"),
         Kind::ChoiceOrTable(choices, _) => format!("{}, or a table", words(choices)),
         Kind::NumberOrTable(_) => "number, or a table".into(),

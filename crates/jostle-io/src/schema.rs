@@ -154,6 +154,9 @@ fn kind(kind: Kind) -> Value {
         Kind::WordOr(word, dimension) => {
             json!({ "anyOf": [{ "const": word }, quantity(dimension)] })
         }
+        Kind::ChoiceOr(words, dimension) => {
+            json!({ "anyOf": [{ "enum": words }, quantity(dimension)] })
+        }
         Kind::WordOrTable(word, sections) => {
             json!({ "anyOf": [{ "const": word }, table(sections)] })
         }

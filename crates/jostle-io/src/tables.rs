@@ -14,7 +14,7 @@ use jostle::results::summary::{
     SpringSummary,
 };
 use jostle::results::{member_name, section_name};
-use jostle::structure::{BaseMotion, MemberEnd, SectionAt, SpringPlace};
+use jostle::structure::{BaseMotion, MemberEnd, MemberPlace, SectionAt, SpringPlace};
 use jostle::{Column, History, Model, Outcome, Quantity, SpacePlace, Summary, System, springs_of};
 use parquet::basic::{Compression, ConvertedType, Repetition, Type as Physical};
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int32Type};
@@ -539,19 +539,17 @@ pub fn write_members_parquet(
 
 /// Kind, level, line and end of a place.
 fn parts(place: Option<SpringPlace>) -> (&'static str, Option<usize>, Option<usize>, &'static str) {
+    let upright = |end| match end {
+        MemberEnd::First => "foot",
+        MemberEnd::Last => "head",
+    };
     match place {
         Some(
             SpringPlace::Column { storey, line, end }
             | SpringPlace::ColumnInPlan {
                 storey, line, end, ..
             },
-        ) => {
-            let end = match end {
-                MemberEnd::First => "foot",
-                MemberEnd::Last => "head",
-            };
-            ("column", Some(storey), Some(line), end)
-        }
+        ) => ("column", Some(storey), Some(line), upright(end)),
         Some(
             SpringPlace::Beam { floor, bay, end }
             | SpringPlace::BeamInPlan {
@@ -565,21 +563,16 @@ fn parts(place: Option<SpringPlace>) -> (&'static str, Option<usize>, Option<usi
             ("beam", Some(floor), Some(bay), end)
         }
         Some(SpringPlace::Shear { storey, line, end }) => {
-            let end = match end {
-                MemberEnd::First => "foot",
-                MemberEnd::Last => "head",
-            };
-            ("column shear", Some(storey), Some(line), end)
+            ("column shear", Some(storey), Some(line), upright(end))
         }
         Some(SpringPlace::Fibre {
             storey, line, end, ..
-        }) => {
-            let end = match end {
-                MemberEnd::First => "foot",
-                MemberEnd::Last => "head",
-            };
-            ("column fibre", Some(storey), Some(line), end)
-        }
+        }) => ("column fibre", Some(storey), Some(line), upright(end)),
+        Some(SpringPlace::Sliding { member, .. }) => match member {
+            MemberPlace::Column { line, storey } => ("wall shear", Some(storey), Some(line), ""),
+            MemberPlace::Beam { floor, span } => ("beam shear", Some(floor), Some(span), ""),
+            MemberPlace::InSpace(_) => ("", None, None, ""),
+        },
         Some(SpringPlace::Diagonal { place, .. }) => (
             place.kind.name(),
             Some(place.storey),

@@ -67,6 +67,7 @@ class Scene {
         ghost: svg("path", { class: "ghost" }, group),
         bearings: svg("path", { class: "bearings" }, group),
         panels: svg("path", { class: "panels" }, group),
+        walls: svg("path", { class: "panels" }, group),
         braces: svg("path", { class: "braces" }, group),
         columns: svg("path", { class: "columns" }, group),
         floors: svg("path", { class: building.frame ? "beams" : "slabs" }, group),
@@ -357,6 +358,7 @@ class Scene {
     part.columns.setAttribute("d", lines.map((x, line) => column(x, sway, line)).join(""));
     part.floors.setAttribute("d", floor(sway));
     this.drawDiagonals(part, building.diagonals ?? [], lines, heights, sway);
+    this.drawWalls(part, building.walls ?? [], lines, heights, sway);
     part.bearings.setAttribute("d", building.isolated ? this.bearings(lines, sway[0], this.py(heights[0])) : "");
     this.drawHinges(part, lines, heights, sway, t);
     const ghost = this.ghost && this.other ? this.places(this.other[i], without, t) : null;
@@ -382,6 +384,18 @@ class Scene {
     const panels = diagonals.filter((own) => own.infill && own.lines[0] < own.lines[1]);
     const panel = ({ storey, lines: [left, right] }) => `M${at(left, storey - 1)}L${at(right, storey - 1)}L${at(right, storey)}L${at(left, storey)}z`;
     part.panels.setAttribute("d", panels.map(panel).join(""));
+  }
+
+  /** Walls as shaded strips as wide as they are long, up one face and down the other. */
+  drawWalls(part, walls, lines, heights, sway) {
+    const at = (x, level) => `${this.px(x + this.exaggeration * sway[level]).toFixed(2)},${this.py(heights[level]).toFixed(2)}`;
+    const wall = ({ line, storeys: [first, last], length }) => {
+      const levels = Array.from({ length: last - first + 2 }, (_, k) => first - 1 + k);
+      const left = levels.map((level) => at(lines[line] - length / 2, level));
+      const right = levels.map((level) => at(lines[line] + length / 2, level));
+      return `M${[...left, ...right.reverse()].join("L")}z`;
+    };
+    part.walls.setAttribute("d", walls.map(wall).join(""));
   }
 
   /** Marks near the ends of members, off the joint by a little so that all four around it are seen. */

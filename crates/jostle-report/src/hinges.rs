@@ -5,7 +5,7 @@ use jostle::hysteresis::{Backbone, Hysteresis, Side};
 use jostle::linear::sort_by;
 use jostle::model::{Building, Hinges, Model, Structure};
 use jostle::results::summary::{HingeSummary, SpringSummary};
-use jostle::structure::{BaseMotion, Discretization, MemberEnd, SpringPlace};
+use jostle::structure::{BaseMotion, Discretization, MemberEnd, MemberPlace, SpringPlace};
 use maud::{Markup, html};
 
 use crate::message;
@@ -57,15 +57,39 @@ pub(crate) fn places(model: &Model) -> Vec<Place> {
 }
 
 fn hysteresis_of(building: &Building, at: SpringPlace) -> Option<Hysteresis> {
-    if let SpringPlace::Diagonal { frame, place } = at {
-        let diagonals = match (&building.structure, frame) {
-            (Structure::Frame(own), None) => &own.diagonals,
-            (Structure::Tiers(tiers), Some(frame)) => &tiers.frames.get(frame - 1)?.frame.diagonals,
-            _ => return None,
-        };
-        // Struts that lift off are no hinges.
-        let own = diagonals.iter().find(|own| own.place == place)?;
-        return own.hysteresis.filter(|_| at.is_hinge());
+    let frame_of = |frame: Option<usize>| match (&building.structure, frame) {
+        (Structure::Frame(own), None) => Some(own),
+        (Structure::Tiers(tiers), Some(frame)) => Some(&tiers.frames.get(frame - 1)?.frame),
+        _ => None,
+    };
+    match at {
+        SpringPlace::Diagonal { frame, place } => {
+            // Struts that lift off are no hinges.
+            let mut diagonals = frame_of(frame)?.diagonals.iter();
+            let own = diagonals.find(|own| own.place == place)?;
+            return own.hysteresis.filter(|_| at.is_hinge());
+        }
+        SpringPlace::Sliding { frame, member } => {
+            let frame = frame_of(frame)?;
+            return match member {
+                MemberPlace::Column { line, storey } => frame.wall([storey - 1, line - 1])?.shear,
+                MemberPlace::Beam { floor, span } => {
+                    frame.coupling_beam([floor - 1, span - 1])?.shear
+                }
+                MemberPlace::InSpace(_) => None,
+            };
+        }
+        SpringPlace::Column { storey, line, .. }
+        | SpringPlace::ColumnInPlan { storey, line, .. } => {
+            let frame = match at {
+                SpringPlace::ColumnInPlan { frame, .. } => Some(frame),
+                _ => None,
+            };
+            if let Some(wall) = frame_of(frame)?.wall([storey - 1, line - 1]) {
+                return wall.hinge;
+            }
+        }
+        _ => {}
     }
     if let SpringPlace::Base { motion, .. } = at {
         return match motion {
@@ -135,6 +159,7 @@ pub(crate) fn slides(at: SpringPlace) -> bool {
             | SpringPlace::PlanStorey { .. }
             | SpringPlace::Element { .. }
             | SpringPlace::Diagonal { .. }
+            | SpringPlace::Sliding { .. }
             | SpringPlace::Base {
                 motion: BaseMotion::Sliding,
                 ..
@@ -158,6 +183,15 @@ pub(crate) fn coordinates(at: SpringPlace) -> (char, usize, usize, usize) {
         | SpringPlace::ColumnInPlan { storey, .. }
         | SpringPlace::BeamInPlan { floor: storey, .. } => ('s', storey, 0, 0),
         SpringPlace::Diagonal { place, .. } => ('s', place.storey, 0, 0),
+        SpringPlace::Sliding { frame, member } => match (frame, member) {
+            (None, MemberPlace::Column { line, storey }) => ('v', storey, line, 0),
+            (None, MemberPlace::Beam { floor, span }) => ('b', floor, span, 0),
+            (
+                _,
+                MemberPlace::Column { storey: level, .. } | MemberPlace::Beam { floor: level, .. },
+            ) => ('s', level, 0, 0),
+            (_, MemberPlace::InSpace(place)) => ('s', place.storey() + 1, 0, 0),
+        },
         SpringPlace::InSpace { place, end, .. } => ('s', place.storey() + 1, 0, last(end)),
         SpringPlace::Base { line, motion } => {
             ('f', 0, line, usize::from(motion == BaseMotion::Sliding))

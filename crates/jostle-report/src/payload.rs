@@ -7,7 +7,7 @@ use jostle::motion::{GroundMotion, Wave};
 use jostle::results::summary::{ContactSummary, SpringSummary, Summary};
 use jostle::structure::SpringPlace;
 use jostle::system::Direction;
-use jostle::{Diagonal, DiagonalKind, SpaceFrame, SpaceMember, SpacePlace};
+use jostle::{Diagonal, DiagonalKind, FrameWall, SpaceFrame, SpaceMember, SpacePlace};
 use serde::Serialize;
 
 use crate::Page;
@@ -146,8 +146,22 @@ struct Outline<'a> {
     /// Braces and struts of a frame in one plane.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     diagonals: Vec<DiagonalData>,
+    /// Walls of a frame in one plane.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    walls: Vec<WallData>,
     /// Whether it stands on bearings.
     isolated: bool,
+}
+
+/// A wall of a frame.
+#[derive(Serialize)]
+struct WallData {
+    /// Column line of its axis, from 0.
+    line: usize,
+    /// First and last storey, from 1.
+    storeys: [usize; 2],
+    /// Length \[m\].
+    length: f64,
 }
 
 /// A brace, or a strut of an infill panel.
@@ -175,6 +189,16 @@ impl DiagonalData {
             storey: own.place.storey,
             lines: own.place.lines(),
             infill: own.place.kind == DiagonalKind::Infill,
+        }
+    }
+}
+
+impl WallData {
+    fn of(own: &FrameWall) -> Self {
+        Self {
+            line: own.line - 1,
+            storeys: own.storeys,
+            length: own.length,
         }
     }
 }
@@ -525,6 +549,10 @@ fn outline(building: &Building) -> Outline<'_> {
         elevation: Some(building.base.elevation).filter(|own| *own != 0.0),
         diagonals: match &building.structure {
             Structure::Frame(frame) => frame.diagonals.iter().map(DiagonalData::of).collect(),
+            _ => Vec::new(),
+        },
+        walls: match &building.structure {
+            Structure::Frame(frame) => frame.walls.iter().map(WallData::of).collect(),
             _ => Vec::new(),
         },
         isolated: building.base.isolation.is_some(),

@@ -28,6 +28,7 @@ mod modes;
 mod numbers;
 mod observer;
 mod opened;
+mod parts_text;
 mod pdf;
 mod prepared;
 mod pushover;

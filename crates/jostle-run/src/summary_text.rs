@@ -10,7 +10,7 @@ use jostle::results::contact_sensitivity::ContactSensitivity;
 use jostle::results::isolation_bounds::{Bounded, IsolationBounds};
 use jostle::results::response::FloorResponse;
 use jostle::results::summary::{
-    BuildingSummary, ContactSummary, ExceededSummary, GapSummary, LinkSummary, PartSummary, Summary,
+    BuildingSummary, ContactSummary, ExceededSummary, GapSummary, LinkSummary, Summary,
 };
 use jostle::separation::{Requirement, Requirements};
 use jostle_io::Input;
@@ -19,6 +19,7 @@ use crate::checks_text::write_findings;
 use crate::floor_spectra::low_pass;
 use crate::floor_spectra_text::write_floor_spectra;
 use crate::numbers::{counted, counted_grouped, grouped, kn, mm};
+use crate::parts_text::write_parts;
 use crate::style::{BOLD, DIM, LOUD, styled};
 
 /// Contacts listed at most.
@@ -413,37 +414,6 @@ fn write_shear_failures(text: &mut String, buildings: &[BuildingSummary]) -> std
             )?,
         }
         between = "";
-    }
-    Ok(())
-}
-
-/// The greatest forces of braces and of struts of every building.
-fn write_parts(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::Result {
-    for (kind, noun) in [("brace", "Braces"), ("infill", "Infill struts")] {
-        for building in buildings {
-            let own = || building.parts.iter().filter(|own| own.kind == kind);
-            let force = |own: &PartSummary| own.force_max_n.max(-own.force_min_n);
-            let Some(worst) = own().max_by(|a, b| force(a).total_cmp(&force(b))) else {
-                continue;
-            };
-            let dissipated: f64 = own().map(|own| own.dissipated_j).sum();
-            let spent = match dissipated > 0.0 {
-                true => format!("; {:.1} kJ dissipated in all", dissipated / 1e3),
-                false => String::new(),
-            };
-            // Struts have no tension.
-            let tension = match kind {
-                "infill" => String::new(),
-                _ => format!("{:.0} kN of tension and ", worst.force_max_n / 1e3),
-            };
-            writeln!(
-                text,
-                "\n{noun} of {}: up to {tension}{:.0} kN of compression in {}{spent}",
-                building.name,
-                -worst.force_min_n / 1e3,
-                worst.name
-            )?;
-        }
     }
     Ok(())
 }

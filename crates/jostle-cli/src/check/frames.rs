@@ -1,6 +1,6 @@
 //! Frames in words.
 
-use jostle::{DiagonalKind, Frame};
+use jostle::{DiagonalKind, Frame, Section};
 use jostle_run::counted;
 
 /// Whether the columns of a frame shorten, and why; `None` if it is not known whether the file says so.
@@ -21,6 +21,9 @@ pub(super) fn axial_of_columns(frame: &Frame, is_stated: Option<bool>) -> String
         frame.tallness() > 1.0,
     ) {
         (Some(true), ..) => ", as stated".to_owned(),
+        (Some(false), true, _) if !frame.walls.is_empty() => {
+            ", the default of frames with walls".to_owned()
+        }
         (Some(false), true, _) => format!(", the default above {limit}"),
         (Some(false), false, true) => ": no EA, or a foundation on soil".to_owned(),
         (Some(false), false, false) => format!(", the default up to {limit}"),
@@ -46,6 +49,84 @@ pub(super) fn members(frame: &Frame) -> String {
     let mut sections = (frame.own_columns.values()).chain(frame.own_beams.values());
     if sections.any(Option::is_some) {
         text += ", sections that differ by line or bay";
+    }
+    text
+}
+
+/// Every wall and the coupling beams of a frame, with the rigidities in use.
+pub(super) fn walls(frame: &Frame) -> String {
+    let rigidities = |section: Option<&Section>, [bending, shear]: [f64; 2]| {
+        let Some(section) = section else {
+            return String::new();
+        };
+        let number = |name: &str, value: Option<f64>, unit: &str| {
+            value.map_or_else(String::new, |value| {
+                format!(", {name} {:.3} {unit}", value / 1e9)
+            })
+        };
+        let bent = number("EI", Some(section.flexural_rigidity), "GN·m²");
+        let stretched = number("EA", section.axial_rigidity, "GN");
+        let sheared = match section.shear_rigidity {
+            Some(rigidity) => number("GA", Some(rigidity), "GN"),
+            None => ", rigid in shear".to_owned(),
+        };
+        let factors = match (bending, shear) {
+            (1.0, 1.0) => String::new(),
+            _ => format!(" (factors {bending:.3} on EI, {shear:.3} on GA)"),
+        };
+        format!("{bent}{stretched}{sheared}{factors}")
+    };
+    let storeys = |[first, last]: [usize; 2], noun: &str| match first == last {
+        true => format!("{noun} {first}"),
+        false => format!("{noun}s {first}–{last}"),
+    };
+    let mut text = String::new();
+    let lines = frame.line_positions();
+    for (index, wall) in frame.walls.iter().enumerate() {
+        let section = frame.column(wall.storeys[0] - 1, wall.line - 1);
+        let yields = match (wall.hinge, wall.shear) {
+            (None, None) => "",
+            (Some(_), None) => ", yields at its foot",
+            (None, Some(_)) => ", yields in shear",
+            (Some(_), Some(_)) => ", yields at its foot and in shear",
+        };
+        text += &format!(
+            "  wall {} at {} m, {}, {} m long{}{yields}\n",
+            index + 1,
+            lines[wall.line - 1],
+            storeys(wall.storeys, "storey"),
+            wall.length,
+            rigidities(section, wall.stiffness_factors)
+        );
+    }
+    // Floors one above the other with equal beams are one line.
+    let mut said: Vec<(usize, [usize; 2], String)> = Vec::new();
+    for beam in &frame.coupling_beams {
+        let place = [beam.floor - 1, beam.bay - 1];
+        let yields = if beam.shear.is_some() {
+            ", yield in shear"
+        } else {
+            ""
+        };
+        let own = format!(
+            "{:.3} m long{}{yields}",
+            frame.clear_span(place),
+            rigidities(frame.beam(place[0], place[1]), beam.stiffness_factors)
+        );
+        match said.last_mut() {
+            Some((bay, floors, known))
+                if *bay == beam.bay && *known == own && floors[1] + 1 == beam.floor =>
+            {
+                floors[1] = beam.floor;
+            }
+            _ => said.push((beam.bay, [beam.floor; 2], own)),
+        }
+    }
+    for (bay, floors, own) in said {
+        text += &format!(
+            "  coupling beams of bay {bay}, {}, {own}\n",
+            storeys(floors, "floor")
+        );
     }
     text
 }

@@ -128,6 +128,17 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
                 );
             }
         }
+        let frames: Vec<&jostle::Frame> = match &building.structure {
+            jostle::Structure::Frame(frame) => vec![frame],
+            jostle::Structure::Tiers(tiers) => tiers.frames.iter().map(|own| &own.frame).collect(),
+            _ => Vec::new(),
+        };
+        if frames.iter().any(|frame| !frame.walls.is_empty()) {
+            refuse(
+                format!("building[{index}].wall"),
+                "stands on rigid arms that turn with it, which are not exported yet; make it a column with its EI, EA and GA to compare frames without arms".into(),
+            );
+        }
         // Ductility is that of the hinges of columns.
         if let Some(Hinges::Frame(hinges)) = &building.hinges
             && !hinges.columns.is_empty()

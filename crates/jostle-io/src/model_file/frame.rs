@@ -5,7 +5,7 @@ use jostle::{Axial, DiagonalPlace, Frame, Joint};
 use super::brace::{self, Bays};
 use super::building::{or_rigid, per_storey, storeys};
 use super::section::{Material, read_modulus};
-use super::{frame_members, infill};
+use super::{frame_members, frame_walls, infill};
 use crate::keys::{AXIAL, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
@@ -106,8 +106,14 @@ fn read_members(
         material(column_factor, shears.0),
         material(beam_factor, shears.1),
     ];
+    let bays = frame_walls::Bays {
+        heights: &storey_heights,
+        spans: &spans,
+        materials,
+    };
+    let walls = frame_walls::read(reader, view, bays);
     let [(columns, own_columns), (beams, own_beams)] =
-        frame_members::read(reader, view, count, spans.len(), materials);
+        frame_members::read(reader, view, count, spans.len(), materials, &walls);
     let (beam_mass, floor_mass) = masses(reader);
     // Frames in plan have no such key.
     let floor_load = view
@@ -132,11 +138,18 @@ fn read_members(
         floor_load: floor_load.unwrap_or_default(),
         column_segments,
         joint: joint(reader, view),
+        walls: walls.walls,
+        coupling_beams: walls.beams,
         ..Frame::default()
     };
     let has_joints = |place: DiagonalPlace| {
         let [lower, upper] = place.lines();
-        frame.has_joint(place.storey - 1, lower) && frame.has_joint(place.storey, upper)
+        let mut lines = place.lines().into_iter();
+        // Walls leave no corner of the bay.
+        let is_beside_wall = lines.any(|line| frame.wall([place.storey - 1, line]).is_some());
+        !is_beside_wall
+            && frame.has_joint(place.storey - 1, lower)
+            && frame.has_joint(place.storey, upper)
     };
     let bays = Bays {
         heights: &frame.storey_heights,
@@ -146,8 +159,9 @@ fn read_members(
     let mut diagonals = brace::read_all(reader, view, bays);
     diagonals.extend(infill::read_all(reader, view, bays));
     frame.diagonals = diagonals;
-    // Foundations on soil need columns that keep their length, and columns that shorten need their EA.
-    let shortens = frame.tallness() > 1.0
+    // Foundations on soil need columns that keep their length, and columns that shorten need their EA. Coupled walls do by their axial
+    // forces.
+    let shortens = (frame.tallness() > 1.0 || !frame.walls.is_empty())
         && !view.has("foundation")
         && frame
             .all_columns()

@@ -5,9 +5,10 @@ use std::collections::BTreeMap;
 use jostle::{FramePlace, Section};
 use jostle_section::formula::Member;
 
+use super::frame_walls::Walls;
 use super::places::Layout;
 use super::section::{Material, STAND_IN, read_sections};
-use crate::reader::{Reader, View};
+use crate::reader::{Field, Reader, View};
 
 /// Sections of columns or beams by storey or floor, and those that differ.
 pub(super) type Sections = (Vec<Section>, BTreeMap<FramePlace, Option<Section>>);
@@ -22,6 +23,7 @@ pub(super) fn read(
     storeys: Option<usize>,
     bays: usize,
     [column, beam]: [Material; 2],
+    walls: &Walls,
 ) -> [Sections; 2] {
     let noted = reader.count_faults();
     let all_joints = |_, _| true;
@@ -33,6 +35,7 @@ pub(super) fn read(
         bays + 1,
         column,
         &all_joints,
+        walls,
     );
     let joints = |floor: usize, bay: usize| match &columns {
         Some(grid) => [bay, bay + 1]
@@ -40,14 +43,27 @@ pub(super) fn read(
             .all(|line| grid[floor][*line].is_some()),
         None => true,
     };
-    let beams = read_grid(reader, view, Member::Beam, storeys, bays, beam, &joints);
+    let beams = read_grid(
+        reader,
+        view,
+        Member::Beam,
+        storeys,
+        bays,
+        beam,
+        &joints,
+        walls,
+    );
     [&columns, &beams].map(|grid| match grid {
         Some(grid) if reader.count_faults() == noted => compact(grid),
         _ => (vec![STAND_IN; storeys.unwrap_or(1)], BTreeMap::new()),
     })
 }
 
-/// `stands`: whether a member finds its joints; beams stand only between joints, unless a table names their bay.
+/// Walls and coupling beams take the places of others. `stands`: whether a member finds its joints; beams stand only between joints, unless a table names their bay.
+#[expect(
+    clippy::too_many_arguments,
+    reason = "columns and beams differ in each of them"
+)]
 fn read_grid(
     reader: &mut Reader<'_>,
     view: &View<'_>,
@@ -56,29 +72,70 @@ fn read_grid(
     across: usize,
     material: Material,
     stands: &dyn Fn(usize, usize) -> bool,
+    walls: &Walls,
 ) -> Option<Grid> {
+    let own = &walls.sections[usize::from(member == Member::Beam)];
     let layout = Layout::read(reader, view, member, storeys, across);
+    if layout.is_none() && !own.is_empty() {
+        let rows = (0..storeys.unwrap_or(1)).map(|storey| {
+            let places = (0..across).map(|place| own.get(&[storey, place]).copied());
+            places.collect::<Vec<_>>()
+        });
+        let grid: Grid = rows.collect();
+        let is_full = |(storey, row): (usize, &Vec<Option<Section>>)| {
+            let mut row = row.iter().enumerate();
+            row.all(|(place, section)| section.is_some() || !stands(storey, place))
+        };
+        if walls.incomplete || grid.iter().enumerate().all(is_full) {
+            return Some(grid);
+        }
+    }
     let sections = read_sections(reader, view, member, layout.as_ref(), material);
     let layout = layout?;
+    if let Some(place) = layout.named_twice(own) {
+        let table = &layout.tables[layout.holds[place[0]][place[1]]?];
+        taken(reader, &table.field, member, place);
+        return None;
+    }
     let mut grid = Vec::new();
     for (storey, row) in layout.holds.iter().enumerate() {
-        let mut own = Vec::new();
+        let mut row_of_sections = Vec::new();
         for (place, table) in row.iter().enumerate() {
+            if let Some(section) = own.get(&[storey, place]) {
+                row_of_sections.push(Some(*section));
+                continue;
+            }
             let stands = stands(storey, place);
             let Some(table) = *table else {
                 if stands {
                     lacks_section(reader, view, member, [storey, place]);
                     return None;
                 }
-                own.push(None);
+                row_of_sections.push(None);
                 continue;
             };
             let exists = stands || layout.tables[table].names_across;
-            own.push(sections[table].filter(|_| exists));
+            row_of_sections.push(sections[table].filter(|_| exists));
         }
-        grid.push(own);
+        grid.push(row_of_sections);
     }
     (!grid.is_empty()).then_some(grid)
+}
+
+/// A table names the place of a wall or of a coupling beam.
+fn taken(reader: &mut Reader<'_>, field: &Field<'_>, member: Member, place: FramePlace) {
+    let [storey, across] = place.map(|index| index + 1);
+    let (problem, remedy) = match member {
+        Member::Column => (
+            format!("names line {across} in storey {storey}, where a wall stands"),
+            "leave that line or storey out here, or make the wall end below by storeys",
+        ),
+        Member::Beam => (
+            format!("names bay {across} at floor {storey}, where a coupling beam is"),
+            "leave that bay or floor out here, or in [[building.coupling_beam]]",
+        ),
+    };
+    *reader.bad(field, problem) = Some(remedy.into());
 }
 
 fn lacks_section(reader: &mut Reader<'_>, view: &View<'_>, member: Member, place: FramePlace) {

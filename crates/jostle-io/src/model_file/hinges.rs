@@ -501,8 +501,8 @@ fn of_sections(
     let mut sound = true;
     for &(kind, word) in kinds {
         let (per_storey, count) = match kind {
-            Member::Column => (frame.lines(), frame.all_columns().count()),
-            Member::Beam => (frame.spans.len(), frame.all_beams().count()),
+            Member::Column => (frame.lines(), frame.bare_members()[0]),
+            Member::Beam => (frame.spans.len(), frame.bare_members()[1]),
         };
         let of_kind: Vec<_> = members
             .iter()

@@ -1,6 +1,8 @@
 //! Tables of a list that each hold for some places of a frame: later ones replace earlier ones.
 
-use jostle::{Model, Structure};
+use std::collections::BTreeMap;
+
+use jostle::{FramePlace, Model, Section as CrossSection, Structure};
 use jostle_section::formula::Member;
 
 use super::building::has_length;
@@ -96,6 +98,20 @@ impl<'n> Layout<'n> {
             holds.clear();
         }
         Some(Self { tables, holds })
+    }
+}
+
+impl Layout<'_> {
+    /// The first of some places whose table names it by line or bay.
+    pub(super) fn named_twice(
+        &self,
+        places: &BTreeMap<FramePlace, CrossSection>,
+    ) -> Option<FramePlace> {
+        let names = |[storey, across]: &&FramePlace| {
+            let table = self.holds.get(*storey).and_then(|row| *row.get(*across)?);
+            table.is_some_and(|table| self.tables[table].names_across)
+        };
+        places.keys().find(names).copied()
     }
 }
 

@@ -99,8 +99,8 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, frame: &Frame) -> R
         let rows = layout.holds.iter().enumerate().map(|(storey, row)| {
             let places = row.iter().enumerate().map(|(place, table)| {
                 let exists = match member {
-                    Member::Column => frame.column(storey, place),
-                    Member::Beam => frame.beam(storey, place),
+                    Member::Column => frame.bare_column(storey, place),
+                    Member::Beam => frame.bare_beam(storey, place),
                 };
                 laid[(*table)?].clone().filter(|_| exists.is_some())
             });

@@ -124,7 +124,7 @@ fn read_section(
             None
         }
         (false, true) => rigidities(reader, &view, material.shears),
-        _ => rectangle(reader, &view, material),
+        _ => rectangle(reader, &view, material, SIDES),
     };
     if let Some(section) = &mut section {
         section.flexural_rigidity *= material.factor;
@@ -166,20 +166,32 @@ fn of_own_concrete(reader: &mut Reader<'_>, view: &View<'_>, material: Material)
     }
 }
 
+/// Keys of the width and the depth of a rectangle, with examples.
+pub(super) type Sides = [(&'static str, &'static str); 2];
+
+/// Of columns and beams.
+const SIDES: Sides = [("width", "\"300 mm\""), ("depth", "\"600 mm\"")];
+
 /// Width × depth, of one material. The line mass is that of the density.
-fn rectangle(reader: &mut Reader<'_>, view: &View<'_>, material: Material) -> Option<Section> {
-    let mut side = |key: &'static str, example: &str| match reader.get(view, key) {
+pub(super) fn rectangle(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    material: Material,
+    sides: Sides,
+) -> Option<Section> {
+    let names = sides.map(|(key, _)| key).join(" and ");
+    let mut side = |(key, example): (&'static str, &str)| match reader.get(view, key) {
         Some(field) => reader.positive(&field, Dimension::Length),
         None => {
             reader.missing(
                 view,
                 key,
-                format!("add {key} = {example}, or give EI instead of width and depth"),
+                format!("add {key} = {example}, or give EI instead of {names}"),
             );
             None
         }
     };
-    let (width, depth) = (side("width", "\"300 mm\""), side("depth", "\"600 mm\""));
+    let (width, depth) = (side(sides[0]), side(sides[1]));
     let Some(modulus) = material.modulus else {
         if !material.modulus_is_bad {
             let place = view.span.clone();
@@ -202,7 +214,11 @@ fn rectangle(reader: &mut Reader<'_>, view: &View<'_>, material: Material) -> Op
     })
 }
 
-fn rigidities(reader: &mut Reader<'_>, view: &View<'_>, shears: bool) -> Option<Section> {
+pub(super) fn rigidities(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    shears: bool,
+) -> Option<Section> {
     let bending = match reader.get(view, "EI") {
         Some(field) => reader.positive(&field, Dimension::FlexuralRigidity),
         None => {
@@ -224,7 +240,7 @@ fn rigidities(reader: &mut Reader<'_>, view: &View<'_>, shears: bool) -> Option<
         reader.missing(
             view,
             "GA",
-            "shear = \"flexible\" needs the shear rigidity: add GA = \"2.6 GN\", or give width and depth instead",
+            "shear = \"flexible\" needs the shear rigidity: add GA = \"2.6 GN\", give the size of the section instead, or set shear = \"rigid\"",
         );
     }
     Some(Section {
@@ -242,7 +258,7 @@ fn rigidities(reader: &mut Reader<'_>, view: &View<'_>, shears: bool) -> Option<
 }
 
 /// Self mass of a column that does not state it: of the rectangle, or of the area EA/E.
-fn own_mass(
+pub(super) fn own_mass(
     reader: &mut Reader<'_>,
     view: &View<'_>,
     section: Option<Section>,

@@ -164,6 +164,8 @@ kind = "frame"
 shear_failure = { strength = 1 }
 brace = [{ EA = 1 }, { stiffness = 1, hinge = { rule = "bilinear", yield = 1 } }]
 infill = [{ modulus = 1, thickness = 1, width = 1 }, { stiffness = 1, hinge = { rule = "pinched", residual = 1 } }]
+wall = [{ at = 1, length = 1, thickness = 1, hinge = { rule = "takeda", length = 1 } }, { line = 1, length = 1, EI = 1, shear_hinge = { rule = "bilinear", yield = 1, stiffness = 1 } }]
+coupling_beam = [{ between = [1, 2], width = 1, depth = 1, hinge = { rule = "pinched" } }, { bay = 1, EI = 1 }]
 [[building]]
 kind = "shear"
 plan = [20, 12]
@@ -291,7 +293,8 @@ fn examples_in_the_reference_are_accepted_by_their_readers() {
                     | Kind::PerContact(dimension)
                     | Kind::OneOrMore(dimension)
                     | Kind::Quantities(dimension)
-                    | Kind::WordOr(_, dimension),
+                    | Kind::WordOr(_, dimension)
+                    | Kind::ChoiceOr(_, dimension),
                     _,
                 ) if text.starts_with(|c: char| c.is_ascii_digit()) => {
                     parse_quantity(text, dimension)

@@ -10,6 +10,7 @@ mod diagonals;
 mod faults;
 mod fixture;
 mod formats;
+mod frame_walls;
 mod frames;
 mod garbage;
 mod given_in_plan;

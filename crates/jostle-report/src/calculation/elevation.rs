@@ -223,6 +223,12 @@ fn drawing(
     html! {
         g style=(colour(index)) {
             @if let Structure::Frame(frame) = &building.structure {
+                @for wall in &frame.walls {
+                    @let ([first, last], axis) = (wall.storeys, outline.lines[wall.line - 1]);
+                    @let foot = first.checked_sub(2).map_or(outline.foot, |floor| outline.floors[floor]);
+                    @let [up, down] = [outline.floors[last - 1], foot].map(y);
+                    rect.shear-wall x=(round(x(axis - 0.5 * wall.length))) y=(round(up)) width=(round(scale * wall.length)) height=(round(down - up)) {}
+                }
                 @for own in &frame.diagonals {
                     @let ([from, to], storey) = (own.place.lines(), own.place.storey);
                     @let ends = [(outline.lines[from], storey - 1), (outline.lines[to], storey)].map(|(line, level)| {

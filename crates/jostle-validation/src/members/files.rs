@@ -11,7 +11,9 @@ pub(crate) const GRAVITY: f64 = 9.80665 / 9.81;
 
 /// The model file of a case.
 pub(super) fn file(input: &Value, tolerance: f64) -> String {
-    if input.get("drop_m").is_some() {
+    if input.get("wall_EI").is_some() {
+        coupled_walls(input, tolerance)
+    } else if input.get("drop_m").is_some() {
         at_two_levels(input, tolerance)
     } else if input["column_EI"][0].is_array() {
         by_line(input, tolerance)
@@ -109,6 +111,63 @@ damping = {{ alpha = {alpha:?}, beta = 0 }}
         }
     }
     text + &neighbour(input)
+}
+
+/// Two walls, coupled at every floor, seen from behind: floors are reported at their first column line, and the reference has those of the
+/// right wall.
+fn coupled_walls(input: &Value, tolerance: f64) -> String {
+    let centres = numbers(input, "/wall_centres_m");
+    let of_wall = |key: &str, wall: usize| number(input, &format!("/{key}/{wall}"));
+    let mut text = beginning(input, tolerance, ["N", "W"]);
+    text = text.replacen("scale =", "reverse = true, scale =", 1) + &neighbour(input);
+    let _ = write!(
+        text,
+        r#"[[building]]
+name = "W"
+kind = "frame"
+storey_height = {heights}
+spans = [{span:?}]
+density = 0
+column_segments = 1
+beam_segments = 1
+floor_mass = {masses}
+axial = {{ columns = "flexible", beams = "flexible" }}
+damping = {{ alpha = {alpha:?}, beta = 0 }}
+[[building.coupling_beam]]
+between = [1, 2]
+EI = {beam_bending}
+EA = {beam_axial}
+GA = {beam_shear}
+"#,
+        heights = input["storey_heights_m"],
+        span = centres[1] - centres[0],
+        masses = input["floor_mass_kg"],
+        alpha = number(input, "/alpha"),
+        beam_bending = input["beam_EI"],
+        beam_axial = input["beam_EA"],
+        beam_shear = input["beam_GA"],
+    );
+    for (wall, centre) in centres.iter().enumerate().rev() {
+        let _ = writeln!(
+            text,
+            "[[building.wall]]\nat = {:?}\nlength = {:?}\nEI = {:?}\nEA = {:?}\nGA = {:?}",
+            centres[1] - centre,
+            of_wall("wall_length_m", wall),
+            of_wall("wall_EI", wall),
+            of_wall("wall_EA", wall),
+            of_wall("wall_GA", wall),
+        );
+        if input["elastic"] == Value::Bool(false) {
+            let _ = writeln!(
+                text,
+                "hinge = {{ rule = \"bilinear\", stiffness = {:?}, yield = {:?}, post_yield = {} }}",
+                of_wall("hinge_k", wall),
+                of_wall("hinge_My", wall),
+                input["hinge_hardening"],
+            );
+        }
+    }
+    text
 }
 
 /// Two frames, the right one standing lower: every slab meets a column.

@@ -1,6 +1,7 @@
 //! Collects all faults of a model at once.
 
 mod frame_places;
+mod frame_walls;
 mod given;
 mod isolation;
 mod members;
@@ -402,6 +403,9 @@ fn check_members_of(faults: &mut Faults, path: &str, frame: &Frame) {
     let complete = per_storey.iter().all(|(_, count)| *count == storeys);
     if complete && storeys > 0 && !frame.spans.is_empty() && !frame.is_regular() {
         frame_places::check_places(faults, path, frame);
+    }
+    if complete {
+        frame_walls::check_walls(faults, path, frame);
     }
     for (field, mass) in each(&frame.beam_mass, &format!("{path}.beam_mass")) {
         faults.not_negative(*mass, field, "kg/m");

@@ -15,7 +15,7 @@ pub(super) fn structure_yields(building: &Building) -> bool {
     match &building.structure {
         _ if building.hinges.is_some() => true,
         Structure::Tiers(tiers) => tiers.may_yield(),
-        Structure::Frame(frame) => frame.diagonals.iter().any(yields),
+        Structure::Frame(frame) => frame.diagonals.iter().any(yields) || frame.walls_yield(),
         Structure::Shear(_) | Structure::Given(_) => false,
     }
 }

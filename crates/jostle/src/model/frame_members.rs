@@ -6,6 +6,21 @@ use super::{Frame, Section};
 pub type FramePlace = [usize; 2];
 
 impl Frame {
+    /// Height over width above which columns shorten unless a model file says otherwise \[–\].
+    pub const SLENDER: f64 = 3.0;
+    /// Storeys above which they do.
+    pub const TALL: usize = 10;
+
+    /// Height over [`Self::SLENDER`] times the width, or storeys over [`Self::TALL`], whichever is greater: above 1 rigid columns make
+    /// the frame noticeably too stiff \[–\].
+    #[must_use]
+    pub fn tallness(&self) -> f64 {
+        let (height, width): (f64, f64) =
+            (self.storey_heights.iter().sum(), self.spans.iter().sum());
+        let storeys = self.storey_heights.len() as f64 / Self::TALL as f64;
+        storeys.max(height / (Self::SLENDER * width))
+    }
+
     /// Number of column lines.
     #[must_use]
     pub fn lines(&self) -> usize {

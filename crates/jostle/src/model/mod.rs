@@ -7,6 +7,7 @@ mod capacity;
 mod diagonal;
 mod floor_matrices;
 mod frame_members;
+mod frame_wall;
 mod gap;
 mod given;
 mod integrator;
@@ -34,6 +35,7 @@ pub use diagonal::{Diagonal, DiagonalKind, DiagonalPlace, Rise};
 pub(crate) use floor_matrices::displacement_in_words;
 pub use floor_matrices::{FloorMatrices, GivenFloor, GivenInPlan};
 pub use frame_members::FramePlace;
+pub use frame_wall::{CouplingBeam, FrameWall};
 pub use gap::{FloorPairs, Gap, LEVEL_TOLERANCE, Level, PlanContact};
 pub use given::{Given, MatrixEntry};
 pub use integrator::Integrator;
@@ -168,7 +170,7 @@ impl Building {
             || self.base.horizontal_hinge.is_some()
             || self.base.isolation.is_some_and(|own| !own.is_linear())
             || matches!(&self.structure, Structure::Tiers(own) if own.may_yield())
-            || matches!(&self.structure, Structure::Frame(own) if own.diagonals.iter().any(|own| own.hysteresis.is_some()))
+            || matches!(&self.structure, Structure::Frame(own) if own.has_yielding_parts())
     }
 }
 
@@ -372,6 +374,10 @@ pub struct Frame {
     pub joint: Joint,
     /// Braces, and struts of infill panels.
     pub diagonals: Vec<Diagonal>,
+    /// Walls that stand at column lines; their sections are those of columns.
+    pub walls: Vec<FrameWall>,
+    /// Beams between them whose forces are followed; their sections are those of beams.
+    pub coupling_beams: Vec<CouplingBeam>,
 }
 
 /// Cross-section of a member.
@@ -399,23 +405,6 @@ pub struct Section {
     pub shear_rigidity: Option<f64>,
     /// Self mass of columns, ≥ 0 \[kg/m\].
     pub line_mass: f64,
-}
-
-impl Frame {
-    /// Height over width above which columns shorten unless a model file says otherwise \[–\].
-    pub const SLENDER: f64 = 3.0;
-    /// Storeys above which they do.
-    pub const TALL: usize = 10;
-
-    /// Height over [`Self::SLENDER`] times the width, or storeys over [`Self::TALL`], whichever is greater: above 1 rigid columns make
-    /// the frame noticeably too stiff \[–\].
-    #[must_use]
-    pub fn tallness(&self) -> f64 {
-        let (height, width): (f64, f64) =
-            (self.storey_heights.iter().sum(), self.spans.iter().sum());
-        let storeys = self.storey_heights.len() as f64 / Self::TALL as f64;
-        storeys.max(height / (Self::SLENDER * width))
-    }
 }
 
 /// Axial behaviour of the members of a frame. Model files let columns of tall frames shorten by default ([`Frame::tallness`]).

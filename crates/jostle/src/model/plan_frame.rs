@@ -127,11 +127,10 @@ impl PlanFrame {
         heavy && self.frame.column_segments > 1
     }
 
-    /// Whether columns or beams may crack or yield, or diagonals yield or lift off.
+    /// Whether columns, beams or walls may crack or yield, or diagonals yield or lift off.
     #[must_use]
     pub fn may_yield(&self) -> bool {
-        let mut diagonals = self.frame.diagonals.iter();
-        self.hinges != FrameHinges::default() || diagonals.any(|own| own.hysteresis.is_some())
+        self.hinges != FrameHinges::default() || self.frame.has_yielding_parts()
     }
 
     /// Whether it stands along x or across.

@@ -52,6 +52,7 @@ pub(super) fn isolation_summary(
             | SpringPlace::PlanStorey { .. }
             | SpringPlace::Element { .. }
             | SpringPlace::Fibre { .. }
+            | SpringPlace::Sliding { .. }
             | SpringPlace::Diagonal { .. } => {}
         }
     }

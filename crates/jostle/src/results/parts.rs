@@ -1,20 +1,22 @@
-//! Peaks of braces and struts of frames.
+//! Peaks of braces, struts, walls and coupling beams of frames.
 
 use super::summarise::springs_of;
-use super::summary::PartSummary;
+use super::summary::{PartSummary, SpringSummary};
 use crate::hysteresis::HysteresisRule;
 use crate::stepping::Outcome;
-use crate::structure::{DiagonalForce, FrameDiagonal, SpringPlace};
+use crate::structure::{
+    CouplingForce, DiagonalForce, FrameDiagonal, MemberEnd, MemberPlace, SpringPlace, WallForce,
+};
 use crate::system::BuildingSystem;
 
-/// Braces and struts of a building, in the order of the model.
+/// Braces, struts, walls and coupling beams of a building, each in the order of the model.
 pub(super) fn parts_of(
     index: usize,
     building: &BuildingSystem,
     outcome: &Outcome,
 ) -> Vec<PartSummary> {
     let diagonals = &building.discretization.diagonals;
-    if diagonals.is_empty() {
+    if diagonals.is_empty() && building.discretization.walls.is_empty() {
         return Vec::new();
     }
     let springs = springs_of(building, outcome);
@@ -36,19 +38,119 @@ pub(super) fn parts_of(
             None => ([most, -least].map(|force| force / own.stiffness), 0.0),
         };
         PartSummary {
-            name: format!("{}.{}", building.name, local_name(building, own)),
+            name: name_of(building, own.frame, &local_name(building, own)),
             kind: own.place.kind.name(),
             force_max_n: most.max(0.0),
             force_min_n: least.min(0.0),
             deformation_max: deformed[0].max(0.0),
             deformation_min: deformed[1].max(0.0),
             dissipated_j,
+            ..PartSummary::default()
         }
     };
-    building.members.diagonals.iter().map(part).collect()
+    let own = &building.members;
+    let range = |form: usize| outcome.members[index][form];
+    let walls = own.walls.iter();
+    let beams = own.coupling_beams.iter();
+    own.diagonals
+        .iter()
+        .map(part)
+        .chain(walls.map(|wall| of_wall(building, &springs, wall, range)))
+        .chain(beams.map(|beam| of_coupling_beam(building, &springs, beam, range)))
+        .collect()
 }
 
-/// Name within the building; only where two cross it says which way it rises.
+/// Peaks at the foot of a wall; `range`: greatest and least value of a form.
+fn of_wall(
+    building: &BuildingSystem,
+    springs: &[SpringSummary],
+    own: &WallForce,
+    range: impl Fn(usize) -> [f64; 2],
+) -> PartSummary {
+    let discretization = &building.discretization;
+    let wall = discretization.walls[own.wall];
+    let (line, storey) = (wall.part.line, wall.part.storeys[0]);
+    let before = discretization.walls[..own.wall].iter();
+    let number = 1 + before.filter(|other| other.frame == wall.frame).count();
+    let end = MemberEnd::First;
+    let hinge = SpringPlace::Column { storey, line, end };
+    let sliding = SpringPlace::sliding(MemberPlace::Column { line, storey });
+    let spring = |place| Some(&springs[discretization.spring_at(wall.frame, place)?]);
+    let [hinge, sliding] = [hinge, sliding].map(spring);
+    let dissipated = [hinge, sliding].into_iter().flatten();
+    let (force, moment, stretched) = (range(own.axial), range(own.moment), range(own.elongation));
+    let turned = |side: fn(&SpringSummary) -> f64| Some(hinge.map_or(0.0, side).max(0.0));
+    PartSummary {
+        name: name_of(building, wall.frame, &format!("wall.{number}")),
+        kind: "wall",
+        force_max_n: force[0].max(0.0),
+        force_min_n: force[1].min(0.0),
+        deformation_max: stretched[0].max(0.0),
+        deformation_min: -stretched[1].min(0.0),
+        moment_max_n_m: Some(moment[0]),
+        moment_min_n_m: Some(moment[1]),
+        rotation_max_rad: turned(|own| own.deformation_max),
+        rotation_min_rad: turned(|own| own.deformation_min),
+        dissipated_j: dissipated.fold(0.0, |sum, own| sum + own.dissipated_j),
+    }
+}
+
+/// Peaks of a coupling beam.
+fn of_coupling_beam(
+    building: &BuildingSystem,
+    springs: &[SpringSummary],
+    own: &CouplingForce,
+    range: impl Fn(usize) -> [f64; 2],
+) -> PartSummary {
+    let discretization = &building.discretization;
+    let beam = discretization.coupling_beams[own.beam];
+    let (floor, span) = (beam.part.floor, beam.part.bay);
+    let sliding = SpringPlace::sliding(MemberPlace::Beam { floor, span });
+    let spring = discretization.spring_at(beam.frame, sliding);
+    let (force, [most, least]) = (range(own.shear), range(own.chord));
+    let (most, least) = (most.max(0.0), -least.min(0.0));
+    PartSummary {
+        name: name_of(
+            building,
+            beam.frame,
+            &format!("coupling-beam.{floor}.{span}"),
+        ),
+        kind: "coupling-beam",
+        force_max_n: force[0].max(0.0),
+        force_min_n: force[1].min(0.0),
+        deformation_max: most,
+        deformation_min: least,
+        rotation_max_rad: Some(most / own.length),
+        rotation_min_rad: Some(least / own.length),
+        dissipated_j: spring.map_or(0.0, |index| springs[index].dissipated_j),
+        ..PartSummary::default()
+    }
+}
+
+/// Share of the moment at the base that axial forces of coupled walls bear, by the greatest values of both \[–\].
+pub(super) fn degree_of_coupling(
+    index: usize,
+    building: &BuildingSystem,
+    outcome: &Outcome,
+) -> Option<f64> {
+    let own = building.members.coupling?;
+    let [couple, total] = [own.couple, own.total].map(|form| {
+        let [most, least] = outcome.members[index][form];
+        most.max(-least)
+    });
+    (total > 0.0).then(|| couple / total)
+}
+
+/// Name of a part, with its building and the frame in plan.
+fn name_of(building: &BuildingSystem, frame: Option<usize>, part: &str) -> String {
+    let frames = &building.discretization.frames;
+    match frame.and_then(|frame| frames.get(frame)) {
+        Some(frame) => format!("{}.{frame}.{part}", building.name),
+        None => format!("{}.{part}", building.name),
+    }
+}
+
+/// Name within its frame; only where two cross it says which way it rises.
 fn local_name(building: &BuildingSystem, own: &FrameDiagonal) -> String {
     let same = |other: &&FrameDiagonal| {
         let place =
@@ -58,13 +160,8 @@ fn local_name(building: &BuildingSystem, own: &FrameDiagonal) -> String {
     let diagonals = &building.discretization.diagonals;
     let crossed = diagonals.iter().filter(same).count() > 1;
     let name = own.place.to_string();
-    let name = match name.rsplit_once('.') {
+    match name.rsplit_once('.') {
         Some((bay, _)) if !crossed => bay.to_owned(),
         _ => name,
-    };
-    let frames = &building.discretization.frames;
-    match own.frame.and_then(|frame| frames.get(frame)) {
-        Some(frame) => format!("{frame}.{name}"),
-        None => name,
     }
 }

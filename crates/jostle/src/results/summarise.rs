@@ -18,7 +18,7 @@ use crate::results::friction::friction_warnings;
 use crate::results::ground::{closing_of_grounds, ground_summary};
 use crate::results::isolation::{isolation_summary, mat_summary, wall_summaries};
 use crate::results::members::members_of;
-use crate::results::parts::parts_of;
+use crate::results::parts::{degree_of_coupling, parts_of};
 use crate::results::sections::sections_of;
 use crate::results::response::{
     Amplification, BuildingResponse, FloorResponse, building_response, floor_responses,
@@ -182,6 +182,7 @@ fn building_summary(index: usize, run: &Run) -> BuildingSummary {
         members,
         parts: parts_of(index, building, run.outcome),
         sections: sections_of(index, building, run.outcome),
+        degree_of_coupling: degree_of_coupling(index, building, run.outcome),
         shear_failures: shear_failures(index, run),
         name: building.name.clone(),
         mass_kg: building.equations.total_mass(),
@@ -243,7 +244,8 @@ fn hinge_summary(building: &BuildingSystem, outcome: &Outcome) -> HingeSummary {
 #[must_use]
 pub fn springs_of(building: &BuildingSystem, outcome: &Outcome) -> Vec<SpringSummary> {
     let springs = building.equations.springs.iter().enumerate();
-    let behind = end_stiffnesses(&building.discretization.stick_model);
+    let discretization = &building.discretization;
+    let behind = end_stiffnesses(&discretization.stick_model);
     let when = |spring: usize, reached: Stage, stage: Stage| {
         let mut events = outcome.spring_events.iter();
         // A spring may yield in the step in which it cracks, and crack under weight alone.
@@ -279,6 +281,7 @@ pub fn springs_of(building: &BuildingSystem, outcome: &Outcome) -> Vec<SpringSum
                 .map(|side| {
                     // A base has no member end in series.
                     let member = behind.get(index).copied().flatten();
+                    let member = member.or_else(|| discretization.bending_behind(*place?));
                     let member =
                         member.filter(|_| !matches!(place, Some(SpringPlace::Base { .. })));
                     ductility(rule, memory.greatest(side), side, member)

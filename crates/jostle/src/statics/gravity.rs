@@ -61,15 +61,13 @@ pub fn compressions(building: &AssembledBuilding, gravity: f64) -> Result<Vec<f6
             }
             let [a, b] = member.ends.map(|end| nodes[end]);
             let top = a.y.max(b.y);
-            let elevation = |node: usize| stick_model.turn(node).elevation;
-            let own = elevation(member.ends[0]);
-            let on_line = nodes
-                .iter()
-                .zip(&hung)
-                .enumerate()
-                .filter(|(index, (node, _))| {
-                    (node.x - a.x).abs() < SAME_LINE && elevation(*index) == own
-                });
+            let own = stick_model.turn(member.ends[0]);
+            let on_line = nodes.iter().zip(&hung).enumerate().filter(|(index, _)| {
+                // Faces of a wall are on the line of its axis.
+                let other = stick_model.turn(*index);
+                let apart = (other.position - own.position).abs();
+                apart < SAME_LINE && other.elevation == own.elevation
+            });
             on_line
                 .filter(|(_, (node, _))| node.y > top - SAME_LINE)
                 .map(|(_, (_, weight))| weight)

@@ -30,6 +30,18 @@ pub struct FibreSection {
     pub rotation: Row,
 }
 
+impl FibreSection {
+    /// Places of its fibres.
+    pub(super) fn places(&self) -> impl Iterator<Item = SpringPlace> + '_ {
+        (0..self.at.len()).map(|fibre| SpringPlace::Fibre {
+            storey: self.storey,
+            line: self.line,
+            end: self.end,
+            fibre: fibre + 1,
+        })
+    }
+}
+
 impl std::fmt::Display for FibreSection {
     /// Its name within the building, such as `column.1.2.foot`.
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -95,17 +107,5 @@ impl Discretization {
         let storeys = sticks.springs.iter().filter(|own| own.hysteresis.is_some());
         let before = hinges.count() + storeys.count();
         before + section.elements.start..before + section.elements.end
-    }
-
-    /// Places of the fibres of all sections, in their order.
-    pub(super) fn places_of_fibres(&self) -> impl Iterator<Item = SpringPlace> + '_ {
-        self.sections.iter().flat_map(|section| {
-            (0..section.at.len()).map(|fibre| SpringPlace::Fibre {
-                storey: section.storey,
-                line: section.line,
-                end: section.end,
-                fibre: fibre + 1,
-            })
-        })
     }
 }

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use super::column_ends::FibreSection;
 use super::diagonals::FrameDiagonal;
-use super::element::{Element, Part, Place, THETA, X};
+use super::element::{Element, Part, Place, THETA, X, Y, index_of};
+use super::frame_walls::InFrame;
 use super::member_forces::{FrameMember, MemberPlace};
 use super::space_frame::CondensedFrame;
 use super::space_joints::JointedFrame;
@@ -13,8 +14,8 @@ use super::stick_model::{Hinge, Influence, Member, Node, Spring, StickModel, Sup
 use super::tiers::discretize_tiers;
 use crate::hysteresis::{Hysteresis, Side};
 use crate::model::{
-    Base, Building, Frame, FrameHinges, Given, Hinges, Isolation, Joint, ProportionalDamping,
-    Section, SharedColumn, Shear, ShearEnds, ShearSpring, Structure, Wall,
+    Base, Building, CouplingBeam, Frame, FrameHinges, FrameWall, Given, Hinges, Isolation, Joint,
+    ProportionalDamping, Section, SharedColumn, Shear, ShearEnds, ShearSpring, Structure, Wall,
 };
 
 /// A stick model and where its floors and faces are. The default has no nodes.
@@ -40,6 +41,10 @@ pub struct Discretization {
     pub diagonals: Vec<FrameDiagonal>,
     /// Ends of columns that are made of fibres.
     pub sections: Vec<FibreSection>,
+    /// Walls of frames.
+    pub walls: Vec<InFrame<FrameWall>>,
+    /// Beams between walls of frames.
+    pub coupling_beams: Vec<InFrame<CouplingBeam>>,
     /// Centre of mass of every floor on the site, from the ground up; empty for a building in one plane \[m\].
     pub centres: Vec<[f64; 2]>,
     /// Names of the frames that stand in a plan.
@@ -324,7 +329,10 @@ impl StickModel {
         if *properties == Joint::default() {
             return joint;
         }
-        let end = self.add_node(self.nodes[joint].x, self.nodes[joint].y);
+        let end = self.add_beside(joint);
+        if properties.vertical_stiffness.is_some() {
+            self.ties.remove(&index_of((end, Y)));
+        }
         self.hinges.push(Hinge {
             ends: [joint, end],
             rotational_stiffness: properties.rotational_stiffness,
@@ -343,7 +351,7 @@ impl StickModel {
     /// tension at the bottom of a beam and on the right side of a column, which is a counter-clockwise rotation
     /// along the member, from left to right or upwards.
     fn yielding(&mut self, joint: usize, hysteresis: Hysteresis, end: MemberEnd) -> usize {
-        let node = self.add_node(self.nodes[joint].x, self.nodes[joint].y);
+        let node = self.add_beside(joint);
         let ends = match end {
             MemberEnd::First => [node, joint],
             MemberEnd::Last => [joint, node],
@@ -462,7 +470,7 @@ pub(super) fn discretize_frame(
             .extend(at_the_base(BaseMotion::Rocking));
     }
     // Springs follow the hinges.
-    let mut shear_places = Vec::new();
+    let (mut shear_places, mut row_places) = (Vec::new(), Vec::new());
     let mut height = 0.0;
     for (storey, storey_height) in frame.storey_heights.iter().enumerate() {
         height += storey_height;
@@ -480,16 +488,37 @@ pub(super) fn discretize_frame(
             };
             let is_outer = [0, 1].map(|side| outer.is_some_and(|outer| outer[side] == line));
             let mut ends = [from, to];
-            let fibres = hinges.fibres.get(&[storey, line]);
-            let hinge = hinges.columns.get(storey).and_then(|row| row.get(line));
+            let wall = frame.wall([storey, line]);
+            let grid = wall.is_none().then_some(hinges);
+            let fibres = grid.and_then(|own| own.fibres.get(&[storey, line]));
+            let hinge = grid.and_then(|own| own.columns.get(storey)?.get(line));
             let hinge = hinge.filter(|_| fibres.is_none());
-            let shear = hinges.shear.get(storey).and_then(|row| row.get(line));
+            let shear = grid.and_then(|own| own.shear.get(storey)?.get(line));
+            let mut column = *column;
+            // A wall yields at its foot alone.
+            if let Some(wall) = wall.filter(|own| own.storeys[0] == storey + 1) {
+                if let Some(hysteresis) = wall.shear {
+                    ends[0] = stick_model.add_sliding(from, X, hysteresis);
+                    column.shear_rigidity = None;
+                    let (line, storey) = (line + 1, storey + 1);
+                    row_places.push(SpringPlace::sliding(MemberPlace::Column { line, storey }));
+                }
+                if let Some(hysteresis) = wall.hinge {
+                    ends[0] = stick_model.yielding(ends[0], hysteresis, MemberEnd::First);
+                    discretization.spring_places.push(SpringPlace::Column {
+                        storey: storey + 1,
+                        line: line + 1,
+                        end: MemberEnd::First,
+                    });
+                }
+            }
             for (joint, end) in [(from, MemberEnd::First), (to, MemberEnd::Last)] {
                 let node = &mut ends[end as usize];
                 if let Some(own) = fibres.filter(|own| own.at_ends[end as usize]) {
                     let place = [storey + 1, line + 1];
                     let (beyond, section) = stick_model.add_fibres(joint, own, place, end);
                     *node = beyond;
+                    row_places.extend(section.places());
                     discretization.sections.push(section);
                 }
                 if let Some(hysteresis) = hinge {
@@ -526,7 +555,7 @@ pub(super) fn discretize_frame(
                 ends[1],
                 &cuts,
                 column.line_mass,
-                column,
+                &column,
                 frame.axial.columns_flexible,
             );
             discretization.members.push(FrameMember {
@@ -549,7 +578,20 @@ pub(super) fn discretize_frame(
             let (Some(beam), &[Some(left), Some(right)]) = (frame.beam(storey, bay), ends) else {
                 continue;
             };
-            let ends = [left, right];
+            // Between the faces of walls, which turn with their axes.
+            let arms = [bay, bay + 1].map(|line| frame.arm([storey, line]));
+            let mut ends = [
+                stick_model.face(left, arms[0]),
+                stick_model.face(right, -arms[1]),
+            ];
+            let mut beam = *beam;
+            let coupling = frame.coupling_beam([storey, bay]);
+            if let Some(hysteresis) = coupling.and_then(|own| own.shear) {
+                ends[0] = stick_model.add_sliding(ends[0], Y, hysteresis);
+                beam.shear_rigidity = None;
+                let (floor, span) = (storey + 1, bay + 1);
+                row_places.push(SpringPlace::sliding(MemberPlace::Beam { floor, span }));
+            }
             let mut ends = [
                 stick_model.hinged(ends[0], &frame.joint),
                 stick_model.hinged(ends[1], &frame.joint),
@@ -570,9 +612,15 @@ pub(super) fn discretize_frame(
                 ends[1],
                 &equal_cuts(frame.beam_segments[bay]),
                 frame.beam_mass[storey],
-                beam,
+                &beam,
                 frame.axial.beams_flexible,
             );
+            for (at, joint) in [left, right].into_iter().enumerate() {
+                if arms[at] > 0.0 {
+                    let between = arms[at] * frame.beam_mass[storey];
+                    stick_model.carry_on_axis(joint, ends[at], between);
+                }
+            }
             discretization.members.push(FrameMember {
                 frame: None,
                 place: MemberPlace::Beam {
@@ -598,9 +646,12 @@ pub(super) fn discretize_frame(
             .extend(at_the_base(BaseMotion::Sliding));
     }
     discretization.spring_places.append(&mut shear_places);
-    let of_fibres: Vec<SpringPlace> = discretization.places_of_fibres().collect();
-    discretization.spring_places.extend(of_fibres);
+    discretization.spring_places.append(&mut row_places);
     discretization.stick_model = stick_model;
+    let walls = frame.walls.iter();
+    discretization.walls = walls.map(|own| InFrame::alone(*own)).collect();
+    let beams = frame.coupling_beams.iter();
+    discretization.coupling_beams = beams.map(|own| InFrame::alone(*own)).collect();
     discretization.add_diagonals(&frame.diagonals, &all_joints);
     discretization
 }

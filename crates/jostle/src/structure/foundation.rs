@@ -44,7 +44,14 @@ impl Discretization {
                 let turned = over_nodes([((node, THETA), lever?)]);
                 Some((index_of((at, Y)), turned))
             });
+            // Faces of walls follow their axes, which now follow the foundation.
+            let faces = std::mem::take(&mut sticks.ties);
             sticks.ties.extend(ties);
+            let faces = faces.into_iter();
+            let faces: Vec<_> = faces
+                .map(|(index, row)| (index, sticks.carried_row(&row)))
+                .collect();
+            sticks.ties.extend(faces);
         }
         sticks.foundation = Some(RigidFoundation {
             node,

@@ -6,6 +6,7 @@ use crate::linear::Row;
 use crate::model::{STANDARD_GRAVITY, SharedColumn, SpacePlace};
 use crate::structure::element::{self, ElementStiffness, Part, THETA, X, Y, index_of};
 use crate::structure::stick_elements;
+use crate::structure::wall_forces::{AtRest, Coupling, CouplingForce, WallForce};
 use crate::structure::{AssembledBuilding, Discretization, Member, MemberEnd, SpringPlace};
 
 /// Where a column or a beam of a frame is; all count from 1.
@@ -165,6 +166,12 @@ pub struct MemberForces {
     /// Ends of columns that are made of fibres, in the order of [`crate::structure::Discretization::sections`]: axial force, positive in tension, and
     /// moment, positive where it stretches the right side; indices into [`MemberForces::forms`]. They are always followed.
     pub sections: Vec<[usize; 2]>,
+    /// Walls of frames, which are always followed.
+    pub walls: Vec<WallForce>,
+    /// Coupling beams of frames, which are always followed.
+    pub coupling_beams: Vec<CouplingForce>,
+    /// Moments at the base of coupled walls.
+    pub coupling: Option<Coupling>,
     /// Every force once; members of one element have one shear.
     pub forms: Vec<LinearForm>,
 }
@@ -248,10 +255,11 @@ impl LinearForm {
 }
 
 impl MemberForces {
-    /// Forces that are followed always: those of braces and struts, and of sections of fibres.
-    pub(crate) fn followed_always(building: &AssembledBuilding) -> Self {
+    /// Forces that are followed always: those of braces, struts, walls and coupling beams, and of sections of fibres.
+    pub(crate) fn followed_always(building: &AssembledBuilding, rest: AtRest<'_>) -> Self {
         let mut forces = Self::default();
         forces.add_diagonals(building);
+        forces.add_walls(building, rest);
         forces.add_sections(&building.discretization);
         forces
     }
@@ -292,14 +300,13 @@ impl MemberForces {
     }
 
     /// Forces of all members of a frame; none for a building without members. `struck` tells whether a neighbour can
-    /// strike the node with this horizontal displacement of the building. `gravity`: that of the weight in the
-    /// displacements at rest; 0 without it \[m/s²\].
+    /// strike the node with this horizontal displacement of the building.
     pub(crate) fn new(
         building: &AssembledBuilding,
-        gravity: f64,
+        rest: AtRest<'_>,
         struck: impl Fn(usize) -> bool,
     ) -> Self {
-        let mut forces = Self::followed_always(building);
+        let mut forces = Self::followed_always(building, rest);
         if let Some(frame) = &building.discretization.space_frame {
             forces.add_space_frame(building, frame);
         }
@@ -309,7 +316,7 @@ impl MemberForces {
         if building.discretization.members.is_empty() {
             return forces;
         }
-        let cuts = Cuts::new(building, gravity);
+        let cuts = Cuts::new(building, rest.gravity);
         let stick_model = &building.discretization.stick_model;
         for member in &building.discretization.members {
             let range = member.elements.clone();
@@ -456,7 +463,7 @@ impl MemberForces {
 }
 
 /// The stick model of a building, ready to be cut.
-struct Cuts<'a> {
+pub(super) struct Cuts<'a> {
     building: &'a AssembledBuilding,
     gravity: f64,
     elements: Vec<Element>,
@@ -480,7 +487,7 @@ struct Element {
 const SAME_LINE: f64 = 1e-6;
 
 impl<'a> Cuts<'a> {
-    fn new(building: &'a AssembledBuilding, gravity: f64) -> Self {
+    pub(super) fn new(building: &'a AssembledBuilding, gravity: f64) -> Self {
         let stick_model = &building.discretization.stick_model;
         let nodes = &stick_model.nodes;
         let of_member = |member: &Member| {
@@ -523,6 +530,26 @@ impl<'a> Cuts<'a> {
             elements: stick_model.members.iter().map(of_member).collect(),
             rows,
         }
+    }
+
+    /// Axial force, shear and moment at the lower or left end of a member.
+    pub(super) fn at_foot(&self, member: &FrameMember) -> [LinearForm; 3] {
+        let element = member.elements.start;
+        [
+            self.axial(element, 0),
+            self.shear(element, 0),
+            self.moment(member, SectionAt::First, element, 0),
+        ]
+    }
+
+    /// The node at its lower or left end.
+    pub(super) fn first_node(&self, member: &FrameMember) -> usize {
+        self.elements[member.elements.start].ends[0]
+    }
+
+    /// The node at its upper or right end.
+    pub(super) fn last_node(&self, member: &FrameMember) -> usize {
+        self.elements[member.elements.end - 1].ends[1]
     }
 
     /// What displacements do to one component of the force that bends or stretches an element at an end.
@@ -576,12 +603,7 @@ impl<'a> Cuts<'a> {
                 },
                 MemberPlace::InSpace(_) => return None,
             };
-            let hinge = match member.frame {
-                Some(frame) => hinge.in_frame(frame + 1)?,
-                None => hinge,
-            };
-            let mut places = self.building.discretization.spring_places.iter();
-            places.position(|place| *place == hinge)
+            self.building.discretization.spring_at(member.frame, hinge)
         });
         match hinge {
             Some(spring) => LinearForm {
@@ -621,12 +643,14 @@ impl<'a> Cuts<'a> {
     fn carried_by_column(&self, cut: &Element) -> LinearForm {
         let stick_model = &self.building.discretization.stick_model;
         let top = stick_model.nodes[cut.ends[1]];
-        let elevation = stick_model.turn(cut.ends[1]).elevation;
+        let line = stick_model.turn(cut.ends[1]);
         let equations = &self.building.equations;
         let mut form = LinearForm::default();
         for (index, node) in stick_model.nodes.iter().enumerate() {
-            let beside = stick_model.turn(index).elevation != elevation
-                || (node.x - top.x).abs() > SAME_LINE;
+            // Faces of a wall are on the line of its axis.
+            let own = stick_model.turn(index);
+            let beside =
+                own.elevation != line.elevation || (own.position - line.position).abs() > SAME_LINE;
             if beside || node.y < top.y - SAME_LINE {
                 continue;
             }

@@ -7,6 +7,7 @@ mod discretization;
 pub(crate) mod element;
 mod equations;
 mod foundation;
+mod frame_walls;
 mod inner_link;
 mod member_end;
 mod member_forces;
@@ -26,6 +27,7 @@ mod storey_forces;
 #[cfg(test)]
 pub(crate) mod testkit;
 mod tiers;
+mod wall_forces;
 
 pub use assembled_building::AssembledBuilding;
 pub use column_ends::FibreSection;
@@ -33,6 +35,7 @@ pub use diagonals::FrameDiagonal;
 pub use discretization::{Discretization, Mat};
 pub use element::{Element, Part};
 pub use equations::{Equations, YieldingSpring};
+pub use frame_walls::InFrame;
 pub use inner_link::{InnerLink, LinkEnd};
 pub(crate) use member_end::{ductility, end_stiffnesses};
 pub(crate) use member_forces::Motion;
@@ -51,3 +54,5 @@ pub use stick_model::{
 };
 pub use storey_forces::{StoreyForce, StoreyForces};
 pub(crate) use tiers::motion_at;
+pub(crate) use wall_forces::AtRest;
+pub use wall_forces::{Coupling, CouplingForce, WallForce};

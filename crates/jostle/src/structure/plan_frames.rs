@@ -70,6 +70,11 @@ pub(super) fn add_frames(
             ..own
         });
         discretization.diagonals.extend(diagonals);
+        let walls = own.walls.into_iter().map(|own| own.in_plan(index));
+        discretization.walls.extend(walls);
+        let beams = own.coupling_beams.into_iter();
+        let beams = beams.map(|own| own.in_plan(index));
+        discretization.coupling_beams.extend(beams);
         let members = own.members.into_iter().map(|member| FrameMember {
             frame: Some(index),
             elements: elements.start + member.elements.start..elements.start + member.elements.end,
@@ -151,6 +156,14 @@ impl StickModel {
     /// Appends the nodes and elements of a frame; returns the range of its members.
     fn append(&mut self, frame: StickModel, place: &Place<'_>) -> Range<usize> {
         let (nodes, members) = (self.nodes.len(), self.members.len());
+        let positions: Vec<f64> = (0..frame.nodes.len())
+            .map(|node| frame.turn(node).position)
+            .collect();
+        // Rows count displacements of nodes.
+        let before = index_of((nodes, X));
+        let faces = frame.ties.iter();
+        let faces = faces.map(|(index, row)| (before + index, row.moved_up(before)));
+        self.ties.extend(faces);
         for (index, node) in frame.nodes.into_iter().enumerate() {
             let (node, floor) = self.node_in_plan(index, &node, place);
             if let Some(floor) = floor {
@@ -163,7 +176,7 @@ impl StickModel {
                 stage: None,
                 height: node.y,
                 elevation: place.elevation,
-                position: node.x,
+                position: positions[index],
             };
             self.turns.insert(self.nodes.len(), turn);
             self.nodes.push(node);
@@ -183,8 +196,6 @@ impl StickModel {
                 own.ends = moved(own.ends);
                 own
             }));
-        // Rows count displacements of nodes.
-        let before = index_of((nodes, X));
         self.elements
             .extend(frame.elements.into_iter().map(|own| own.moved_up(before)));
         self.yielding

@@ -1,6 +1,7 @@
 //! Places of the springs of a building that yield.
 
 use super::diagonals::FrameDiagonal;
+use super::member_forces::MemberPlace;
 use crate::hysteresis::{ForceRow, Side};
 use crate::model::{DiagonalKind, DiagonalPlace, PlanAxis, Rise, SpacePlace};
 
@@ -102,6 +103,13 @@ pub enum SpringPlace {
         /// Its number in the section.
         fibre: usize,
     },
+    /// Shear of a wall or a coupling beam of a frame, which is its sliding.
+    Sliding {
+        /// Its frame, where several stand in a plan.
+        frame: Option<usize>,
+        /// Its column in the lowest storey, or its beam; counted from 1.
+        member: MemberPlace,
+    },
     /// A brace or a strut of a frame.
     Diagonal {
         /// Its frame, where several stand in a plan.
@@ -191,6 +199,10 @@ impl SpringPlace {
                 Some(name) => format!("frame {name}, {}", Self::Beam { floor, bay, end }),
                 None => self.to_string(),
             },
+            Self::Sliding { frame, member } => match frame.and_then(of_frame) {
+                Some(name) => format!("frame {name}, {}", sliding_in_words(member)),
+                None => self.to_string(),
+            },
             Self::Diagonal { frame, place } => match frame.and_then(of_frame) {
                 Some(name) => format!("frame {name}, {}", in_words(place)),
                 None => self.to_string(),
@@ -217,6 +229,10 @@ impl SpringPlace {
             Self::Diagonal { place, .. } => Some(Self::Diagonal {
                 frame: Some(frame),
                 place,
+            }),
+            Self::Sliding { member, .. } => Some(Self::Sliding {
+                frame: Some(frame),
+                member,
             }),
             _ => None,
         }
@@ -276,10 +292,27 @@ impl SpringPlace {
         !(self.is_isolation() || self.is_shear() || strut || fibre)
     }
 
+    /// Shear of a wall or a coupling beam of a building that is one frame.
+    pub(crate) fn sliding(member: MemberPlace) -> Self {
+        Self::Sliding {
+            frame: None,
+            member,
+        }
+    }
+
     /// Whether it is the shear of a column, which fails rather than yields.
     #[must_use]
     pub fn is_shear(&self) -> bool {
         matches!(self, Self::Shear { .. })
+    }
+}
+
+/// Shear of a wall or a coupling beam in words.
+fn sliding_in_words(member: MemberPlace) -> String {
+    match member {
+        MemberPlace::Column { line, storey } => format!("wall {line}, storey {storey}, shear"),
+        MemberPlace::Beam { floor, span } => format!("coupling beam {span}, floor {floor}, shear"),
+        MemberPlace::InSpace(place) => place.to_string(),
     }
 }
 
@@ -371,6 +404,7 @@ impl std::fmt::Display for SpringPlace {
                 "{}, fibre {fibre}",
                 Self::Column { storey, line, end }
             ),
+            Self::Sliding { member, .. } => formatter.write_str(&sliding_in_words(member)),
             Self::Diagonal { place, .. } => formatter.write_str(&in_words(place)),
             Self::Storey { storey } => write!(formatter, "storey {storey}"),
             Self::Base { line, motion } => {

@@ -90,8 +90,13 @@ impl StickModel {
     /// stands on one on columns that keep their length \[m\].
     #[must_use]
     pub fn lever(&self, node: usize) -> Option<f64> {
+        let foundation = self.foundation.as_ref()?;
         let tied = self.ties.get(&index_of((node, Y)))?;
-        tied.entries().first().map(|(_, lever)| *lever)
+        // Faces of walls follow their axes as well.
+        match *tied.entries() {
+            [(turned, lever)] if turned == index_of((foundation.node, THETA)) => Some(lever),
+            _ => None,
+        }
     }
 
     /// Whether any of it moves across the row.

@@ -18,7 +18,8 @@ use crate::simd;
 use crate::statics::{Collapse, Settled, under_gravity};
 use crate::structure::motion_at;
 use crate::structure::{
-    AssembledBuilding, Discretization, Influence, InnerLink, MemberForces, SpringPlace, Support,
+    AssembledBuilding, AtRest, Discretization, Influence, InnerLink, MemberForces, SpringPlace,
+    Support,
 };
 use crate::transfer::riccati::RiccatiSweep;
 
@@ -160,6 +161,23 @@ impl BuildingSystem {
     #[must_use]
     pub fn new(name: &str, discretization: Discretization) -> Self {
         Self::from_assembled(AssembledBuilding::new(name, discretization))
+    }
+
+    /// Where it stands before it moves.
+    pub(crate) fn at_rest(&self) -> AtRest<'_> {
+        let Settled {
+            displacement,
+            springs,
+        } = &self.rest;
+        let gravity = match displacement.is_empty() {
+            true => 0.0,
+            false => STANDARD_GRAVITY,
+        };
+        AtRest {
+            gravity,
+            displacement,
+            springs,
+        }
     }
 
     fn from_assembled(structure: AssembledBuilding) -> Self {

@@ -15,7 +15,8 @@ impl System {
             self.buildings[index].members = if request.envelopes {
                 self.member_forces(index)
             } else {
-                MemberForces::followed_always(&self.buildings[index].structure)
+                let own = &self.buildings[index];
+                MemberForces::followed_always(&own.structure, own.at_rest())
             };
         }
         for wanted in &request.histories {
@@ -75,11 +76,6 @@ impl System {
 
     fn member_forces(&self, index: usize) -> MemberForces {
         let building = &self.buildings[index];
-        let gravity = if building.rest.displacement.is_empty() {
-            0.0
-        } else {
-            crate::statics::STANDARD_GRAVITY
-        };
         let is_struck = |dof: usize| {
             let mut ports = self
                 .contacts
@@ -88,7 +84,7 @@ impl System {
             let struck = Row::single(building.offset + dof);
             ports.any(|(port, _)| port.building == index && port.row == struck)
         };
-        let mut forces = MemberForces::new(&building.structure, gravity, is_struck);
+        let mut forces = MemberForces::new(&building.structure, building.at_rest(), is_struck);
         for form in &mut forces.forms {
             let Some(floor) = form.left_face else {
                 continue;

@@ -29,6 +29,11 @@ pub enum NotAFrame {
         "it stands on a foundation that turns; this form of the method is for bases that do not"
     )]
     Turns,
+    /// Its beams meet the faces of walls.
+    #[error(
+        "its beams meet walls at their faces; this form of the method is for beams between the axes of columns"
+    )]
+    Walls,
     /// A node is on no column line and no beam.
     #[error("node {node} lies on no column line and on no beam")]
     LooseNode {
@@ -119,6 +124,9 @@ impl Layout {
         }
         if stick_model.foundation.is_some() {
             return Err(NotAFrame::Turns);
+        }
+        if !building.discretization.walls.is_empty() {
+            return Err(NotAFrame::Walls);
         }
         let elements = elements(stick_model);
         let mut around = vec![Vec::new(); stick_model.nodes.len()];

@@ -58,7 +58,11 @@ pub struct BuildingSummary {
     /// Columns that failed in shear; absent if none can.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shear_failures: Option<ShearFailureSummary>,
-    /// Braces and struts; absent if it has none.
+    /// Share of the moment at the base that axial forces of coupled walls bear, without that of self weight: the greatest of their moment
+    /// about the middle of the walls over the greatest of all; absent without coupling beams \[–\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub degree_of_coupling: Option<f64>,
+    /// Braces, struts, walls and coupling beams; absent if it has none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<PartSummary>,
     /// Ends of columns that are made of fibres, storey by storey; absent if it has none.
@@ -83,6 +87,7 @@ impl BuildingSummary {
         Quantity::<Self>::optional("period_s", Unit::S, "period of the first lateral mode", |b| b.periods_s.first().copied()).not_in_summary().in_study(),
         Quantity::<Self>::real("rayleigh_alpha_per_s", Unit::PER_S, "Rayleigh damping: coefficient of the mass", |b| b.rayleigh_alpha_per_s),
         Quantity::<Self>::real("rayleigh_beta_s", Unit::S, "Rayleigh damping: coefficient of the stiffness", |b| b.rayleigh_beta_s),
+        Quantity::<Self>::optional("degree_of_coupling", Unit::NONE, "greatest moment at the base by axial forces of coupled walls over the greatest of all; absent without coupling beams", |b| b.degree_of_coupling).not_in_table(),
     ];
 }
 

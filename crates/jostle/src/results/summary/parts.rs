@@ -1,24 +1,40 @@
-//! Braces and struts of frames.
+//! Braces, struts, walls and coupling beams of frames.
 
 use serde::Serialize;
 
 use crate::quantity::{Quantity, Unit};
 
-/// A brace, or a strut of an infill panel.
-#[derive(Clone, Debug, Serialize, PartialEq)]
+/// A brace, a strut of an infill panel, a wall or a coupling beam.
+#[derive(Clone, Debug, Default, Serialize, PartialEq)]
 pub struct PartSummary {
-    /// Name: `BUILDING.brace.STOREY.BAY`, with the way it rises from left to right, `up` or `down`, where two cross.
+    /// Name: `BUILDING.brace.STOREY.BAY`, with the way it rises from left to right, `up` or `down`, where two cross;
+    /// `BUILDING.wall.NUMBER`; `BUILDING.coupling-beam.FLOOR.BAY`.
     pub name: String,
-    /// `brace` or `infill`.
+    /// `brace`, `infill`, `wall` or `coupling-beam`.
     pub kind: &'static str,
-    /// Greatest tension, zero if there is none \[N\].
+    /// Greatest tension, of a wall at its foot; of a coupling beam its greatest shear, positive as that of beams. Zero if there is none
+    /// \[N\].
     pub force_max_n: f64,
-    /// Greatest compression as a negative force, zero if there is none \[N\].
+    /// Greatest compression, or shear of the other sense, as a negative force; zero if there is none \[N\].
     pub force_min_n: f64,
-    /// Greatest elongation, ≥ 0 \[m\].
+    /// Greatest elongation, ≥ 0, of a wall between its foot and its top; of a coupling beam, how far its ends rise against
+    /// each other beyond their mean rotation \[m\].
     pub deformation_max: f64,
-    /// Greatest shortening as a magnitude, ≥ 0 \[m\].
+    /// The same in the other sense, as a magnitude, ≥ 0 \[m\].
     pub deformation_min: f64,
+    /// Greatest moment at the foot of a wall, positive where the right face is stretched; absent in others \[N·m\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub moment_max_n_m: Option<f64>,
+    /// Least moment there \[N·m\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub moment_min_n_m: Option<f64>,
+    /// Greatest rotation of the hinge at the foot of a wall, zero without one; of a coupling beam that of its chord. Absent in others
+    /// \[rad\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rotation_max_rad: Option<f64>,
+    /// The same in the other sense, as a magnitude \[rad\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rotation_min_rad: Option<f64>,
     /// Energy dissipated \[J\].
     pub dissipated_j: f64,
 }
@@ -27,10 +43,14 @@ pub struct PartSummary {
 impl PartSummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::real("force_max_n", Unit::N, "greatest tension", |p| p.force_max_n),
-        Quantity::<Self>::real("force_min_n", Unit::N, "greatest compression, negative", |p| p.force_min_n),
-        Quantity::<Self>::real("deformation_max", Unit::M, "greatest elongation", |p| p.deformation_max),
-        Quantity::<Self>::real("deformation_min", Unit::M, "greatest shortening", |p| p.deformation_min),
+        Quantity::<Self>::real("force_max_n", Unit::N, "greatest tension, of a wall at its foot; greatest shear of a coupling beam", |p| p.force_max_n),
+        Quantity::<Self>::real("force_min_n", Unit::N, "greatest compression, or shear of the other sense, negative", |p| p.force_min_n),
+        Quantity::<Self>::real("deformation_max", Unit::M, "greatest elongation, of a wall between its foot and its top; transverse displacement between the ends of a coupling beam", |p| p.deformation_max),
+        Quantity::<Self>::real("deformation_min", Unit::M, "the same in the other sense, as a magnitude", |p| p.deformation_min),
+        Quantity::<Self>::optional("moment_max_n_m", Unit::NM, "greatest moment at the foot of a wall, positive where its right face is stretched", |p| p.moment_max_n_m),
+        Quantity::<Self>::optional("moment_min_n_m", Unit::NM, "least moment at the foot of a wall", |p| p.moment_min_n_m),
+        Quantity::<Self>::optional("rotation_max_rad", Unit::RAD, "greatest rotation of the hinge of a wall, or of the chord of a coupling beam", |p| p.rotation_max_rad),
+        Quantity::<Self>::optional("rotation_min_rad", Unit::RAD, "the same in the other sense, as a magnitude", |p| p.rotation_min_rad),
         Quantity::<Self>::real("dissipated_j", Unit::J, "energy dissipated", |p| p.dissipated_j),
     ];
 }

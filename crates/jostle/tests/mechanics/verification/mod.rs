@@ -18,6 +18,7 @@ mod face_points;
 mod forces_never_pull;
 mod foundation_forces;
 mod foundations;
+mod frame_walls;
 mod friction_limit;
 mod given_structures;
 mod grounds;

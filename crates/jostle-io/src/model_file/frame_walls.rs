@@ -1,0 +1,505 @@
+//! `[[building.wall]]` and `[[building.coupling_beam]]`: walls at column lines of a frame, and the beams between them.
+
+use std::collections::BTreeMap;
+
+use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule, Side};
+use jostle::{CouplingBeam, FramePlace, FrameWall, Section as CrossSection};
+
+use super::brace::tables;
+use super::hinges::read_spring;
+use super::places::range;
+use super::section::{Material, Sides, own_mass, rectangle, rigidities};
+use crate::keys::{AXIAL, Section, WALL_STIFFNESS};
+use crate::quantity::Dimension;
+use crate::reader::{Field, Reader, View};
+
+/// Walls stand at a column line that is no farther from their place \[m\].
+const SAME_LINE: f64 = 1e-3;
+
+/// Initial stiffness of a hinge at the foot of a wall in units of EI over the height of its storey, as of columns \[–\].
+const HINGE_INITIAL: f64 = 100.0;
+
+/// The effective height of a wall over its height: the resultant of forces that grow linearly with height \[–\].
+const EFFECTIVE_HEIGHT: f64 = 2.0 / 3.0;
+
+/// The frame in which walls stand.
+#[derive(Clone, Copy)]
+pub(super) struct Bays<'a> {
+    pub(super) heights: &'a [f64],
+    pub(super) spans: &'a [f64],
+    /// Of columns and of beams.
+    pub(super) materials: [Material; 2],
+}
+
+/// Walls and coupling beams of a frame.
+#[derive(Default)]
+pub(super) struct Walls {
+    pub(super) walls: Vec<FrameWall>,
+    pub(super) beams: Vec<CouplingBeam>,
+    /// Sections by storey and line, and by floor and bay, from 0.
+    pub(super) sections: [BTreeMap<FramePlace, CrossSection>; 2],
+    /// Whether some could not be read, so that their places seem empty.
+    pub(super) incomplete: bool,
+}
+
+impl Bays<'_> {
+    fn lines(&self) -> Vec<f64> {
+        let ends = self.spans.iter().scan(0.0, |x, span| {
+            *x += span;
+            Some(*x)
+        });
+        std::iter::once(0.0).chain(ends).collect()
+    }
+}
+
+/// Reads the walls and the coupling beams of a frame.
+pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, bays: Bays<'_>) -> Walls {
+    let mut all = Walls::default();
+    // One per table, so that coupling beams can name them.
+    let mut of_tables = Vec::new();
+    for entry in tables(reader, view, "wall") {
+        let found = read_wall(reader, &entry, bays);
+        all.incomplete |= found.is_none();
+        of_tables.push(found.map(|(wall, _)| wall));
+        let Some((wall, section)) = found else {
+            continue;
+        };
+        for storey in wall.storeys[0]..=wall.storeys[1] {
+            all.sections[0].insert([storey - 1, wall.line - 1], section);
+        }
+        all.walls.push(wall);
+    }
+    for entry in tables(reader, view, "coupling_beam") {
+        let found = read_beams(reader, &entry, bays, &of_tables);
+        all.incomplete |= found.is_none();
+        for (beam, section) in found.unwrap_or_default() {
+            let place = [beam.floor - 1, beam.bay - 1];
+            if all.sections[1].insert(place, section).is_some() {
+                *reader.bad(
+                    &entry,
+                    format!(
+                        "gives bay {} at floor {} a second time",
+                        beam.bay, beam.floor
+                    ),
+                ) = Some("leave it out here, or name other bays and floors".into());
+                break;
+            }
+            all.beams.push(beam);
+        }
+    }
+    all
+}
+
+fn read_wall(
+    reader: &mut Reader<'_>,
+    entry: &Field<'_>,
+    bays: Bays<'_>,
+) -> Option<(FrameWall, CrossSection)> {
+    let view = reader.open(entry, &[Section::FrameWall])?;
+    let line = read_line(reader, &view, bays);
+    let storeys = range(reader, &view, "storeys", bays.heights.len());
+    let sides: Sides = [
+        ("thickness", "\"250 mm\""),
+        ("length", "\"3 m\", along the frame"),
+    ];
+    let length = match reader.get(&view, "length") {
+        Some(field) => reader.positive(&field, Dimension::Length),
+        None => {
+            reader.missing(
+                &view,
+                "length",
+                "add length = \"3 m\", along the frame: beams span between the faces of walls",
+            );
+            return None;
+        }
+    };
+    let thickness = reader.get(&view, "thickness").map(|field| {
+        let thickness = reader.quietly(|reader| reader.positive(&field, Dimension::Length));
+        (field, thickness)
+    });
+    if let (Some(length), Some((field, Some(thickness)))) = (length, &thickness)
+        && *thickness > length
+    {
+        *reader.bad(field, format!("is more than the length of the wall, {length} m")) =
+            Some("length is measured along the frame and thickness across; a column stands in [[building.column]]".into());
+        return None;
+    }
+    let [material, _] = bays.materials;
+    let by_size = thickness.is_some();
+    let mut section = read_section(reader, &view, entry, sides, by_size, material)?;
+    let stated = reader.get(&view, "mass");
+    section.line_mass = match stated {
+        Some(field) => reader.quantity(&field, Dimension::LineMass)?,
+        None => own_mass(reader, &view, Some(section), !by_size, material)?,
+    };
+    let stiffness_factors = read_factors(reader, &view, material, None)?;
+    let section = reduced(section, stiffness_factors);
+    let (line, storeys, length) = (line?, storeys?, length?);
+    let heights = &bays.heights[storeys[0] - 1..storeys[1]];
+    let hinge = match reader.get(&view, "hinge") {
+        Some(field) => {
+            let foot = Foot {
+                rigidity: section.flexural_rigidity,
+                storey: heights[0],
+                height: heights.iter().sum(),
+                length,
+            };
+            Some(read_hinge(reader, &field, foot)?)
+        }
+        None => None,
+    };
+    let shear = match reader.get(&view, "shear_hinge") {
+        Some(field) => Some(read_sliding(reader, &field, section, heights[0])?),
+        None => None,
+    };
+    let wall = FrameWall {
+        line,
+        storeys,
+        length,
+        hinge,
+        shear,
+        stiffness_factors,
+    };
+    Some((wall, section))
+}
+
+/// The column line of a wall, from 1.
+fn read_line(reader: &mut Reader<'_>, view: &View<'_>, bays: Bays<'_>) -> Option<usize> {
+    let lines = bays.lines();
+    match (reader.get(view, "at"), reader.get(view, "line")) {
+        (Some(field), Some(_)) => {
+            *reader.bad(&field, "and line are both given") = Some("leave out one of them".into());
+            None
+        }
+        (Some(field), None) => {
+            let at = reader.quantity(&field, Dimension::Length)?;
+            let found = lines.iter().position(|line| (line - at).abs() <= SAME_LINE);
+            if found.is_none() {
+                let known: Vec<String> = lines.iter().map(|line| format!("{line}")).collect();
+                *reader.bad(&field, format!("{at} m is at no column line")) = Some(format!(
+                    "column lines stand at {} m; add one by spans, or name one by line",
+                    known.join(", ")
+                ));
+            }
+            Some(found? + 1)
+        }
+        (None, Some(field)) => {
+            let line = reader.count(&field)?;
+            if !(1..=lines.len()).contains(&line) {
+                *reader.bad(
+                    &field,
+                    format!("must lie between 1 and {}, found {line}", lines.len()),
+                ) = Some(
+                    "column lines are counted from 1 at the left; there is one more than spans"
+                        .into(),
+                );
+                return None;
+            }
+            Some(line)
+        }
+        (None, None) => {
+            reader.missing(view, "at", "add at = \"4.5 m\", where its axis stands from the first column line on; or line = 2");
+            None
+        }
+    }
+}
+
+/// A rectangle of these sides, or rigidities. Shear deforms it unless the table says otherwise.
+fn read_section(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    entry: &Field<'_>,
+    sides: Sides,
+    by_size: bool,
+    material: Material,
+) -> Option<CrossSection> {
+    let shears = match reader.get(view, "shear") {
+        Some(field) => reader.choice(&field, AXIAL, &[])? == "flexible",
+        None => true,
+    };
+    let by_rigidity = view.has("EI") || view.has("EA") || view.has("GA");
+    match (by_size, by_rigidity) {
+        (true, true) => {
+            *reader.bad(entry, "has both a size and rigidities") =
+                Some(format!("keep either {}, or EI, EA and GA", sides[0].0));
+            None
+        }
+        (false, true) => rigidities(reader, view, shears),
+        _ => rectangle(reader, view, Material { shears, ..material }, sides),
+    }
+}
+
+/// Factors on EI and GA of walls, or of coupling beams with their clear length over their depth if that is known; `None` after a fault.
+fn read_factors(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    material: Material,
+    slenderness: Option<Option<f64>>,
+) -> Option<[f64; 2]> {
+    let Some(field) = reader.get(view, "stiffness_factor") else {
+        return Some([material.factor, 1.0]);
+    };
+    let is_word = field
+        .as_text()
+        .is_some_and(|text| text.trim().parse::<f64>().is_err());
+    if !is_word {
+        let factor = reader.positive(&field, Dimension::Dimensionless)?;
+        return Some([factor, 1.0]);
+    }
+    if reader.choice(&field, WALL_STIFFNESS, &[])? == "en1998" {
+        // EN 1998-1, 4.3.1(7): half of bending and shear.
+        return Some([0.5, 0.5]);
+    }
+    // ACI 369.1-22 as ASCE 41-23 has it: rigidities in shear are parts of E A, where the full one is 5/6 G A.
+    let full = 5.0 / 6.0 / (2.0 * (1.0 + material.poisson_ratio));
+    match slenderness {
+        None => Some([0.25, 0.15 / full]),
+        Some(Some(slenderness)) => Some([(0.05 * slenderness).min(0.2), 0.2 / full]),
+        Some(None) => {
+            *reader.bad(
+                &field,
+                "needs the depth of the beam: its factor on EI follows from length over depth",
+            ) = Some("give width and depth instead of EI, or stiffness_factor = 0.1".into());
+            None
+        }
+    }
+}
+
+fn reduced(section: CrossSection, [bending, shear]: [f64; 2]) -> CrossSection {
+    CrossSection {
+        flexural_rigidity: bending * section.flexural_rigidity,
+        shear_rigidity: section.shear_rigidity.map(|rigidity| shear * rigidity),
+        ..section
+    }
+}
+
+/// Foot of a wall: EI, height of its lowest storey, its height and its length \[N·m², m\].
+struct Foot {
+    rigidity: f64,
+    storey: f64,
+    height: f64,
+    length: f64,
+}
+
+/// The hinge at the foot of a wall.
+fn read_hinge(reader: &mut Reader<'_>, field: &Field<'_>, foot: Foot) -> Option<Hysteresis> {
+    const KEYS: &[Section] = &[Section::WallHinge];
+    let view = reader.reopen(field, KEYS)?;
+    let usual = foot.rigidity / foot.storey;
+    let initial = match (reader.get(&view, "stiffness"), reader.get(&view, "initial")) {
+        (Some(field), Some(_)) => {
+            *reader.bad(&field, "and initial are both given") =
+                Some("leave out one of them: stiffness is initial times EI over the height of the lowest storey".into());
+            None
+        }
+        (Some(field), None) => reader.positive(&field, Dimension::RotationalStiffness),
+        (None, Some(field)) => {
+            let times = reader.positive(&field, Dimension::Dimensionless);
+            times.map(|times| times * usual)
+        }
+        (None, None) => Some(HINGE_INITIAL * usual),
+    };
+    let Some(stated) = reader.get(&view, "length") else {
+        if !view.has("stiffness") && !view.has("initial") && view.has("yield") {
+            reader.missing(&view, "stiffness", "post_cracking and post_yield are parts of it: add stiffness = \"60 GN.m/rad\", initial = 100 (in units of EI over the height of the lowest storey), or length = \"paulay-priestley\"");
+            return None;
+        }
+        return read_spring(reader, field, KEYS, initial, Dimension::Moment);
+    };
+    let length = match stated.as_text() {
+        // L_p = 0.2 l_w + 0.044 h_e (Paulay and Priestley 1992).
+        Some("paulay-priestley") => 0.2 * foot.length + 0.044 * EFFECTIVE_HEIGHT * foot.height,
+        _ => reader.positive(&stated, Dimension::Length)?,
+    };
+    if length > foot.storey {
+        *reader.bad(
+            &stated,
+            format!(
+                "{length:.3} m is more than the height of the lowest storey, {} m",
+                foot.storey
+            ),
+        ) = Some("give a shorter length".into());
+        return None;
+    }
+    // As a moment over curvature times that length.
+    let curvature = foot.rigidity / length;
+    let given = read_spring(reader, field, KEYS, Some(curvature), Dimension::Moment)?;
+    let (rule, initial) = (given.rule(), initial?);
+    let corners = Side::BOTH.map(|side| {
+        let own = given.backbone().side(side);
+        // The wall itself bends elastically over its whole height; the hinge adds what is beyond.
+        let beyond = |slope: f64| slope / (1.0 - slope / curvature) / initial;
+        match rule {
+            HysteresisRule::Elastic => Corners::bilinear(1.0, 1.0),
+            HysteresisRule::Bilinear => {
+                Corners::bilinear(own.yielding.force, beyond(own.post_yield))
+            }
+            _ => Corners {
+                cracking: own.cracking.force,
+                yielding: own.yielding.force,
+                post_cracking: beyond(own.post_cracking),
+                post_yield: beyond(own.post_yield),
+            },
+        }
+    });
+    let hinge = Backbone::from_forces(initial, corners[0], corners[1])
+        .and_then(|backbone| Hysteresis::new(rule, backbone));
+    match hinge {
+        Ok(hinge) => Some(hinge),
+        Err(faults) => {
+            let problem = faults
+                .first()
+                .map_or_else(String::new, |fault| fault.problem.clone());
+            *reader.bad(
+                field,
+                format!("has no sound curve over a length of {length:.3} m: {problem}"),
+            ) = Some(
+                "give smaller post_cracking and post_yield, which are parts of EI there".into(),
+            );
+            None
+        }
+    }
+}
+
+/// Shear of a wall or a coupling beam of this length that yields: initially that of GA, or stated.
+fn read_sliding(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    section: CrossSection,
+    length: f64,
+) -> Option<Hysteresis> {
+    const KEYS: &[Section] = &[Section::LinkHinge, Section::Sliding];
+    let view = reader.reopen(field, KEYS)?;
+    let stiffness = match (reader.get(&view, "stiffness"), section.shear_rigidity) {
+        (Some(field), _) => reader.positive(&field, Dimension::Stiffness)?,
+        (None, Some(rigidity)) => rigidity / length,
+        (None, None) => {
+            reader.missing(&view, "stiffness", "add stiffness = \"500 MN/m\", force over sliding before it yields; or let shear be \"flexible\", with GA");
+            return None;
+        }
+    };
+    read_spring(reader, field, KEYS, Some(stiffness), Dimension::Force)
+}
+
+/// Coupling beams of a table, with their section.
+fn read_beams(
+    reader: &mut Reader<'_>,
+    entry: &Field<'_>,
+    bays: Bays<'_>,
+    walls: &[Option<FrameWall>],
+) -> Option<Vec<(CouplingBeam, CrossSection)>> {
+    let view = reader.open(entry, &[Section::CouplingBeam])?;
+    let storeys = bays.heights.len();
+    let places = match (reader.get(&view, "between"), reader.get(&view, "bay")) {
+        (Some(field), Some(_)) => {
+            *reader.bad(&field, "and bay are both given") = Some("leave out one of them".into());
+            None
+        }
+        (Some(field), None) => between(reader, &field, walls),
+        (None, Some(_)) => {
+            let named = range(reader, &view, "bay", bays.spans.len());
+            named.map(|named| (named, [1, storeys]))
+        }
+        (None, None) => {
+            reader.missing(&view, "between", "add between = [1, 2], the numbers of two walls in the order of the file; or bay = 1");
+            None
+        }
+    };
+    let stated = view
+        .has("floors")
+        .then(|| range(reader, &view, "floors", storeys));
+    let ([first, last], floors) = places?;
+    let floors = match stated {
+        Some(stated) => stated?,
+        None => floors,
+    };
+    // Between the faces of the walls.
+    let half = |line: usize| {
+        let own = walls.iter().flatten().filter(|own| own.line == line);
+        own.map(|own| 0.5 * own.length).fold(0.0, f64::max)
+    };
+    let clear = bays.spans[first - 1] - half(first) - half(first + 1);
+    let sides: Sides = [("width", "\"300 mm\""), ("depth", "\"600 mm\"")];
+    let by_size = view.has("width") || view.has("depth");
+    let [_, material] = bays.materials;
+    let section = read_section(reader, &view, entry, sides, by_size, material)?;
+    let depth = reader.get(&view, "depth");
+    let depth =
+        depth.and_then(|field| reader.quietly(|reader| reader.positive(&field, Dimension::Length)));
+    let slenderness = depth.map(|depth| clear / depth);
+    let stiffness_factors = read_factors(reader, &view, material, Some(slenderness))?;
+    let section = CrossSection {
+        line_mass: 0.0,
+        ..reduced(section, stiffness_factors)
+    };
+    // A fault of the walls, noted elsewhere.
+    let length = clear.max(f64::MIN_POSITIVE);
+    let shear = match reader.get(&view, "hinge") {
+        Some(field) => Some(read_sliding(reader, &field, section, length)?),
+        None => None,
+    };
+    let bays = first..=last;
+    let all = bays.flat_map(|bay| (floors[0]..=floors[1]).map(move |floor| (floor, bay)));
+    let beams = all.map(|(floor, bay)| {
+        let beam = CouplingBeam {
+            floor,
+            bay,
+            shear,
+            stiffness_factors,
+        };
+        (beam, section)
+    });
+    Some(beams.collect())
+}
+
+/// The bay between two walls, and the floors at which both stand.
+fn between(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    walls: &[Option<FrameWall>],
+) -> Option<([usize; 2], [usize; 2])> {
+    let numbers = match field.entries().as_deref() {
+        Some([first, last]) => [reader.count(first)?, reader.count(last)?],
+        _ => {
+            reader.bad(field, "expected the numbers of two walls, such as [1, 2]");
+            return None;
+        }
+    };
+    let missing = numbers
+        .iter()
+        .find(|number| !(1..=walls.len()).contains(*number));
+    if let Some(number) = missing {
+        *reader.bad(field, format!("names wall {number}, but there are {}", walls.len())) = Some(
+            "walls are counted from 1 in the order of [[building.wall]]; add the wall, or name a bay".into(),
+        );
+        return None;
+    }
+    // Faults of walls stand there.
+    let [Some(mut left), Some(mut right)] = numbers.map(|number| walls[number - 1]) else {
+        return None;
+    };
+    if left.line > right.line {
+        (left, right) = (right, left);
+    }
+    if left.line + 1 != right.line {
+        *reader.bad(
+            field,
+            format!(
+                "names walls at lines {} and {}, which are no neighbours",
+                left.line, right.line
+            ),
+        ) = Some("a coupling beam crosses one bay; name walls at neighbouring lines".into());
+        return None;
+    }
+    let first = left.storeys[0]
+        .max(right.storeys[0])
+        .saturating_sub(1)
+        .max(1);
+    let last = left.storeys[1].min(right.storeys[1]);
+    if last < first {
+        *reader.bad(field, "names walls that share no storey") =
+            Some("name walls that stand beside each other".into());
+        return None;
+    }
+    Some(([left.line; 2], [first, last]))
+}

@@ -1,0 +1,89 @@
+//! Parts of frames in the text of a summary.
+
+use std::fmt::Write;
+
+use jostle::results::summary::{BuildingSummary, PartSummary};
+
+/// The greatest forces of braces, struts, walls and coupling beams of every building.
+pub(crate) fn write_parts(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::Result {
+    for (kind, noun) in [("brace", "Braces"), ("infill", "Infill struts")] {
+        for building in buildings {
+            let own = || building.parts.iter().filter(|own| own.kind == kind);
+            let force = |own: &PartSummary| own.force_max_n.max(-own.force_min_n);
+            let Some(worst) = own().max_by(|a, b| force(a).total_cmp(&force(b))) else {
+                continue;
+            };
+            let dissipated: f64 = own().map(|own| own.dissipated_j).sum();
+            let spent = match dissipated > 0.0 {
+                true => format!("; {:.1} kJ dissipated in all", dissipated / 1e3),
+                false => String::new(),
+            };
+            // Struts have no tension.
+            let tension = match kind {
+                "infill" => String::new(),
+                _ => format!("{:.0} kN of tension and ", worst.force_max_n / 1e3),
+            };
+            writeln!(
+                text,
+                "\n{noun} of {}: up to {tension}{:.0} kN of compression in {}{spent}",
+                building.name,
+                -worst.force_min_n / 1e3,
+                worst.name
+            )?;
+        }
+    }
+    buildings
+        .iter()
+        .try_for_each(|building| write_walls(text, building))
+}
+
+/// Moments at the feet of walls, and what couples them.
+fn write_walls(text: &mut String, building: &BuildingSummary) -> std::fmt::Result {
+    let moment = |own: &PartSummary| {
+        let both = [own.moment_max_n_m, own.moment_min_n_m].map(Option::unwrap_or_default);
+        both[0].max(-both[1])
+    };
+    let walls = building.parts.iter().filter(|own| own.kind == "wall");
+    if let Some(worst) = walls.max_by(|a, b| moment(a).total_cmp(&moment(b))) {
+        let turned =
+            [worst.rotation_max_rad, worst.rotation_min_rad].map(Option::unwrap_or_default);
+        let turned = turned[0].max(turned[1]);
+        let hinge = match turned > 0.0 {
+            true => format!(", where its hinge turns by {:.2} mrad", turned * 1e3),
+            false => String::new(),
+        };
+        let coupled = building
+            .degree_of_coupling
+            .map_or_else(String::new, |degree| {
+                format!(
+                    "; their couple bears {:.0} % of the moment at the base",
+                    100.0 * degree
+                )
+            });
+        writeln!(
+            text,
+            "\nWalls of {}: up to {:.0} kN·m at the foot of {}{hinge}{coupled}",
+            building.name,
+            moment(worst) / 1e3,
+            worst.name
+        )?;
+    }
+    let force = |own: &PartSummary| own.force_max_n.max(-own.force_min_n);
+    let beams = building
+        .parts
+        .iter()
+        .filter(|own| own.kind == "coupling-beam");
+    if let Some(worst) = beams.max_by(|a, b| force(a).total_cmp(&force(b))) {
+        let turned =
+            [worst.rotation_max_rad, worst.rotation_min_rad].map(Option::unwrap_or_default);
+        writeln!(
+            text,
+            "Coupling beams of {}: up to {:.0} kN of shear in {}, whose chord turns by {:.2} mrad",
+            building.name,
+            force(worst) / 1e3,
+            worst.name,
+            turned[0].max(turned[1]) * 1e3
+        )?;
+    }
+    Ok(())
+}

@@ -1,0 +1,140 @@
+//! Walls of plane frames, and the beams that couple them.
+
+use super::{Frame, FramePlace, Section};
+use crate::hysteresis::Hysteresis;
+
+/// A wall of a plane frame: it takes the place of a column line over some storeys, and beams meet its faces instead of its axis.
+///
+/// Its sections are columns of the frame ([`Frame::column`]). What is rigid is its cross-section: a floor there turns with the wall,
+/// so that its faces rise and sink.
+///
+/// ```
+/// use jostle::{Frame, FrameWall, Section};
+///
+/// // A wall of 250 mm × 3 m, E = 30 GPa, between two columns.
+/// let (modulus, thickness, length) = (30e9, 0.25, 3.0_f64);
+/// let section = Section {
+///     flexural_rigidity: modulus * thickness * length.powi(3) / 12.0,
+///     axial_rigidity: Some(modulus * thickness * length),
+///     shear_rigidity: Some(5.0 / 6.0 * modulus / 2.4 * thickness * length),
+///     line_mass: 2500.0 * thickness * length,
+/// };
+/// let wall = FrameWall {
+///     line: 2,
+///     storeys: [1, 4],
+///     length,
+///     hinge: None,
+///     shear: None,
+///     stiffness_factors: [1.0; 2],
+/// };
+/// let mut frame = Frame { spans: vec![6.0, 6.0], walls: vec![wall], ..Frame::default() };
+/// frame.own_columns.extend((0..4).map(|storey| ([storey, 1], Some(section))));
+/// assert_eq!(frame.clear_span([2, 0]), 6.0 - 1.5);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrameWall {
+    /// Column line of its axis, from 1.
+    pub line: usize,
+    /// Its first and its last storey, from 1.
+    pub storeys: [usize; 2],
+    /// Length along the frame, > 0 \[m\].
+    pub length: f64,
+    /// Hinge at its foot, if it yields there: moment over rotation, positive where the right face is stretched \[N·m, rad\].
+    pub hinge: Option<Hysteresis>,
+    /// Shear of its lowest storey, if that yields: force over sliding, positive where the wall slides to the right. Its initial
+    /// stiffness takes the place of the shear rigidity of the section there \[N, m\].
+    pub shear: Option<Hysteresis>,
+    /// What its sections have of EI and of GA of the whole cross-section, > 0; for reports \[–\].
+    pub stiffness_factors: [f64; 2],
+}
+
+/// A beam between two walls of a plane frame. Its section is a beam of the frame ([`Frame::beam`]).
+///
+/// ```
+/// let elastic = jostle::CouplingBeam { floor: 3, bay: 1, shear: None, stiffness_factors: [1.0; 2] };
+/// assert!(elastic.shear.is_none());
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CouplingBeam {
+    /// Floor, from 1.
+    pub floor: usize,
+    /// Bay, from 1.
+    pub bay: usize,
+    /// Shear, if it yields: force over sliding, positive where the left wall pushes the beam up. Its initial stiffness takes the place
+    /// of the shear rigidity of the section \[N, m\].
+    pub shear: Option<Hysteresis>,
+    /// What its section has of EI and of GA of the whole cross-section, > 0; for reports \[–\].
+    pub stiffness_factors: [f64; 2],
+}
+
+impl Frame {
+    /// The wall in a storey at a column line, both counted from 0.
+    #[must_use]
+    pub fn wall(&self, [storey, line]: FramePlace) -> Option<&FrameWall> {
+        let stands = |own: &&FrameWall| {
+            own.line == line + 1 && (own.storeys[0]..=own.storeys[1]).contains(&(storey + 1))
+        };
+        self.walls.iter().find(stands)
+    }
+
+    /// The coupling beam at a floor in a bay, both counted from 0.
+    #[must_use]
+    pub fn coupling_beam(&self, [floor, bay]: FramePlace) -> Option<&CouplingBeam> {
+        let mut all = self.coupling_beams.iter();
+        all.find(|own| own.floor == floor + 1 && own.bay == bay + 1)
+    }
+
+    /// Section of the column in a storey at a line, both counted from 0; `None` where there is none, or a wall.
+    #[must_use]
+    pub fn bare_column(&self, storey: usize, line: usize) -> Option<&Section> {
+        let column = self.column(storey, line);
+        column.filter(|_| self.wall([storey, line]).is_none())
+    }
+
+    /// Section of the beam at a floor in a bay, both counted from 0; `None` where there is none, or a coupling beam.
+    #[must_use]
+    pub fn bare_beam(&self, floor: usize, bay: usize) -> Option<&Section> {
+        let beam = self.beam(floor, bay);
+        beam.filter(|_| self.coupling_beam([floor, bay]).is_none())
+    }
+
+    /// Number of columns without storeys of walls, and of beams without coupling beams.
+    #[must_use]
+    pub fn bare_members(&self) -> [usize; 2] {
+        let columns = self.all_columns();
+        let bare = columns.filter(|(place, _)| self.wall(*place).is_none());
+        let beams = self.all_beams();
+        let beams = beams.filter(|(place, _)| self.coupling_beam(*place).is_none());
+        [bare.count(), beams.count()]
+    }
+
+    /// Distance from a column line, counted from 0, to where beams of a floor, counted from 0, meet it: half the length of the longer wall
+    /// below and above; 0 at a column \[m\].
+    #[must_use]
+    pub fn arm(&self, [floor, line]: FramePlace) -> f64 {
+        let walls = [floor, floor + 1].map(|storey| self.wall([storey, line]));
+        let lengths = walls.into_iter().flatten().map(|wall| wall.length);
+        0.5 * lengths.fold(0.0, f64::max)
+    }
+
+    /// Length of the beam at a floor in a bay, both counted from 0, between the faces of walls or the axes of columns \[m\].
+    #[must_use]
+    pub fn clear_span(&self, [floor, bay]: FramePlace) -> f64 {
+        self.spans[bay] - self.arm([floor, bay]) - self.arm([floor, bay + 1])
+    }
+
+    /// Whether walls or coupling beams yield.
+    #[must_use]
+    pub fn walls_yield(&self) -> bool {
+        let walls = self.walls.iter().flat_map(|own| [own.hinge, own.shear]);
+        let mut laws = walls.chain(self.coupling_beams.iter().map(|own| own.shear));
+        laws.any(|law| law.is_some())
+    }
+
+    /// Whether braces, struts, walls or coupling beams yield or lift off.
+    #[must_use]
+    pub fn has_yielding_parts(&self) -> bool {
+        let mut diagonals = self.diagonals.iter();
+        diagonals.any(|own| own.hysteresis.is_some()) || self.walls_yield()
+    }
+}

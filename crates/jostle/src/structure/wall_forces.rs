@@ -1,0 +1,205 @@
+//! Forces at the feet of walls and in coupling beams, as linear forms of the motion.
+
+use super::element::{THETA, Y, over_nodes};
+use super::member_forces::{Cuts, LinearForm, MemberForces, Motion};
+use super::{AssembledBuilding, MemberPlace};
+use crate::hysteresis::HysteresisMemory;
+use crate::linear::Row;
+
+/// Where a building stands before it moves; empty lists where self weight is left out.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct AtRest<'a> {
+    /// Of its weight; 0 without it \[m/s²\].
+    pub(crate) gravity: f64,
+    /// Displacements \[m, rad\].
+    pub(crate) displacement: &'a [f64],
+    /// Springs that yield.
+    pub(crate) springs: &'a [HysteresisMemory],
+}
+
+/// Forces at the foot of a wall, positive as those of columns: indices into [`MemberForces::forms`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WallForce {
+    /// Index among [`crate::structure::Discretization::walls`].
+    pub wall: usize,
+    /// Axial force, positive in tension.
+    pub axial: usize,
+    /// Moment, positive where it stretches the right face.
+    pub moment: usize,
+    /// Elongation of its axis between foot and top.
+    pub elongation: usize,
+}
+
+/// Shear of a coupling beam: indices into [`MemberForces::forms`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CouplingForce {
+    /// Index among [`crate::structure::Discretization::coupling_beams`].
+    pub beam: usize,
+    /// Shear, positive as that of beams.
+    pub shear: usize,
+    /// How far its left end rises against its right one beyond the mean rotation of both, which gives that shear.
+    pub chord: usize,
+    /// Length between the faces of its walls \[m\].
+    pub length: f64,
+}
+
+/// Moment at the base of a frame with coupled walls: indices into [`MemberForces::forms`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coupling {
+    /// What axial forces of walls contribute, about the middle of their axes.
+    pub couple: usize,
+    /// That of all columns and walls, with their moments.
+    pub total: usize,
+}
+
+impl MemberForces {
+    /// Forces of walls and coupling beams, which are always followed.
+    pub(super) fn add_walls(&mut self, building: &AssembledBuilding, rest: AtRest<'_>) {
+        let discretization = &building.discretization;
+        if discretization.walls.is_empty() {
+            return;
+        }
+        let cuts = Cuts::new(building, rest.gravity);
+        for (wall, own) in discretization.walls.iter().enumerate() {
+            let place = MemberPlace::Column {
+                line: own.part.line,
+                storey: own.part.storeys[0],
+            };
+            let Some(foot) = discretization.member_at(own.frame, place) else {
+                continue;
+            };
+            let [axial, _, moment] = cuts.at_foot(foot).map(|form| self.index_of(form));
+            let top = MemberPlace::Column {
+                line: own.part.line,
+                storey: own.part.storeys[1],
+            };
+            let top = discretization.member_at(own.frame, top).unwrap_or(foot);
+            let ends = [cuts.first_node(foot), cuts.last_node(top)];
+            let stretched = over_nodes([((ends[1], Y), 1.0), ((ends[0], Y), -1.0)]);
+            let stretched = discretization.stick_model.carried_row(&stretched);
+            let elongation = self.index_of(LinearForm {
+                displacement: building.equations.row(&stretched),
+                ..LinearForm::default()
+            });
+            self.walls.push(WallForce {
+                wall,
+                axial,
+                moment,
+                elongation,
+            });
+        }
+        for (beam, own) in discretization.coupling_beams.iter().enumerate() {
+            let place = MemberPlace::Beam {
+                floor: own.part.floor,
+                span: own.part.bay,
+            };
+            let Some(member) = discretization.member_at(own.frame, place) else {
+                continue;
+            };
+            let [_, shear, _] = cuts.at_foot(member);
+            let shear = self.index_of(shear);
+            let (row, length) = chord(building, member.elements.clone());
+            let chord = self.index_of(LinearForm {
+                displacement: row,
+                ..LinearForm::default()
+            });
+            self.coupling_beams.push(CouplingForce {
+                beam,
+                shear,
+                chord,
+                length,
+            });
+        }
+        self.add_coupling(&cuts, building, rest);
+    }
+
+    /// Moments at the base of a building that is one frame with coupled walls, without those of self weight.
+    fn add_coupling(&mut self, cuts: &Cuts<'_>, building: &AssembledBuilding, rest: AtRest<'_>) {
+        let discretization = &building.discretization;
+        let at_base = |line: usize| {
+            let mut walls = discretization.walls.iter();
+            walls.any(|own| own.part.line == line && own.part.storeys[0] == 1)
+        };
+        let columns = discretization.members.iter().filter_map(|own| {
+            let at_base_of_frame = own.frame.is_none();
+            match own.place {
+                MemberPlace::Column { line, storey: 1 } if at_base_of_frame => Some((line, own)),
+                _ => None,
+            }
+        });
+        let columns: Vec<_> = columns.collect();
+        let nodes = &discretization.stick_model.nodes;
+        let x = |own: &super::FrameMember| nodes[cuts.first_node(own)].x;
+        let walls = columns.iter().filter(|(line, _)| at_base(*line));
+        let axes: Vec<f64> = walls.map(|(_, own)| x(own)).collect();
+        if axes.len() < 2 || self.coupling_beams.is_empty() {
+            return;
+        }
+        let middle = axes.iter().sum::<f64>() / axes.len() as f64;
+        let [mut couple, mut total] = [LinearForm::default(), LinearForm::default()];
+        for (line, own) in &columns {
+            let [axial, _, moment] = cuts.at_foot(own);
+            let lever = x(own) - middle;
+            if at_base(*line) {
+                couple.add(lever, &axial);
+            }
+            total.add(lever, &axial);
+            total.add(1.0, &moment);
+        }
+        let [couple, total] = [couple, total].map(|form| {
+            self.forms.push(form.tidy().beyond(rest));
+            self.forms.len() - 1
+        });
+        self.coupling = Some(Coupling { couple, total });
+    }
+}
+
+/// The row of [`CouplingForce::chord`] over degrees of freedom, and the length between both faces \[m\].
+fn chord(building: &AssembledBuilding, elements: std::ops::Range<usize>) -> (Row, f64) {
+    let stick_model = &building.discretization.stick_model;
+    let members = &stick_model.members[elements];
+    // From what stands beyond hinges to the faces, which are the first nodes there.
+    let at_face = |node: usize| {
+        let own = stick_model.nodes[node];
+        let frame = stick_model.turn(node).elevation;
+        let tied = |other: &usize| {
+            let is_in_frame = stick_model.turn(*other).elevation == frame;
+            let other = stick_model.nodes[*other];
+            is_in_frame && (other.x - own.x).abs() + (other.y - own.y).abs() < 1e-9
+        };
+        (0..stick_model.nodes.len()).find(tied).unwrap_or(node)
+    };
+    let ends = [members.first(), members.last()].map(|own| own.map_or([0; 2], |own| own.ends));
+    let [left, right] = [at_face(ends[0][0]), at_face(ends[1][1])];
+    let length = stick_model.nodes[right].x - stick_model.nodes[left].x;
+    let row = over_nodes([
+        ((left, Y), 1.0),
+        ((right, Y), -1.0),
+        ((left, THETA), 0.5 * length),
+        ((right, THETA), 0.5 * length),
+    ]);
+    (
+        building.equations.row(&stick_model.carried_row(&row)),
+        length,
+    )
+}
+
+impl LinearForm {
+    /// The same without its value at rest.
+    fn beyond(mut self, rest: AtRest<'_>) -> Self {
+        let still = vec![0.0; rest.displacement.len()];
+        self.constant = if still.is_empty() {
+            0.0
+        } else {
+            let motion = Motion {
+                displacement: rest.displacement,
+                velocity: &still,
+                acceleration: &still,
+                ground: 0.0,
+            };
+            let spring = |index: usize| rest.springs[index].force();
+            self.constant - self.value(motion, spring, |_| 0.0, |_| 0.0)
+        };
+        self
+    }
+}
