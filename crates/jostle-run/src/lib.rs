@@ -21,6 +21,7 @@ mod expectation;
 mod files;
 mod floor_spectra;
 mod floor_spectra_text;
+mod footing_text;
 mod gap_page;
 mod gap_runs;
 mod isolation_bounds;

@@ -442,7 +442,7 @@ fn write_parts(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::Re
             )?;
         }
     }
-    Ok(())
+    crate::footing_text::write(text, buildings)
 }
 
 fn write_capacity(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::Result {

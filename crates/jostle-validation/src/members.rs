@@ -1,6 +1,7 @@
 //! Plane frames as they are drawn, with braces and infill struts, beside neighbours, against an integrator of eighth order.
 
 pub(crate) mod files;
+mod rocking;
 
 use std::ops::ControlFlow;
 
@@ -62,6 +63,7 @@ pub fn rows() -> Vec<Row> {
             rows.extend(compare(name, &case, tolerance, close));
         }
     }
+    rows.extend(rocking::rows());
     rows
 }
 

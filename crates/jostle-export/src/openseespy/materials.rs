@@ -116,6 +116,7 @@ impl Materials {
             rule @ (HysteresisRule::Takeda { .. }
             | HysteresisRule::DegradingTrilinear
             | HysteresisRule::Sliding { .. }
+            | HysteresisRule::Ground
             | HysteresisRule::InPlan { .. }) => Err(rule.name()),
         }
     }

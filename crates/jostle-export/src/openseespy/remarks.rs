@@ -21,6 +21,7 @@ impl Script<'_> {
             | HysteresisRule::DegradingTrilinear
             | HysteresisRule::Sliding { .. }
             | HysteresisRule::Stop { .. }
+            | HysteresisRule::Ground
             | HysteresisRule::InPlan { .. } => None,
         };
         let mut damped = false;

@@ -139,7 +139,7 @@ fn read_members(
     let mut diagonals = brace::read_all(reader, view, bays);
     diagonals.extend(infill::read_all(reader, view, bays));
     frame.diagonals = diagonals;
-    // Foundations on soil need columns that keep their length, and columns that shorten need their EA.
+    // Columns on foundations keep their length unless asked, and columns that shorten need their EA.
     let shortens = frame.tallness() > 1.0
         && !view.has("foundation")
         && frame

@@ -60,10 +60,7 @@ pub(super) fn read_rule(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Hyst
         | HysteresisRule::PeakOriented
         | HysteresisRule::DegradingTrilinear) => rule,
         // Those of bearings, stops and shear failure have no name among the rules.
-        HysteresisRule::Sliding { .. }
-        | HysteresisRule::Stop { .. }
-        | HysteresisRule::Failing(_)
-        | HysteresisRule::InPlan { .. } => return None,
+        _ => return None,
     })
 }
 
@@ -583,6 +580,7 @@ fn corners_of(rule: HysteresisRule, numbers: [Option<f64>; 4]) -> Option<Corners
         | HysteresisRule::Pinched(_)
         | HysteresisRule::Sliding { .. }
         | HysteresisRule::Stop { .. }
+        | HysteresisRule::Ground
         | HysteresisRule::Failing(_)
         | HysteresisRule::InPlan { .. } => Corners {
             cracking: cracking?,

@@ -24,6 +24,7 @@
 
 mod backbone;
 mod circular;
+mod compression;
 mod degrading;
 mod failing;
 mod friction;

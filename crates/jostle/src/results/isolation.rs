@@ -51,6 +51,7 @@ pub(super) fn isolation_summary(
             | SpringPlace::InSpace { .. }
             | SpringPlace::PlanStorey { .. }
             | SpringPlace::Element { .. }
+            | SpringPlace::Footing { .. }
             | SpringPlace::Diagonal { .. } => {}
         }
     }

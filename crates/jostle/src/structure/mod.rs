@@ -31,6 +31,7 @@ pub use diagonals::FrameDiagonal;
 pub use discretization::{Discretization, Mat};
 pub use element::{Element, Part};
 pub use equations::{Equations, YieldingSpring};
+pub(crate) use foundation::Subgrade;
 pub use inner_link::{InnerLink, LinkEnd};
 pub(crate) use member_end::{ductility, end_stiffnesses};
 pub(crate) use member_forces::Motion;

@@ -91,7 +91,8 @@ impl StickModel {
     #[must_use]
     pub fn lever(&self, node: usize) -> Option<f64> {
         let tied = self.ties.get(&index_of((node, Y)))?;
-        tied.entries().first().map(|(_, lever)| *lever)
+        let mut turned = places(tied).filter(|((_, component), _)| *component == THETA);
+        turned.next().map(|(_, lever)| lever)
     }
 
     /// Whether any of it moves across the row.
