@@ -124,7 +124,7 @@ class Scene {
       const to = right === null ? from + this.thickness : this.left[right] - away(wall, 1);
       wall.faces = [from ?? to - this.thickness, to];
     }
-    this.pit = page.buildings.some((building) => building.isolated) ? Scene.pit : 0;
+    this.pit = page.buildings.some((building) => building.isolated || building.footing) ? Scene.pit : 0;
     this.below = Scene.below + this.pit;
     const total = this.left[last] + widths[last] + roomRight;
     const tallest = this.width < 600 ? 340 : 560;
@@ -137,7 +137,7 @@ class Scene {
     this.draw(this.time);
   }
 
-  /** Height of bearings as drawn [px]. */
+  /** Height of bearings, and of contact springs, as drawn [px]. */
   static pit = 20;
 
   /** Room for dimensions on either side of the row and below it [px]. */

@@ -25,11 +25,17 @@ pub(super) fn describe_foundation(
         foundation.width,
         foundation.mass * 1e-3
     )?;
+    let sway = match own.sway {
+        Some(_) => format!(
+            "sway {} N/m and {} N.s/m",
+            short(springs.sway_stiffness),
+            short(springs.sway_damping)
+        ),
+        None => "sway held".to_owned(),
+    };
     writeln!(
         text,
-        "  soil: sway {} N/m and {} N.s/m, rocking {} N.m/rad and {} N.m.s/rad",
-        short(springs.sway_stiffness),
-        short(springs.sway_damping),
+        "  soil: {sway}, rocking {} N.m/rad and {} N.m.s/rad",
         short(springs.rocking_stiffness),
         short(springs.rocking_damping)
     )?;
