@@ -108,7 +108,8 @@ class Frame(Part):
         base: springs and dashpots under every column: ``"fixed"`` (default) or ``{"rotational_stiffness": …}``.
         isolation: bearings and a mat under the building, such as ``{"kind": "lead-rubber", "mat_mass": "150 t", …}``; with
             ``"bounds": {"lower": 0.85, "upper": 1.3}`` a run also makes those at both bounds of the bearings.
-        foundation: rigid foundation on the ``soil`` of the model, ``{"length": "12 m", "width": "12 m", "mass": "120 t"}``.
+        foundation: rigid foundation on the ``soil`` of the model, ``{"length": "12 m", "width": "12 m", "mass": "120 t"}``;
+            ``"uplift": True, "springs": 11`` lets it lift off, with ``gravity=True``.
         hinges: plastic hinges at the member ends; without them the frame is elastic:
             ``{"rule": "peak-oriented", "from": "section"}`` or
             ``{"rule": "normal", "initial": 100, "column": {"cracking": "120 kN.m", …}, "beam": {…}}``. With
@@ -244,7 +245,8 @@ class Shear(Part):
         base: springs and dashpots under the building: ``"fixed"`` (default) or ``{"horizontal_stiffness": …}``.
         isolation: bearings and a mat under the building, such as ``{"kind": "lead-rubber", "mat_mass": "150 t", …}``; with
             ``"bounds": {"lower": 0.85, "upper": 1.3}`` a run also makes those at both bounds of the bearings.
-        foundation: rigid foundation on the ``soil`` of the model, ``{"length": "12 m", "width": "12 m", "mass": "120 t"}``.
+        foundation: rigid foundation on the ``soil`` of the model, ``{"length": "12 m", "width": "12 m", "mass": "120 t"}``;
+            ``"uplift": True, "springs": 11`` lets it lift off, with ``gravity=True``.
         hinges: cracking and yield of the storeys; without it they are elastic: ``{"rule": "bilinear", "yield": "20 mm",
             "post_yield": 0.05}``; timber and masonry: ``{"rule": "pinched", "pinching": {"deformation": 0.8, "force": 0.2}, …}``.
         elevation: height of the base above a datum that all buildings share, 0 by default; neighbours face each other by it.

@@ -285,7 +285,10 @@ fn describe(
             }
         }
         if let Some(foundation) = building.foundation {
-            describe_foundation(text, &foundation)?;
+            let mass = building.equations.total_mass();
+            let sticks = &building.discretization.stick_model;
+            let bed = sticks.foundation.as_ref().map(|own| &own.bed[..]);
+            describe_foundation(text, &foundation, mass, bed.unwrap_or_default())?;
         }
         if let Some(hinges) = &model.buildings[index].hinges {
             describe_hinges(text, hinges)?;
@@ -676,7 +679,8 @@ fn special(building: &Building) -> Vec<String> {
             ("sideways", base.horizontal_stiffness, "N/m"),
             ("vertical", base.vertical_stiffness, "N/m"),
         ]);
-        lines.push(format!("base on springs: {springs}"));
+        let lifts = if base.uplift { "; feet lift off" } else { "" };
+        lines.push(format!("base on springs: {springs}{lifts}"));
         let dashpots = list(&[
             ("rotation", Some(base.rotational_damping), "N.m.s/rad"),
             ("sideways", Some(base.horizontal_damping), "N.s/m"),

@@ -162,6 +162,8 @@ fn features() -> Vec<Feature> {
         Feature { name: "springs under the base", keys: "base = { horizontal_stiffness = \"400 MN/m\" }\n", ..USUAL },
         Feature { name: "bearings", tables: "[building.isolation]\nkind = \"lead-rubber\"\nmat_mass = \"50 t\"\nstiffness = \"20 MN/m\"\nyield = \"60 kN\"\npost_yield = 0.1\n", ..USUAL },
         Feature { name: "foundation on soil", tables: "[building.foundation]\nlength = \"9 m\"\nwidth = \"12 m\"\nmass = \"120 t\"\n", more: "[soil]\nshear_wave_velocity = \"200 m/s\"\ndensity = 1900\npoisson_ratio = 0.33\n", ..USUAL },
+        Feature { name: "foundation that lifts off", keys: "gravity = true\n", tables: "[building.foundation]\nlength = \"9 m\"\nwidth = \"12 m\"\nmass = \"120 t\"\nuplift = true\nsprings = 5\nvertical_stiffness = \"900 MN/m\"\n", ..USUAL },
+        Feature { name: "feet of columns that lift off", keys: "gravity = true\nbase = { vertical_stiffness = \"400 MN/m\", uplift = true }\n", ..USUAL },
         Feature { name: "P-Delta", keys: "p_delta = true\n", ..USUAL },
         Feature { name: "run that starts under self weight", keys: "gravity = true\n", ..USUAL },
         Feature { name: "one damping ratio for all modes", keys: "damping = { ratio = 0.05, modes = \"all\" }\n", ..USUAL },

@@ -14,7 +14,7 @@ use jostle::results::summary::{
     SpringSummary,
 };
 use jostle::results::{member_name, section_name};
-use jostle::structure::{BaseMotion, MemberEnd, MemberPlace, SectionAt, SpringPlace};
+use jostle::structure::{BaseMotion, MemberPlace, SectionAt, SpringPlace};
 use jostle::{Column, History, Model, Outcome, Quantity, SpacePlace, Summary, System, springs_of};
 use parquet::basic::{Compression, ConvertedType, Repetition, Type as Physical};
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int32Type};
@@ -539,35 +539,25 @@ pub fn write_members_parquet(
 
 /// Kind, level, line and end of a place.
 fn parts(place: Option<SpringPlace>) -> (&'static str, Option<usize>, Option<usize>, &'static str) {
-    let upright = |end| match end {
-        MemberEnd::First => "foot",
-        MemberEnd::Last => "head",
-    };
     match place {
         Some(
             SpringPlace::Column { storey, line, end }
             | SpringPlace::ColumnInPlan {
                 storey, line, end, ..
             },
-        ) => ("column", Some(storey), Some(line), upright(end)),
+        ) => ("column", Some(storey), Some(line), end.of_column()),
         Some(
             SpringPlace::Beam { floor, bay, end }
             | SpringPlace::BeamInPlan {
                 floor, bay, end, ..
             },
-        ) => {
-            let end = match end {
-                MemberEnd::First => "left",
-                MemberEnd::Last => "right",
-            };
-            ("beam", Some(floor), Some(bay), end)
-        }
+        ) => ("beam", Some(floor), Some(bay), end.of_beam()),
         Some(SpringPlace::Shear { storey, line, end }) => {
-            ("column shear", Some(storey), Some(line), upright(end))
+            ("column shear", Some(storey), Some(line), end.of_column())
         }
         Some(SpringPlace::Fibre {
             storey, line, end, ..
-        }) => ("column fibre", Some(storey), Some(line), upright(end)),
+        }) => ("column fibre", Some(storey), Some(line), end.of_column()),
         Some(SpringPlace::Sliding { member, .. }) => match member {
             MemberPlace::Column { line, storey } => ("wall shear", Some(storey), Some(line), ""),
             MemberPlace::Beam { floor, span } => ("beam shear", Some(floor), Some(span), ""),
@@ -586,6 +576,10 @@ fn parts(place: Option<SpringPlace>) -> (&'static str, Option<usize>, Option<usi
                 BaseMotion::Sliding => "sliding",
             };
             ("base", Some(0), Some(line), motion)
+        }
+        // Contact springs of a foundation count like lines, from the left.
+        Some(SpringPlace::Footing { line, spring }) => {
+            ("footing", Some(0), line.or(Some(spring)), "")
         }
         Some(SpringPlace::PlanStorey { storey, axis }) => {
             ("storey", Some(storey), None, axis.name())

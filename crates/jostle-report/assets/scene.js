@@ -125,7 +125,7 @@ class Scene {
       const to = right === null ? from + this.thickness : this.left[right] - away(wall, 1);
       wall.faces = [from ?? to - this.thickness, to];
     }
-    this.pit = page.buildings.some((building) => building.isolated) ? Scene.pit : 0;
+    this.pit = page.buildings.some((building) => building.isolated || building.footing) ? Scene.pit : 0;
     this.below = Scene.below + this.pit;
     const total = this.left[last] + widths[last] + roomRight;
     const tallest = this.width < 600 ? 340 : 560;
@@ -138,7 +138,7 @@ class Scene {
     this.draw(this.time);
   }
 
-  /** Height of bearings as drawn [px]. */
+  /** Height of bearings, and of contact springs, as drawn [px]. */
   static pit = 20;
 
   /** Room for dimensions on either side of the row and below it [px]. */
@@ -166,6 +166,7 @@ class Scene {
         svg("rect", { class: "soil", x, y: base, width, height: this.base - base }, back);
         svg("path", { class: "ground", d: `M${x},${this.base}V${base}h${width}V${this.base}` }, back);
       }
+      if (building.footing) this.drawFooting(building.footing, this.left[i] + this.widths[i] / 2, base);
       if (!building.isolated) return;
       const free = this.exaggeration * this.peak;
       const walls = [0, 1].map((side) => this.walls.find((wall) => wall.beside[1 - side] === i));
@@ -307,6 +308,16 @@ class Scene {
     const head = Math.sign(a) * Math.min(7, Math.abs(tip - middle));
     const y = this.base + 58 + this.below;
     this.arrow.setAttribute("d", `M${middle},${y - 5}v10m0,-5H${tip}m${-head},-4l${head},4l${-head},4`);
+  }
+
+  /** A foundation that lifts off, on its contact springs; of many springs eleven are drawn. */
+  drawFooting([length, springs], middle, base) {
+    const shown = Math.min(springs, 11);
+    const [left, right] = [-1, 1].map((side) => this.px(middle + (side * length) / 2));
+    svg("rect", { class: "footing", x: left, y: base, width: right - left, height: 6 }, this.back);
+    const zigzag = (x) => `M${x.toFixed(2)},${base + 6}v2l3,1.5l-6,3l6,3l-3,1.5v2`;
+    const places = Array.from({ length: shown }, (_, k) => left + ((right - left) * k) / (shown - 1));
+    svg("path", { class: "contact-springs", d: places.map(zigzag).join("") }, this.back);
   }
 
   /** From the bottom of a pit beside it, or from the ground, to a little above its highest contact. */

@@ -175,7 +175,9 @@ fn frame_facts(frame: &Frame, facts: &mut Facts) {
         .iter()
         .map(|span| format::plain(*span, 3))
         .collect();
-    facts.push((message::spans(), format!("{} m", spans.join(" + "))));
+    if !spans.is_empty() {
+        facts.push((message::spans(), format!("{} m", spans.join(" + "))));
+    }
     let storeys = frame.storey_heights.len();
     let columns = |value: fn(&jostle::Section) -> f64| {
         move |storey: usize| {
@@ -195,10 +197,12 @@ fn frame_facts(frame: &Frame, facts: &mut Facts) {
             format::rigidity,
         ),
     ));
-    facts.push((
-        message::beams_ei(),
-        by_place(storeys, beams, format::rigidity),
-    ));
+    if !spans.is_empty() {
+        facts.push((
+            message::beams_ei(),
+            by_place(storeys, beams, format::rigidity),
+        ));
+    }
     facts.push((
         message::line_mass(),
         message::columns_beams_kg_m(

@@ -160,6 +160,7 @@ pub(crate) fn slides(at: SpringPlace) -> bool {
             | SpringPlace::Element { .. }
             | SpringPlace::Diagonal { .. }
             | SpringPlace::Sliding { .. }
+            | SpringPlace::Footing { .. }
             | SpringPlace::Base {
                 motion: BaseMotion::Sliding,
                 ..
@@ -196,6 +197,7 @@ pub(crate) fn coordinates(at: SpringPlace) -> (char, usize, usize, usize) {
         SpringPlace::Base { line, motion } => {
             ('f', 0, line, usize::from(motion == BaseMotion::Sliding))
         }
+        SpringPlace::Footing { line, spring } => ('g', 0, line.unwrap_or(0), spring),
         SpringPlace::Bearings
         | SpringPlace::BearingInPlan { .. }
         | SpringPlace::Ring { .. }

@@ -15,6 +15,7 @@ mod describe;
 mod devices;
 mod diagrams;
 mod document;
+mod drawn_members;
 mod encode;
 mod envelope;
 mod face_pressure;

@@ -1,5 +1,6 @@
 //! Data of the page's scripts: geometry, impacts and thinned histories as one JSON text.
 
+use jostle::Frame;
 use jostle::history::{Column, EnergyTerm, History, Kind, Owner};
 use jostle::linear::sort_by;
 use jostle::model::{Building, Gap, LumpedFloor, Model, Structure};
@@ -7,11 +8,11 @@ use jostle::motion::{GroundMotion, Wave};
 use jostle::results::summary::{ContactSummary, SpringSummary, Summary};
 use jostle::structure::SpringPlace;
 use jostle::system::Direction;
-use jostle::{Diagonal, DiagonalKind, FrameWall, SpaceFrame, SpaceMember, SpacePlace};
 use serde::Serialize;
 
 use crate::Page;
 use crate::devices::{self, side_column};
+use crate::drawn_members::{DiagonalData, MemberData, WallData};
 use crate::encode::{Packed, Packer, thin_impacts, thin_rows};
 use crate::hinges::{self, Place};
 use crate::plan_motion::face_indentation;
@@ -151,73 +152,9 @@ struct Outline<'a> {
     walls: Vec<WallData>,
     /// Whether it stands on bearings.
     isolated: bool,
-}
-
-/// A wall of a frame.
-#[derive(Serialize)]
-struct WallData {
-    /// Column line of its axis, from 0.
-    line: usize,
-    /// First and last storey, from 1.
-    storeys: [usize; 2],
-    /// Length \[m\].
-    length: f64,
-}
-
-/// A brace, or a strut of an infill panel.
-#[derive(Serialize)]
-struct DiagonalData {
-    storey: usize,
-    /// Column lines of its lower and its upper end, from 0.
-    lines: [usize; 2],
-    /// Whether it is part of a panel.
-    infill: bool,
-}
-
-/// A column or a beam of a space frame.
-#[derive(Serialize)]
-struct MemberData {
-    /// Both ends on the site \[m\].
-    ends: [[f64; 2]; 2],
-    /// Floors, from 0, with which they move; `null` is the ground.
-    floors: [Option<usize>; 2],
-}
-
-impl DiagonalData {
-    fn of(own: &Diagonal) -> Self {
-        Self {
-            storey: own.place.storey,
-            lines: own.place.lines(),
-            infill: own.place.kind == DiagonalKind::Infill,
-        }
-    }
-}
-
-impl WallData {
-    fn of(own: &FrameWall) -> Self {
-        Self {
-            line: own.line - 1,
-            storeys: own.storeys,
-            length: own.length,
-        }
-    }
-}
-
-impl MemberData {
-    fn all_of(frame: &SpaceFrame) -> Vec<Self> {
-        let member = |own: &SpaceMember| {
-            let level = own.place.storey();
-            let lower = match own.place {
-                SpacePlace::Column { .. } => level.checked_sub(1),
-                SpacePlace::BeamX { .. } | SpacePlace::BeamY { .. } => Some(level),
-            };
-            Self {
-                ends: own.place.crossings().map(|crossing| frame.point(crossing)),
-                floors: [lower, Some(level)],
-            }
-        };
-        frame.members.iter().map(member).collect()
-    }
+    /// Length \[m\] and number of contact springs of a foundation that lifts off.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    footing: Option<(f64, usize)>,
 }
 
 /// A floor from above.
@@ -534,6 +471,12 @@ fn outline(building: &Building) -> Outline<'_> {
         Structure::Tiers(tiers) => tiers.space_frame.as_ref().map(MemberData::all_of),
         _ => None,
     };
+    let plane = match &building.structure {
+        Structure::Frame(frame) => Some(frame),
+        _ => None,
+    };
+    let diagonals = plane.into_iter().flat_map(|own| &own.diagonals);
+    let footing = building.base.foundation;
     Outline {
         plans,
         mat,
@@ -542,20 +485,17 @@ fn outline(building: &Building) -> Outline<'_> {
         frame,
         heights: building.floor_heights(),
         spans,
-        tops: match &building.structure {
-            Structure::Frame(frame) if !frame.is_regular() => frame.tops(),
-            _ => Vec::new(),
-        },
+        tops: plane
+            .filter(|own| !own.is_regular())
+            .map(Frame::tops)
+            .unwrap_or_default(),
         elevation: Some(building.base.elevation).filter(|own| *own != 0.0),
-        diagonals: match &building.structure {
-            Structure::Frame(frame) => frame.diagonals.iter().map(DiagonalData::of).collect(),
-            _ => Vec::new(),
-        },
-        walls: match &building.structure {
-            Structure::Frame(frame) => frame.walls.iter().map(WallData::of).collect(),
-            _ => Vec::new(),
-        },
+        diagonals: diagonals.map(DiagonalData::of).collect(),
+        walls: plane
+            .map(|own| own.walls.iter().map(WallData::of).collect())
+            .unwrap_or_default(),
         isolated: building.base.isolation.is_some(),
+        footing: footing.and_then(|own| Some((own.length, own.uplift?.springs))),
     }
 }
 

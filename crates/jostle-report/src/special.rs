@@ -61,11 +61,13 @@ fn base(base: &Base) -> Facts {
             true => message::m_deep(metres(foundation.embedment)),
             false => String::new(),
         };
+        let lifts = foundation.uplift.map(|own| message::lifts_off(own.springs));
+        let lifts = lifts.unwrap_or_default();
         return vec![
             (
                 message::size_of_the_foundation(),
                 format!(
-                    "{} m × {} m{depth}",
+                    "{} m × {} m{depth}{lifts}",
                     metres(foundation.length),
                     metres(foundation.width)
                 ),
@@ -76,14 +78,17 @@ fn base(base: &Base) -> Facts {
             ),
         ];
     }
-    let mut facts: Facts = vec![(
-        message::base(),
-        springs(&[
-            (message::rotation(), base.rotational_stiffness, "N·m/rad"),
-            (message::sideways(), base.horizontal_stiffness, "N/m"),
-            (message::vertical(), base.vertical_stiffness, "N/m"),
-        ]),
-    )];
+    let lifts = match base.uplift {
+        true => message::vertical_springs_lift_off(),
+        false => "",
+    };
+    // The vertical one is the last.
+    let on_springs = springs(&[
+        (message::rotation(), base.rotational_stiffness, "N·m/rad"),
+        (message::sideways(), base.horizontal_stiffness, "N/m"),
+        (message::vertical(), base.vertical_stiffness, "N/m"),
+    ]);
+    let mut facts: Facts = vec![(message::base(), on_springs + lifts)];
     for (name, hinge, unit) in [
         (message::base_rocks(), base.rotational_hinge, "kN·m"),
         (message::base_slides(), base.horizontal_hinge, "kN"),

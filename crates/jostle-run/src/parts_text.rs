@@ -34,7 +34,8 @@ pub(crate) fn write_parts(text: &mut String, buildings: &[BuildingSummary]) -> s
     }
     buildings
         .iter()
-        .try_for_each(|building| write_walls(text, building))
+        .try_for_each(|building| write_walls(text, building))?;
+    crate::footing_text::write(text, buildings)
 }
 
 /// Moments at the feet of walls, and what couples them.

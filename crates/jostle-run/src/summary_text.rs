@@ -1,7 +1,5 @@
 //! The summary of a run on one screen.
 
-mod sections;
-
 use std::fmt::Write;
 use std::path::Path;
 
@@ -20,6 +18,7 @@ use crate::floor_spectra::low_pass;
 use crate::floor_spectra_text::write_floor_spectra;
 use crate::numbers::{counted, counted_grouped, grouped, kn, mm};
 use crate::parts_text::write_parts;
+use crate::sections_text::write_sections;
 use crate::style::{BOLD, DIM, LOUD, styled};
 
 /// Contacts listed at most.
@@ -74,7 +73,7 @@ fn write_all(
     write_hinges(text, &summary.buildings)?;
     write_shear_failures(text, &summary.buildings)?;
     write_parts(text, &summary.buildings)?;
-    sections::write_sections(text, &summary.buildings)?;
+    write_sections(text, &summary.buildings)?;
     write_capacity(text, &summary.buildings)?;
     for (index, gap) in summary.gaps.iter().enumerate() {
         let required = summary.required_gaps(&input.model, index, &input.codes);

@@ -107,7 +107,7 @@ const FAMILIES: [(&str, &str, Make); 27] = [
         "Frames, braces and infills",
         "Frames beside neighbours, through model files: columns by line and beams by bay; a tower of one bay on a podium of three, with \
          columns that stretch; two frames whose slabs meet columns, as one stands lower; elastic and yielding braces with columns that \
-         stretch, and struts that bear compression alone above a soft storey. Expected values: an integrator of eighth order, restarted at the \
+         stretch, and struts that bear compression alone above a soft storey; a stick on a footing that lifts off. Expected values: an integrator of eighth order, restarted at the \
          points of the record and at changes of contact; agrees with OpenSees to 5·10⁻⁹ m at equal steps.",
         |_| members::rows(),
     ),

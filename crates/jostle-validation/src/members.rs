@@ -2,6 +2,7 @@
 
 pub(crate) mod files;
 mod fibres;
+mod rocking;
 
 use std::ops::ControlFlow;
 
@@ -72,6 +73,7 @@ pub fn rows() -> Vec<Row> {
         }
     }
     rows.extend(fibres::rows());
+    rows.extend(rocking::rows());
     rows
 }
 

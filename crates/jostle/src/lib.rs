@@ -113,14 +113,15 @@ pub use contact::{ContactLaw, LawKind, RestitutionIs};
 pub use history::{Column, EnergyTerm, History, Impact};
 pub use interface::{UnmatchedFloors, floor_and_height, sticking_stiffness};
 pub use model::{
-    Analysis, Axial, Base, BearingBounds, BearingFactors, Building, ColumnFibres, CouplingBeam,
-    Damping, Diagonal, DiagonalKind, DiagonalPlace, Fibre, FloorMatrices, FloorPairs, Foundation,
-    FoundationSprings, Frame, FrameHinges, FramePlace, FrameWall, Gap, Given, GivenFloor,
-    GivenInPlan, Gravity, HalfSpace, Hinges, Integrator, Isolation, Isolator, IsolatorDamping,
-    Joint, JointRequest, Level, Link, LinkLaw, MemberRequest, Model, ModelFault, PlanArea,
-    PlanAxis, PlanContact, PlanFrame, PlanPoint, PlanSpring, ProportionalDamping, Rise, Section,
-    Shear, ShearEnds, ShearSpring, Soil, SoilCoupling, Solver, SpaceFrame, SpaceMember, SpacePlace,
-    SpaceSection, SpeedFriction, Stop, Structure, Tier, TierStorey, Tiers, Wall,
+    Analysis, Axial, Base, BearingBounds, BearingFactors, BearingStrength, BedSpring, Building,
+    ColumnFibres, CouplingBeam, Damping, Diagonal, DiagonalKind, DiagonalPlace, Fibre,
+    FloorMatrices, FloorPairs, Foundation, FoundationSprings, Frame, FrameHinges, FramePlace,
+    FrameWall, Gap, Given, GivenFloor, GivenInPlan, Gravity, GroundSprings, HalfSpace, Hinges,
+    Integrator, Isolation, Isolator, IsolatorDamping, Joint, JointRequest, Level, Link, LinkLaw,
+    MassDamping, MemberRequest, Model, ModelFault, PlanArea, PlanAxis, PlanContact, PlanFrame,
+    PlanPoint, PlanSpring, ProportionalDamping, Rise, Section, Shear, ShearEnds, ShearSpring, Soil,
+    SoilCoupling, Solver, SpaceFrame, SpaceMember, SpacePlace, SpaceSection, SpeedFriction, Stop,
+    Structure, Tier, TierStorey, Tiers, Uplift, Wall,
 };
 pub use motion::{Bearing, GroundMotion, GroundPath, GroundPoint, Grounds, OwnGround, Wave};
 pub use quantity::{Quantity, Unit};

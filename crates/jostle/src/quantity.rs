@@ -31,6 +31,7 @@ impl Unit {
     pub const NM: Self = Self { symbol: "N·m", suffix: "_n_m" };
     pub const NS: Self = Self { symbol: "N·s", suffix: "_n_s" };
     pub const HZ: Self = Self { symbol: "Hz", suffix: "_hz" };
+    pub const PA: Self = Self { symbol: "Pa", suffix: "_pa" };
     pub const J: Self = Self { symbol: "J", suffix: "_j" };
     pub const N_PER_M: Self = Self { symbol: "N/m", suffix: "_n_m" };
     pub const NS_PER_M: Self = Self { symbol: "N·s/m", suffix: "_n_s_m" };

@@ -2,12 +2,16 @@
 
 use std::fmt::Write as _;
 
+use jostle::BedSpring;
+
 use super::short;
 
 /// Foundation, springs and dashpots of the soil, and what they do to the first mode.
 pub(super) fn describe_foundation(
     text: &mut String,
     own: &jostle::system::FoundationPlace,
+    mass: f64,
+    bed: &[BedSpring],
 ) -> std::fmt::Result {
     let (foundation, springs) = (&own.foundation, &own.springs);
     let depth = match foundation.embedment > 0.0 {
@@ -21,11 +25,17 @@ pub(super) fn describe_foundation(
         foundation.width,
         foundation.mass * 1e-3
     )?;
+    let sway = match own.sway {
+        Some(_) => format!(
+            "sway {} N/m and {} N.s/m",
+            short(springs.sway_stiffness),
+            short(springs.sway_damping)
+        ),
+        None => "sway held".to_owned(),
+    };
     writeln!(
         text,
-        "  soil: sway {} N/m and {} N.s/m, rocking {} N.m/rad and {} N.m.s/rad",
-        short(springs.sway_stiffness),
-        short(springs.sway_damping),
+        "  soil: {sway}, rocking {} N.m/rad and {} N.m.s/rad",
         short(springs.rocking_stiffness),
         short(springs.rocking_damping)
     )?;
@@ -37,6 +47,23 @@ pub(super) fn describe_foundation(
         own.period / own.fixed_period,
         100.0 * own.damping,
         100.0 * own.fixed_damping
+    )?;
+    let Some(reach) = bed.last().map(|own| own.at) else {
+        return Ok(());
+    };
+    // The outermost spring lifts off where its shortening under the weight is used up, θ = W/(K_z b).
+    let weight = jostle_io::STANDARD_GRAVITY * mass;
+    let lifting = springs.rocking_stiffness * weight / (springs.vertical_stiffness * reach);
+    writeln!(
+        text,
+        "  lifts off: {} contact springs to {:.2} m from the middle, vertical {} N/m and {} N.s/m; the edge lifts at an overturning moment of {:.0} kN.m, and {:.0} kN.m = W b is the most it can bear (W {:.0} kN)",
+        bed.len(),
+        reach,
+        short(springs.vertical_stiffness),
+        short(springs.vertical_damping),
+        lifting * 1e-3,
+        weight * reach * 1e-3,
+        weight * 1e-3
     )
 }
 

@@ -29,7 +29,11 @@ pub(super) fn axial_of_columns(frame: &Frame, is_stated: Option<bool>) -> String
         (Some(false), false, false) => format!(", the default up to {limit}"),
         (None, ..) => String::new(),
     };
-    format!("{what}{why}; {:.1} times as high as wide", height / width)
+    if width > 0.0 {
+        format!("{what}{why}; {:.1} times as high as wide", height / width)
+    } else {
+        format!("{what}{why}")
+    }
 }
 
 /// Whether the members of a frame differ within a storey, and how many it lacks.

@@ -143,11 +143,11 @@ impl Script<'_> {
     /// Springs and dashpots of the soil, under every foundation and between them.
     pub(super) fn add_soil(&mut self) {
         let system = self.export.system;
-        let founded: Vec<(usize, [usize; 2])> = system
+        let founded: Vec<usize> = system
             .buildings
             .iter()
             .enumerate()
-            .filter_map(|(index, own)| Some((index, own.foundation?.dofs)))
+            .filter_map(|(index, own)| own.foundation.map(|_| index))
             .collect();
         if founded.is_empty() {
             return;
@@ -157,7 +157,7 @@ impl Script<'_> {
         let [stiffness, damping] = Matrix::of_soil(system);
         let bases: Vec<(usize, Node)> = founded
             .iter()
-            .filter_map(|(index, _)| {
+            .filter_map(|index| {
                 let sticks = &system.buildings[*index].discretization.stick_model;
                 let own = sticks.foundation.as_ref()?;
                 Some((self.tag(*index, own.node), sticks.nodes[own.node]))
@@ -166,7 +166,7 @@ impl Script<'_> {
         for (spring, [stiffness, dashpot]) in springs_of(stiffness, damping, LEVER) {
             let material = self.materials.elastic(stiffness, dashpot);
             let ties =
-                |at: usize| Ties::new(&system.buildings[founded[at].0].discretization.stick_model);
+                |at: usize| Ties::new(&system.buildings[founded[at]].discretization.stick_model);
             let place = |at: usize, height: f64| [bases[at].1.x, bases[at].1.y + height];
             match spring {
                 SoilSpring::Sway(at) | SoilSpring::Rocking(at) => {
@@ -174,7 +174,7 @@ impl Script<'_> {
                         SoilSpring::Sway(_) => 1,
                         _ => 6,
                     };
-                    let ground = self.ground_point(founded[at].0, place(at, 0.0));
+                    let ground = self.ground_point(founded[at], place(at, 0.0));
                     self.spring(
                         ground,
                         bases[at].0,
@@ -192,7 +192,7 @@ impl Script<'_> {
                     );
                 }
                 SoilSpring::Lever(at, None) => {
-                    let ground = self.ground_point(founded[at].0, place(at, LEVER));
+                    let ground = self.ground_point(founded[at], place(at, LEVER));
                     self.lever(
                         [bases[at].0, ground],
                         material,
@@ -202,11 +202,11 @@ impl Script<'_> {
                 }
                 SoilSpring::Lever(at, Some(other)) => {
                     // The node that turns below, that of the neighbour above it.
-                    let beside = &system.buildings[founded[other].0];
-                    let shift = self.places[founded[at].0] - self.places[founded[other].0];
+                    let beside = &system.buildings[founded[other]];
+                    let shift = self.places[founded[at]] - self.places[founded[other]];
                     let [x, y] = place(at, LEVER);
                     let above =
-                        self.on_foundation(founded[other].0, beside, &ties(other), [x + shift, y]);
+                        self.on_foundation(founded[other], beside, &ties(other), [x + shift, y]);
                     self.lever(
                         [bases[at].0, above],
                         material,

@@ -101,6 +101,16 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
                 "rises with the speed, which the exported springs cannot do; give one coefficient, such as friction = 0.05".into(),
             );
         }
+        if building.base.lifts() {
+            let part = match building.base.uplift {
+                true => "base",
+                false => "foundation",
+            };
+            refuse(
+                format!("building[{index}].{part}"),
+                "that lifts off the ground is not exported yet; leave uplift out to compare with one that is held down".into(),
+            );
+        }
         let in_plan = matches!(building.structure, jostle::Structure::Tiers(_));
         let stop = building.base.isolation.and_then(|own| own.stops[0]);
         if in_plan && stop.is_some() {

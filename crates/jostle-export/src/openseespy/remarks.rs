@@ -22,6 +22,7 @@ impl Script<'_> {
             | HysteresisRule::Sliding { .. }
             | HysteresisRule::Stop { .. }
             | HysteresisRule::Concrete(_)
+            | HysteresisRule::Ground
             | HysteresisRule::InPlan { .. } => None,
         };
         let mut damped = false;

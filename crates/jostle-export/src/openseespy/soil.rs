@@ -67,7 +67,8 @@ impl Matrix {
         }
         let number = |dof: usize| {
             places.iter().enumerate().find_map(|(at, place)| {
-                let component = place.dofs.iter().position(|own| *own == dof)?;
+                let dofs = [place.sway, Some(place.turning)];
+                let component = dofs.iter().position(|own| *own == Some(dof))?;
                 Some(2 * at + component)
             })
         };

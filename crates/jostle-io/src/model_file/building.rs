@@ -2,7 +2,9 @@
 
 use jostle::model::{FrameHinges, Hinges};
 use jostle::separation::BuildingCodes;
-use jostle::{Base, Building, Damping, Gravity, Model, PlanPoint, ProportionalDamping, Structure};
+use jostle::{
+    Base, Building, Damping, Gravity, MassDamping, Model, PlanPoint, ProportionalDamping, Structure,
+};
 
 use super::damper::{self, Damper};
 use super::places::is_by_place;
@@ -215,6 +217,7 @@ fn read(
         gravity: Gravity::default(),
         hinges: None,
         yielding_damping: None,
+        mass_damping: MassDamping::default(),
     };
     let is_shear = kind == Kind::Shear;
     if kind != Kind::Given {
@@ -264,6 +267,7 @@ fn read(
         (None, _) => read_damping(reader, &view, building.floors(), is_shear),
     };
     (building.damping, building.yielding_damping) = (damping, on_yielding);
+    building.mass_damping = read_mass_damping(reader, &view);
     let stated = match kind {
         Kind::Given => None,
         Kind::Frame | Kind::Shear | Kind::FramesInPlan | Kind::SpaceFrame => {
@@ -524,6 +528,19 @@ fn read_damping(
     (damping, on_yielding)
 }
 
+/// What damping in proportion to mass acts relative to.
+fn read_mass_damping(reader: &mut Reader<'_>, view: &View<'_>) -> MassDamping {
+    let damping = reader.get(view, "damping");
+    let damping = damping.and_then(|field| reader.reopen(&field, &[Section::Damping]));
+    let Some(field) = damping.and_then(|view| reader.get(&view, "relative_to")) else {
+        return MassDamping::default();
+    };
+    match reader.choice(&field, &["foundation", "ground"], &[]) {
+        Some("ground") => MassDamping::Ground,
+        _ => MassDamping::Support,
+    }
+}
+
 /// Springs and dashpots under the building.
 pub(super) fn read_base(reader: &mut Reader<'_>, view: &View<'_>, is_shear: bool) -> Base {
     let Some(field) = reader.get(view, "base") else {
@@ -557,6 +574,8 @@ pub(super) fn read_base(reader: &mut Reader<'_>, view: &View<'_>, is_shear: bool
         base.rotational_damping = quantity("rotational_damping", Dimension::RotationalDamping);
         base.vertical_stiffness =
             or_rigid(reader, &view, "vertical_stiffness", Dimension::Stiffness);
+        let uplift = reader.get(&view, "uplift");
+        base.uplift = uplift.is_some_and(|field| reader.flag(&field).unwrap_or(false));
         base.rotational_stiffness = or_rigid(
             reader,
             &view,

@@ -111,7 +111,7 @@ fn read_all(
         .iter()
         .filter(|own| own.member == Member::Column)
         .collect();
-    if columns.len() != frame.all_columns().count() {
+    if columns.len() != frame.bare_members()[0] {
         let some = if columns.is_empty() { "no" } else { "not every" };
         *reader.bad(field, format!("takes fibres from the sections, but {some} column has bars")) = Some(
             "add concrete = \"C30\", steel = \"HRB400\", bars = \"12 d20\", cover = \"35 mm\" to column".into(),

@@ -159,7 +159,7 @@ fn read_members(
     let mut diagonals = brace::read_all(reader, view, bays);
     diagonals.extend(infill::read_all(reader, view, bays));
     frame.diagonals = diagonals;
-    // Foundations on soil need columns that keep their length, and columns that shorten need their EA. Coupled walls do by their axial
+    // Columns on foundations keep their length unless asked, and columns that shorten need their EA. Coupled walls do by their axial
     // forces.
     let shortens = (frame.tallness() > 1.0 || !frame.walls.is_empty())
         && !view.has("foundation")

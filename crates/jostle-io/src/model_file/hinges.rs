@@ -72,11 +72,7 @@ fn read_rule_at(
         | HysteresisRule::PeakOriented
         | HysteresisRule::DegradingTrilinear) => rule,
         // Those of bearings, stops and shear failure have no name among the rules.
-        HysteresisRule::Sliding { .. }
-        | HysteresisRule::Stop { .. }
-        | HysteresisRule::Failing(_)
-        | HysteresisRule::Concrete(_)
-        | HysteresisRule::InPlan { .. } => return None,
+        _ => return None,
     })
 }
 
@@ -631,6 +627,7 @@ fn corners_of(rule: HysteresisRule, numbers: [Option<f64>; 4]) -> Option<Corners
         | HysteresisRule::Pinched(_)
         | HysteresisRule::Sliding { .. }
         | HysteresisRule::Stop { .. }
+        | HysteresisRule::Ground
         | HysteresisRule::Failing(_)
         | HysteresisRule::Concrete(_)
         | HysteresisRule::InPlan { .. } => Corners {

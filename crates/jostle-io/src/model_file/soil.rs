@@ -1,7 +1,8 @@
 //! `[soil]` and `[building.foundation]`: rigid foundations on springs and dashpots of the soil.
 
-use jostle::{Foundation, HalfSpace, Soil, SoilCoupling};
+use jostle::{BearingStrength, Foundation, GroundSprings, HalfSpace, Soil, SoilCoupling, Uplift};
 
+use super::building::or_rigid;
 use crate::keys::{SOIL_COUPLINGS, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
@@ -30,12 +31,75 @@ pub(super) fn read_foundation(reader: &mut Reader<'_>, building: &View<'_>) -> O
     let mass = needed(reader, &view, "mass", Dimension::Mass, "\"120 t\"");
     let embedment = given(reader, &view, "embedment", Dimension::Length);
     let rotary_inertia = given(reader, &view, "rotary_inertia", Dimension::PolarMass);
+    let uplift = read_uplift(reader, &view)?;
     let plate = Foundation::rectangle(length?, width?, mass?);
     Some(Foundation {
+        uplift,
         embedment: embedment.unwrap_or(0.0),
         rotary_inertia: rotary_inertia.unwrap_or(plate.rotary_inertia),
         ..plate
     })
+}
+
+/// Keys of foundations that lift off, each with one without which it has no effect.
+const OF_UPLIFT: [(&str, Option<&str>); 8] = [
+    ("springs", None),
+    ("ends", None),
+    ("vertical_stiffness", None),
+    ("bearing_strength", None),
+    ("vertical_damping", Some("vertical_stiffness")),
+    ("sway_stiffness", Some("vertical_stiffness")),
+    ("sway_damping", Some("sway_stiffness")),
+    ("bearing_hardening", Some("bearing_strength")),
+];
+
+/// Reads how a foundation lifts off, if it does; `None` after a fault.
+fn read_uplift(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Option<Uplift>> {
+    let field = reader.get(view, "uplift");
+    let lifts = field.is_some_and(|field| reader.flag(&field).unwrap_or(false));
+    for (key, with) in OF_UPLIFT {
+        let missing = match with {
+            _ if !lifts => Some("uplift = true"),
+            Some(with) if !view.has(with) => Some(with),
+            _ => None,
+        };
+        if let (Some(missing), Some(field)) = (missing, reader.get(view, key)) {
+            *reader.bad(&field, format!("has no effect without {missing}")) =
+                Some(format!("add {missing}, or leave {key} out"));
+            return None;
+        }
+    }
+    if !lifts {
+        return Some(None);
+    }
+    let springs = match reader.get(view, "springs") {
+        Some(field) => reader.count(&field)?,
+        None => {
+            let remedy = "add springs = 11, along its length; 2 is the fewest";
+            reader.missing(view, "springs", remedy);
+            return None;
+        }
+    };
+    let number = |reader: &mut Reader<'_>, key, dimension| given(reader, view, key, dimension);
+    let vertical = number(reader, "vertical_stiffness", Dimension::Stiffness);
+    let sway = or_rigid(reader, view, "sway_stiffness", Dimension::Stiffness);
+    let damping = ["vertical_damping", "sway_damping"]
+        .map(|key| number(reader, key, Dimension::Damping).unwrap_or(0.0));
+    let strength = number(reader, "bearing_strength", Dimension::Modulus);
+    let hardening = number(reader, "bearing_hardening", Dimension::Dimensionless);
+    Some(Some(Uplift {
+        springs,
+        ends: number(reader, "ends", Dimension::Dimensionless),
+        ground: vertical.map(|vertical_stiffness| GroundSprings {
+            vertical_stiffness,
+            vertical_damping: damping[0],
+            sway: sway.map(|stiffness| [stiffness, damping[1]]),
+        }),
+        bearing: strength.map(|strength| BearingStrength {
+            strength,
+            hardening: hardening.unwrap_or(0.0),
+        }),
+    }))
 }
 
 /// Reads the soil; `None` after a fault.

@@ -742,6 +742,8 @@ messages! {
     m_deep(embedment) = ", {embedment} m deep";
     size_of_the_foundation = "size of the foundation";
     mass_of_the_foundation = "mass of the foundation";
+    lifts_off(springs) = ", lifts off, {springs} contact springs";
+    vertical_springs_lift_off = " (compression only)";
     base = "base";
     elevation_of_the_base = "elevation of the base";
     sideways = "sideways";

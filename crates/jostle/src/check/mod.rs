@@ -135,6 +135,7 @@ fn check_building(faults: &mut Faults, path: &str, building: &Building) {
     );
     isolation::check_isolation(faults, path, building);
     soil::check_foundation(faults, path, building);
+    soil::check_uplift(faults, path, building);
     if let Some(hinges) = &building.hinges {
         check_hinges(
             faults,
@@ -336,9 +337,6 @@ fn check_members_of(faults: &mut Faults, path: &str, frame: &Frame) {
     faults.require(storeys >= 1, format!("{path}.storeys"), || {
         "a frame needs at least one storey".into()
     });
-    faults.require(!frame.spans.is_empty(), format!("{path}.spans"), || {
-        "a frame needs at least one span".into()
-    });
     for (field, span) in each(&frame.spans, &format!("{path}.spans")) {
         faults.positive(*span, field, "m");
     }
@@ -401,7 +399,7 @@ fn check_members_of(faults: &mut Faults, path: &str, frame: &Frame) {
         }
     }
     let complete = per_storey.iter().all(|(_, count)| *count == storeys);
-    if complete && storeys > 0 && !frame.spans.is_empty() && !frame.is_regular() {
+    if complete && storeys > 0 && !frame.is_regular() {
         frame_places::check_places(faults, path, frame);
     }
     if complete {

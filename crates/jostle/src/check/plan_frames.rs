@@ -70,6 +70,9 @@ fn check_one(faults: &mut Faults, at: &str, own: &PlanFrame, tiers: &Tiers) {
     faults.require(!yields, format!("{at}.base"), || {
         "cannot yield under a frame in a plan yet; leave its hinges out".into()
     });
+    faults.require(!own.base.uplift, format!("{at}.base.uplift"), || {
+        "is not possible under a frame in a plan yet; leave it out".into()
+    });
     let rests = own.base.isolation.is_some() || own.base.foundation.is_some();
     faults.require(!rests, format!("{at}.base"), || {
         "takes springs and dashpots only under a frame in a plan".into()

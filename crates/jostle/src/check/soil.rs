@@ -2,7 +2,9 @@
 
 use super::{Faults, each};
 use crate::eigen::symmetric;
-use crate::model::{Base, Building, Damping, Model, SoilCoupling, Solver, Structure};
+use crate::model::{
+    Base, Building, Damping, GroundSprings, MassDamping, Model, SoilCoupling, Solver, Structure,
+};
 
 /// Entries of a matrix that differ by less than this, relative to the diagonal, count as equal.
 const SAME: f64 = 1e-9;
@@ -29,8 +31,9 @@ pub(super) fn check_foundation(faults: &mut Faults, path: &str, building: &Build
         "is for frames and shear buildings in one plane; leave it out".into()
     });
     if let Structure::Frame(frame) = &building.structure {
-        faults.require(!frame.axial.columns_flexible, own.as_str(), || {
-            "is for columns that keep their length: leave out columns = \"flexible\"".into()
+        let rises = foundation.uplift.is_some();
+        faults.require(rises || !frame.axial.columns_flexible, own.as_str(), || {
+            "is for columns that keep their length: leave out columns = \"flexible\", or write uplift = true".into()
         });
     }
     faults.require(
@@ -49,20 +52,116 @@ pub(super) fn check_foundation(faults: &mut Faults, path: &str, building: &Build
     );
 }
 
+/// Faults of a foundation, or of feet of columns, that can lift off.
+pub(super) fn check_uplift(faults: &mut Faults, path: &str, building: &Building) {
+    let base = &building.base;
+    faults.require(
+        !base.lifts() || building.gravity.preload,
+        format!("{path}.gravity"),
+        || "is needed where the building can lift off: no weight holds it down; write gravity = true, or leave out uplift".into(),
+    );
+    faults.require(
+        building.mass_damping == MassDamping::Support || base.foundation.is_some(),
+        format!("{path}.damping.relative_to"),
+        || "is for buildings on a foundation; leave it out".into(),
+    );
+    faults.require(
+        !base.uplift || base.vertical_stiffness.is_some(),
+        format!("{path}.base.vertical_stiffness"),
+        || "is needed where columns can lift off: that of the ground under each".into(),
+    );
+    let Some(uplift) = base.foundation.and_then(|own| own.uplift) else {
+        return;
+    };
+    let own = format!("{path}.foundation");
+    faults.require(
+        (2..=MOST_SPRINGS).contains(&uplift.springs),
+        format!("{own}.springs"),
+        || {
+            format!(
+                "must lie between 2 and {MOST_SPRINGS}, found {}: one spring cannot hold a foundation that rocks",
+                uplift.springs
+            )
+        },
+    );
+    if let Some(ends) = uplift.ends {
+        faults.positive(ends, format!("{own}.ends"), "");
+    }
+    if let Some(ground) = &uplift.ground {
+        let GroundSprings {
+            vertical_stiffness,
+            vertical_damping,
+            sway,
+        } = *ground;
+        faults.positive(
+            vertical_stiffness,
+            format!("{own}.vertical_stiffness"),
+            "N/m",
+        );
+        faults.not_negative(vertical_damping, format!("{own}.vertical_damping"), "N.s/m");
+        if let Some([stiffness, damping]) = sway {
+            faults.positive(stiffness, format!("{own}.sway_stiffness"), "N/m");
+            faults.not_negative(damping, format!("{own}.sway_damping"), "N.s/m");
+        }
+    }
+    if let Some(bearing) = &uplift.bearing {
+        faults.positive(bearing.strength, format!("{own}.bearing_strength"), "Pa");
+        faults.require(
+            (0.0..1.0).contains(&bearing.hardening),
+            format!("{own}.bearing_hardening"),
+            || {
+                format!(
+                    "must be at least 0 and less than 1, found {}",
+                    bearing.hardening
+                )
+            },
+        );
+    }
+}
+
+/// Most contact springs of a foundation.
+const MOST_SPRINGS: usize = 200;
+
 /// Faults of the soil, and of foundations beside each other.
 pub(super) fn check_soil(faults: &mut Faults, model: &Model) {
-    let founded: Vec<usize> = (0..model.buildings.len())
-        .filter(|&index| model.buildings[index].base.foundation.is_some())
-        .collect();
+    let foundation = |index: usize| model.buildings[index].base.foundation;
+    let all = (0..model.buildings.len()).filter(|&index| foundation(index).is_some());
+    let all: Vec<usize> = all.collect();
+    let lifts = |index: usize| foundation(index).and_then(|own| own.uplift);
+    let has_springs = |index: usize| lifts(index).is_some_and(|own| own.ground.is_some());
+    let founded = all.iter().copied().filter(|index| !has_springs(*index));
+    let founded: Vec<usize> = founded.collect();
+    let can_step = match model.analysis.solver {
+        None | Some(Solver::Riccati | Solver::Stiffness) => true,
+        Some(Solver::Product | Solver::Modal | Solver::Series) => false,
+    };
+    faults.require(
+        can_step || all.is_empty(),
+        "analysis.solver",
+        || "cannot step buildings on foundations: take \"riccati\" or \"stiffness\", or leave it out".into(),
+    );
     let Some(soil) = &model.soil else {
         for index in founded {
-            faults.add(
-                format!("building[{index}].foundation"),
-                "needs [soil]: add its shear_wave_velocity, density and poisson_ratio",
-            );
+            let remedy = match lifts(index) {
+                Some(_) => {
+                    "needs [soil] or springs of its own: add vertical_stiffness, or [soil] with shear_wave_velocity, density and poisson_ratio"
+                }
+                None => "needs [soil]: add its shear_wave_velocity, density and poisson_ratio",
+            };
+            faults.add(format!("building[{index}].foundation"), remedy);
         }
         return;
     };
+    for index in all.into_iter().filter(|index| lifts(*index).is_some()) {
+        faults.require(
+            soil.coupling == SoilCoupling::None,
+            format!("building[{index}].foundation"),
+            || {
+                "cannot lift off where foundations act on each other; leave out coupling, or uplift"
+                    .into()
+            },
+        );
+    }
     faults.require(!founded.is_empty(), "soil", || {
         "carries no foundation: give a building a foundation, or leave out [soil]".into()
     });
@@ -90,15 +189,6 @@ pub(super) fn check_soil(faults: &mut Faults, model: &Model) {
             )
         });
     }
-    let can_step = match model.analysis.solver {
-        None | Some(Solver::Riccati | Solver::Stiffness) => true,
-        Some(Solver::Product | Solver::Modal | Solver::Series) => false,
-    };
-    faults.require(
-        can_step,
-        "analysis.solver",
-        || "cannot step buildings on foundations: take \"riccati\" or \"stiffness\", or leave it out".into(),
-    );
     for left in 0..model.buildings.len().saturating_sub(1) {
         let neighbours = [left, left + 1].map(|index| model.buildings[index].base.foundation);
         if let ([Some(_), Some(_)], Ok(distance)) = (neighbours, model.between_foundations(left)) {

@@ -112,6 +112,8 @@ pub enum Kind {
     Speed,
     /// Energy that dashpots have taken, or work done on a link or a spring, recoverable energy included \[J\].
     Work,
+    /// Time for which a spring has no force \[s\].
+    Lifted,
     /// A term of the energy balance \[J\].
     Energy(EnergyTerm),
 }
@@ -284,6 +286,7 @@ impl Column {
             (Kind::Stroke, _) => ("stroke", Unit::M, "shortening of the link since rest; with `links = true` under `[output]`"),
             (Kind::Speed, _) => ("speed", Unit::M_S, "its rate; with `links = true` under `[output]`"),
             (Kind::Work, _) => ("work", Unit::J, "energy taken until then"),
+            (Kind::Lifted, _) => ("lifted", Unit::S, "time without force until then"),
             (Kind::Energy(EnergyTerm::Input), _) => ("input", Unit::J, "work of the ground motion until then"),
             (Kind::Energy(EnergyTerm::Ground), _) => ("ground", Unit::J, "work of grounds that move apart, through contacts and links, until then"),
             (Kind::Energy(EnergyTerm::Kinetic), _) => ("kinetic", Unit::J, "kinetic energy relative to the ground"),

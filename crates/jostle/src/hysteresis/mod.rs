@@ -25,6 +25,7 @@
 mod backbone;
 mod circular;
 mod concrete;
+mod compression;
 mod degrading;
 mod failing;
 mod friction;

@@ -52,6 +52,15 @@ impl Pinching {
         energy_damage: 0.0,
     };
 
+    /// Reloads on the line of unloading, without damage.
+    pub(super) const NONE: Self = Self {
+        deformation: 1.0,
+        force: 1.0,
+        unloading_exponent: 0.0,
+        ductility_damage: 0.0,
+        energy_damage: 0.0,
+    };
+
     /// The first parameter out of range: its name in model files, its range and its value.
     pub(super) fn fault(&self) -> Option<String> {
         let unit = [
@@ -113,7 +122,7 @@ enum Next {
 
 /// Where a strut that bears compression alone has lost its force, if it has none; without a curve for tension, it has none beyond.
 #[inline]
-fn open_from(backbone: &Backbone, memory: &HysteresisMemory) -> Option<Corner> {
+pub(super) fn open_from(backbone: &Backbone, memory: &HysteresisMemory) -> Option<Corner> {
     if !backbone.is_without_tension() || memory.force != 0.0 {
         return None;
     }

@@ -7,7 +7,7 @@ use super::failing::{self, FallingBranch};
 use super::friction::{Rates, Strength};
 use super::memory::{Branch, HysteresisMemory, Response, Stage};
 use super::pinched::{self, Pinching};
-use super::{degrading, oriented, sliders};
+use super::{compression, degrading, oriented, sliders};
 
 /// Exponent of the unloading stiffness of Takeda's rule after yield \[–\] (Takeda, Sozen and Nielsen, 1970).
 pub const DEFAULT_TAKEDA_EXPONENT: f64 = 0.4;
@@ -52,6 +52,8 @@ pub enum HysteresisRule {
     /// Loads towards the peaks in two lines, the first one softer: timber, masonry, concrete that slips (OpenSees'
     /// `Hysteretic`, Scott and Filippou).
     Pinched(Pinching),
+    /// Ground under a foundation: compression alone, plastic beyond yield; [`Hysteresis::ground`] makes it.
+    Ground,
     /// Elastic to the yield force, then falling to a residual force: columns that fail in shear;
     /// [`Hysteresis::failing`] makes it.
     Failing(FallingBranch),
@@ -104,6 +106,7 @@ impl HysteresisRule {
             | Self::DegradingTrilinear
             | Self::Stop { .. }
             | Self::Pinched(_)
+            | Self::Ground
             | Self::Failing(_)
             | Self::Concrete(_)
             | Self::InPlan { .. } => false,
@@ -123,6 +126,7 @@ impl HysteresisRule {
             Self::Sliding { .. } => "friction",
             Self::Stop { .. } => "stop",
             Self::Pinched(_) => "pinched",
+            Self::Ground => "ground",
             Self::Failing(_) => "failing",
             Self::Concrete(_) => "concrete",
             Self::InPlan { law, .. } => match law {
@@ -265,53 +269,6 @@ impl Hysteresis {
         Self::new(HysteresisRule::Elastic, backbone)
     }
 
-    /// An elastic stop of this stiffness \[N/m\] behind a clearance \[m\] on a side.
-    ///
-    /// # Errors
-    /// Numbers that are not positive.
-    pub fn stop(stiffness: f64, clearance: f64, side: Side) -> Result<Self, Vec<SpringFault>> {
-        let corners = Corners::bilinear(clearance, 1.0);
-        let backbone = Backbone::from_deformations(stiffness, corners, corners)?;
-        let rule = HysteresisRule::Stop { side, clearance };
-        Ok(Self { rule, backbone })
-    }
-
-    /// An elastic strut of this stiffness \[N/m\] that bears compression alone: F = k min(d, 0).
-    ///
-    /// Such struts come in pairs, one of which acts whichever way a bay sways: at rest each counts with half its stiffness.
-    ///
-    /// # Errors
-    /// A stiffness that is not positive.
-    pub fn without_tension(stiffness: f64) -> Result<Self, Vec<SpringFault>> {
-        // It has no yield deformation; its curve of first loading says so by one metre.
-        let corners = Corners::bilinear(1.0, 1.0);
-        let backbone = Backbone::from_deformations(stiffness, corners, corners)?;
-        let (side, clearance) = (Side::Negative, 0.0);
-        let rule = HysteresisRule::Stop { side, clearance };
-        Ok(Self { rule, backbone })
-    }
-
-    /// The same pinched spring in compression alone: in tension it has no force, and it bears again where it lost its force in compression.
-    ///
-    /// # Errors
-    /// Another rule.
-    pub fn in_compression(self) -> Result<Self, SpringFault> {
-        match self.rule {
-            HysteresisRule::Pinched(_) => Ok(Self {
-                backbone: self.backbone.without_tension(),
-                ..self
-            }),
-            _ => Err(SpringFault {
-                quantity: Quantity::Rule,
-                side: None,
-                problem: format!(
-                    "{} has no form that bears compression alone; take pinched",
-                    self.rule.name()
-                ),
-            }),
-        }
-    }
-
     /// A spring of this stiffness \[N/m\] that is elastic to a strength \[N\], equal in both directions, and loses it from
     /// there on.
     ///
@@ -428,6 +385,7 @@ impl Hysteresis {
             | HysteresisRule::Takeda { .. }
             | HysteresisRule::DegradingTrilinear
             | HysteresisRule::Pinched(_)
+            | HysteresisRule::Ground
             | HysteresisRule::Failing(_)
             | HysteresisRule::Concrete(_)
             | HysteresisRule::InPlan { .. }
@@ -513,7 +471,10 @@ impl Hysteresis {
             }
             HysteresisRule::Stop { side, clearance } => {
                 let stiffness = self.backbone.initial();
-                stop(stiffness, [side.sign(), clearance], memory, deformation)
+                compression::stop(stiffness, [side.sign(), clearance], memory, deformation)
+            }
+            HysteresisRule::Ground => {
+                pinched::respond(&self.backbone, &Pinching::NONE, memory, deformation)
             }
             HysteresisRule::Pinched(pinching) => {
                 pinched::respond(&self.backbone, &pinching, memory, deformation)
@@ -585,6 +546,7 @@ impl Hysteresis {
             | HysteresisRule::DegradingTrilinear
             | HysteresisRule::Stop { .. }
             | HysteresisRule::Pinched(_)
+            | HysteresisRule::Ground
             | HysteresisRule::Failing(_)
             | HysteresisRule::Concrete(_)
             | HysteresisRule::InPlan { .. } => {
@@ -618,6 +580,7 @@ impl Hysteresis {
             | HysteresisRule::DegradingTrilinear
             | HysteresisRule::Stop { .. }
             | HysteresisRule::Pinched(_)
+            | HysteresisRule::Ground
             | HysteresisRule::Failing(_) => *memory = self.respond(memory, deformation).memory,
         }
     }
@@ -667,6 +630,9 @@ impl Hysteresis {
             }
             HysteresisRule::Concrete(fall) => {
                 concrete::unloading_stiffness(&self.backbone, &fall, memory)
+            }
+            HysteresisRule::Ground => {
+                pinched::unloading_stiffness(&self.backbone, &Pinching::NONE, memory)
             }
         }
     }
@@ -718,6 +684,9 @@ impl Hysteresis {
             }
             HysteresisRule::Pinched(pinching) => {
                 pinched::next_corner(&self.backbone, &pinching, memory, towards)
+            }
+            HysteresisRule::Ground => {
+                pinched::next_corner(&self.backbone, &Pinching::NONE, memory, towards)
             }
             HysteresisRule::Failing(falling) => {
                 failing::next_corner(&self.backbone, &falling, memory, towards)
@@ -781,23 +750,6 @@ fn elastic(backbone: &Backbone, memory: &HysteresisMemory, deformation: f64) -> 
         force,
         tangent: backbone.initial(),
         work: 0.5 * (force + memory.force) * (deformation - memory.deformation),
-        memory: *memory,
-    }
-}
-
-/// Only the part of the path beyond the clearance does work.
-fn stop(
-    stiffness: f64,
-    [sign, clearance]: [f64; 2],
-    memory: &HysteresisMemory,
-    deformation: f64,
-) -> Response {
-    let into = (sign * deformation - clearance).max(0.0);
-    let force = sign * stiffness * into;
-    Response {
-        force,
-        tangent: if into > 0.0 { stiffness } else { 0.0 },
-        work: 0.5 * (force * force - memory.force * memory.force) / stiffness,
         memory: *memory,
     }
 }

@@ -3,6 +3,7 @@
 //! Everything here is plain data in SI units. [`Model::check`] reports every fault at once, each with the
 //! path of the field it concerns, so that a reader can point at the line of the file.
 
+mod base;
 mod capacity;
 mod diagonal;
 mod floor_matrices;
@@ -22,12 +23,14 @@ mod shear_spring;
 mod soil;
 mod space_frame;
 mod tiers;
+mod uplift;
 mod wall;
 
 use std::collections::BTreeMap;
 
 use crate::hysteresis::Hysteresis;
 
+pub use base::{Base, MassDamping};
 pub use capacity::{
     CapacityLine, MemberCapacity, RotationLimits, RotationMeasure, RuleCapacity, ShearCapacity,
 };
@@ -51,6 +54,7 @@ pub use shear_spring::{ShearEnds, ShearSpring};
 pub use soil::{Foundation, FoundationSprings, HalfSpace, Soil, SoilCoupling};
 pub use space_frame::{SpaceFrame, SpaceMember, SpacePlace, SpaceSection};
 pub use tiers::{PlanArea, PlanElement, PlanPoint, Tier, TierStorey, Tiers};
+pub use uplift::{BearingStrength, BedSpring, GroundSprings, Uplift};
 pub use wall::Wall;
 
 /// Buildings in a row, gaps and links between them, and the settings of the analysis.
@@ -138,6 +142,8 @@ pub struct Building {
     /// points of a plan with their initial stiffness, and not on hinges of members, which stand in series with members that keep
     /// theirs. It never acts on isolators, bases, soil, or columns that fail in shear.
     pub yielding_damping: Option<ProportionalDamping>,
+    /// Motion against which mass-proportional damping acts.
+    pub mass_damping: MassDamping,
 }
 
 impl Default for Building {
@@ -157,6 +163,7 @@ impl Default for Building {
             gravity: Gravity::default(),
             hinges: None,
             yielding_damping: None,
+            mass_damping: MassDamping::default(),
         }
     }
 }
@@ -169,62 +176,9 @@ impl Building {
             || self.base.rotational_hinge.is_some()
             || self.base.horizontal_hinge.is_some()
             || self.base.isolation.is_some_and(|own| !own.is_linear())
+            || self.base.lifts()
             || matches!(&self.structure, Structure::Tiers(own) if own.may_yield())
             || matches!(&self.structure, Structure::Frame(own) if own.has_yielding_parts())
-    }
-}
-
-/// Springs and dashpots under every column of a frame, or under a shear building as a whole. All rigid is the
-/// default: the building is fixed to the ground.
-///
-/// These dashpots are the only damping of a base: Rayleigh damping of the building does not act on it.
-///
-/// ```
-/// use jostle::{Base, Gravity};
-///
-/// // Springs under a shear building; it starts from rest under self weight, with P-Delta.
-/// let base = Base { horizontal_stiffness: Some(500e6), horizontal_damping: 2e6, ..Base::default() };
-/// assert!(!base.is_fixed());
-/// let gravity = Gravity { preload: true, p_delta: true };
-/// assert_ne!(gravity, Gravity::default());
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
-pub struct Base {
-    /// Moment per rotation, > 0; `None` is rigid; frames only \[N·m/rad\].
-    pub rotational_stiffness: Option<f64>,
-    /// Force per horizontal displacement, > 0; `None` is rigid \[N/m\].
-    pub horizontal_stiffness: Option<f64>,
-    /// Force per vertical displacement, > 0; `None` is rigid; frames only \[N/m\].
-    pub vertical_stiffness: Option<f64>,
-    /// Moment per angular velocity, ≥ 0; needs a rotational stiffness \[N·m·s/rad\].
-    pub rotational_damping: f64,
-    /// Force per horizontal velocity, ≥ 0; needs a horizontal stiffness \[N·s/m\].
-    pub horizontal_damping: f64,
-    /// Force per vertical velocity, ≥ 0; needs a vertical stiffness \[N·s/m\].
-    pub vertical_damping: f64,
-    /// Mass of the footing, ≥ 0; moves only in directions with a spring \[kg\].
-    pub mass: f64,
-    /// Hysteresis of the rotational spring; its initial stiffness is `rotational_stiffness`.
-    pub rotational_hinge: Option<Hysteresis>,
-    /// Hysteresis of the horizontal spring; its initial stiffness is `horizontal_stiffness`.
-    pub horizontal_hinge: Option<Hysteresis>,
-    /// Bearings and a mat under the whole building, instead of all of the above.
-    pub isolation: Option<Isolation>,
-    /// Rigid foundation on the soil of the model, instead of all of the above.
-    pub foundation: Option<Foundation>,
-    /// Height of the base above the common datum, either sign: floors of neighbours face each other by their heights above it \[m\].
-    pub elevation: f64,
-}
-
-impl Base {
-    /// Whether the base is rigid.
-    #[must_use]
-    pub fn is_fixed(&self) -> bool {
-        self.rotational_stiffness.is_none()
-            && self.horizontal_stiffness.is_none()
-            && self.vertical_stiffness.is_none()
-            && self.isolation.is_none()
-            && self.foundation.is_none()
     }
 }
 

@@ -5,7 +5,7 @@
 
 use std::f64::consts::TAU;
 
-use super::{Building, Gap, Model, Structure};
+use super::{Building, Gap, Model, Structure, Uplift};
 
 /// Soil under all buildings with a foundation.
 ///
@@ -74,6 +74,8 @@ pub struct Foundation {
     pub mass: f64,
     /// Rotary inertia about the axis across the row, > 0 \[kg·m²\].
     pub rotary_inertia: f64,
+    /// Contact with the ground in compression alone; `None` keeps it down: it then neither rises nor sinks.
+    pub uplift: Option<Uplift>,
 }
 
 /// Springs and dashpots under a foundation.
@@ -87,6 +89,10 @@ pub struct FoundationSprings {
     pub rocking_stiffness: f64,
     /// Moment per angular velocity \[N·m·s/rad\].
     pub rocking_damping: f64,
+    /// Force per vertical displacement; used by foundations that lift off \[N/m\].
+    pub vertical_stiffness: f64,
+    /// Force per vertical velocity; used by the same \[N·s/m\].
+    pub vertical_damping: f64,
     /// a₀ = ωB/V_s at which they hold, B being half the shorter side; 0 for given matrices \[–\].
     pub frequency: f64,
 }
@@ -159,12 +165,22 @@ impl HalfSpace {
         };
         let rocking_stiffness = rocking_scale * spring * embedded * (1.0 - softening);
         let rocking_radiation = 4.0 / 3.0 * impedance * b * b * dashpot;
+        // Vertical motion radiates from the base and along the sides, at every frequency alike.
+        let embedded_vertical = 1.0 + (0.25 + 0.25 / q) * libm::pow(depth, 0.8);
+        let vertical_softening = (0.4 + 0.2 / q) * a2 / (10.0 / (1.0 + 3.0 * (q - 1.0)) + a2);
+        let vertical_stiffness = g * b / (1.0 - nu)
+            * (3.1 * libm::pow(q, 0.75) + 1.6)
+            * embedded_vertical
+            * (1.0 - vertical_softening);
+        let vertical_radiation = 4.0 * impedance * (psi * q + depth * (1.0 + q));
         let material = |stiffness: f64| 2.0 * self.damping * stiffness / omega;
         FoundationSprings {
             sway_stiffness,
             sway_damping: sway_radiation + material(sway_stiffness),
             rocking_stiffness,
             rocking_damping: rocking_radiation + material(rocking_stiffness),
+            vertical_stiffness,
+            vertical_damping: vertical_radiation + material(vertical_stiffness),
             frequency: a0,
         }
     }
@@ -180,6 +196,7 @@ impl Foundation {
             embedment: 0.0,
             mass,
             rotary_inertia: mass * length * length / 12.0,
+            uplift: None,
         }
     }
 

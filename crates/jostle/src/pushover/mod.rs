@@ -565,7 +565,7 @@ impl<'a, E: StepEquations> Push<'a, E> {
             .map_or(0.0, |foot| from_rest(foot - building.offset));
         let turned = building
             .foundation
-            .map_or(0.0, |own| from_rest(own.dofs[1] - building.offset));
+            .map_or(0.0, |own| from_rest(own.turning - building.offset));
         let storeys = building.floors.iter().zip(&floors);
         let storey_drifts = storeys
             .map(|(floor, value)| {

@@ -53,6 +53,7 @@ pub(super) fn isolation_summary(
             | SpringPlace::Element { .. }
             | SpringPlace::Fibre { .. }
             | SpringPlace::Sliding { .. }
+            | SpringPlace::Footing { .. }
             | SpringPlace::Diagonal { .. } => {}
         }
     }

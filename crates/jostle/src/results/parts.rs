@@ -1,7 +1,8 @@
-//! Peaks of braces, struts, walls and coupling beams of frames.
+//! Peaks of braces, struts, walls and coupling beams of frames, and of the ground under foundations that lift off.
 
 use super::summarise::springs_of;
 use super::summary::{PartSummary, SpringSummary};
+use crate::history::{Kind, Owner};
 use crate::hysteresis::HysteresisRule;
 use crate::stepping::Outcome;
 use crate::structure::{
@@ -9,14 +10,17 @@ use crate::structure::{
 };
 use crate::system::BuildingSystem;
 
-/// Braces, struts, walls and coupling beams of a building, each in the order of the model.
+/// Braces, struts, walls and coupling beams of a building, each in the order of the model, then what it lifts off.
 pub(super) fn parts_of(
     index: usize,
     building: &BuildingSystem,
     outcome: &Outcome,
 ) -> Vec<PartSummary> {
     let diagonals = &building.discretization.diagonals;
-    if diagonals.is_empty() && building.discretization.walls.is_empty() {
+    if diagonals.is_empty()
+        && building.discretization.walls.is_empty()
+        && building.equations.springs.is_empty()
+    {
         return Vec::new();
     }
     let springs = springs_of(building, outcome);
@@ -57,6 +61,7 @@ pub(super) fn parts_of(
         .map(part)
         .chain(walls.map(|wall| of_wall(building, &springs, wall, range)))
         .chain(beams.map(|beam| of_coupling_beam(building, &springs, beam, range)))
+        .chain(footings_of(building, &springs, outcome))
         .collect()
 }
 
@@ -92,6 +97,7 @@ fn of_wall(
         rotation_max_rad: turned(|own| own.deformation_max),
         rotation_min_rad: turned(|own| own.deformation_min),
         dissipated_j: dissipated.fold(0.0, |sum, own| sum + own.dissipated_j),
+        ..PartSummary::default()
     }
 }
 
@@ -140,6 +146,64 @@ pub(super) fn degree_of_coupling(
     });
     (total > 0.0).then(|| couple / total)
 }
+
+/// The ground under the foundation, or under every column that can lift off.
+fn footings_of(
+    building: &BuildingSystem,
+    springs: &[SpringSummary],
+    outcome: &Outcome,
+) -> Vec<PartSummary> {
+    let mut footings: Vec<(Option<usize>, PartSummary)> = Vec::new();
+    let foundation = building.discretization.stick_model.foundation.as_ref();
+    for own in springs {
+        let place = building.discretization.spring_places.get(own.index);
+        let Some(&SpringPlace::Footing { line, spring }) = place else {
+            continue;
+        };
+        if footings.last().is_none_or(|(known, _)| *known != line) {
+            let number = line.map_or_else(String::new, |line| format!(".{line}"));
+            let own = PartSummary {
+                name: format!("{}.footing{number}", building.name),
+                kind: FOOTING,
+                ..PartSummary::default()
+            };
+            footings.push((line, own));
+        }
+        let Some((_, footing)) = footings.last_mut() else {
+            continue;
+        };
+        let global = building.spring_offset + own.index;
+        let law = &building.equations.springs[own.index].hysteresis;
+        let lifted = outcome
+            .peaks
+            .owned_by(Owner::Spring(global))
+            .of(Kind::Lifted);
+        let strip = foundation.and_then(|own| own.bed.get(spring - 1));
+        let raise = |value: &mut f64, to: f64| *value = value.max(to);
+        footing.force_min_n = footing.force_min_n.min(-own.peak_force);
+        raise(&mut footing.deformation_max, own.deformation_max);
+        raise(&mut footing.deformation_min, own.deformation_min);
+        // Ground that has not yielded is elastic; rounding errors of its work are no loss.
+        if own.yielded_s.is_some() {
+            footing.dissipated_j += own.dissipated_j;
+        }
+        let share = lifted.greatest.value / outcome.state.time.max(f64::MIN_POSITIVE);
+        let pressure = strip.map(|strip| own.peak_force / strip.area);
+        let settled = law.settlement(&outcome.state.springs[global]);
+        for (value, found) in [
+            (&mut footing.lifted_share, Some(share)),
+            (&mut footing.pressure_max_pa, pressure),
+            (&mut footing.settlement_m, Some(settled)),
+        ] {
+            *value = (*value).into_iter().chain(found).reduce(f64::max);
+        }
+    }
+    footings.into_iter().map(|(_, footing)| footing).collect()
+}
+
+
+/// Kind of the ground under foundations.
+const FOOTING: &str = "footing";
 
 /// Name of a part, with its building and the frame in plan.
 fn name_of(building: &BuildingSystem, frame: Option<usize>, part: &str) -> String {

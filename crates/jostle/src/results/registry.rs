@@ -101,7 +101,7 @@ const OWNERS: &[Row] = &[
     ("Hinges", "buildings[].hinges.list[]", Some("hinges.parquet"), "", &[entries!(SpringSummary::QUANTITIES)]),
     ("Columns that fail in shear", "buildings[].shear_failures", None, "J1.shear_failures_", &[entries!(ShearFailureSummary::QUANTITIES)]),
     ("Failures in shear", "buildings[].shear_failures.list[]", None, "", &[entries!(ShearFailure::QUANTITIES)]),
-    ("Braces, struts, walls and coupling beams", "buildings[].parts[]", None, "", &[entries!(PartSummary::QUANTITIES)]),
+    ("Braces, struts, walls, coupling beams and foundations that lift off", "buildings[].parts[]", None, "", &[entries!(PartSummary::QUANTITIES)]),
     ("Ends of columns made of fibres", "buildings[].sections[]", None, "", &[entries!(FibreSummary::QUANTITIES)]),
     ("Sections of columns and beams", "buildings[].members[].ends[]", None, "", &[entries!(SectionSummary::QUANTITIES)]),
     ("Sections of space frames", "buildings[].members[].ends[]", None, "", &[entries!(AcrossSummary::QUANTITIES)]),

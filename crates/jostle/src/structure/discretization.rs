@@ -426,7 +426,12 @@ impl StickModel {
             ends: [foot, ground],
             rotational_stiffness: base.rotational_stiffness,
             hysteresis: base.rotational_hinge,
-            translational_stiffness: [horizontal, base.vertical_stiffness],
+            // Ground in compression alone stands among what yields.
+            translational_stiffness: [
+                horizontal,
+                base.vertical_stiffness
+                    .map(|own| if base.uplift { 0.0 } else { own }),
+            ],
             dashpots: [
                 base.horizontal_damping,
                 base.vertical_damping,
@@ -653,6 +658,9 @@ pub(super) fn discretize_frame(
     let beams = frame.coupling_beams.iter();
     discretization.coupling_beams = beams.map(|own| InFrame::alone(*own)).collect();
     discretization.add_diagonals(&frame.diagonals, &all_joints);
+    if let (Some(stiffness), true) = (base.vertical_stiffness, base.uplift) {
+        discretization.let_feet_lift(&all_joints[0], stiffness);
+    }
     discretization
 }
 

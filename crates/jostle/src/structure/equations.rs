@@ -105,23 +105,22 @@ impl Equations {
             }
             for (component, inertia) in node.inertia.into_iter().enumerate() {
                 let carried = stick_model.carried((index, component));
-                let [(place, share)] = *carried.entries() else {
-                    continue;
-                };
-                let place = element::place_of(place);
-                let Some(dof) = path.dof(place.0, place.1) else {
-                    continue;
-                };
                 let moved = node.influence[component];
-                moved_mass[0] += inertia * moved.along * moved.along;
-                moved_mass[1] += inertia * moved.across * moved.across;
-                mass[dof] += inertia * (share * share);
-                driven_mass[dof] += inertia * share * moved.along;
-                vertical_mass[dof] += inertia * share * moved.up;
-                if across > 0 {
-                    driven_across[dof] += inertia * share * moved.across;
-                    driven_turning[dof] += inertia * share * moved.turning;
-                    polar_mass += inertia * moved.turning * moved.turning;
+                // Of a mass that two displacements carry, what couples them adds to nothing over all masses.
+                for (place, share) in element::places(&carried) {
+                    let Some(dof) = path.dof(place.0, place.1) else {
+                        continue;
+                    };
+                    moved_mass[0] += inertia * moved.along * moved.along;
+                    moved_mass[1] += inertia * moved.across * moved.across;
+                    mass[dof] += inertia * (share * share);
+                    driven_mass[dof] += inertia * share * moved.along;
+                    vertical_mass[dof] += inertia * share * moved.up;
+                    if across > 0 {
+                        driven_across[dof] += inertia * share * moved.across;
+                        driven_turning[dof] += inertia * share * moved.turning;
+                        polar_mass += inertia * moved.turning * moved.turning;
+                    }
                 }
             }
         }
@@ -156,7 +155,7 @@ impl Equations {
                 }
                 // Forces of the supports on the building.
                 (None, Some(column))
-                    if of_supports && !on_soil && a.1 == X && part != Part::Dashpot =>
+                    if of_supports && sway.is_none() && a.1 == X && part != Part::Dashpot =>
                 {
                     base_shear.add(column, -value);
                 }

@@ -2,21 +2,34 @@
 
 use super::Discretization;
 use super::element::{Element, Part, Place, THETA, X, Y, index_of, over_nodes, places};
-use super::stick_model::{RigidFoundation, StickModel, Support};
+use super::spring_place::SpringPlace;
+use super::stick_model::{RigidFoundation, StickModel, Support, YieldingElement};
+use crate::hysteresis::Hysteresis;
 use crate::linear::Row;
-use crate::model::Foundation;
+use crate::model::{BedSpring, Foundation, ProportionalDamping};
+
+/// Springs and dashpots under a rigid foundation.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Subgrade {
+    /// Stiffness over displacement and rotation: uu, uθ, θθ \[N/m, N, N·m\].
+    pub(crate) stiffness: [f64; 3],
+    /// Dashpots over the same \[N·s/m, N·s, N·m·s\].
+    pub(crate) damping: [f64; 3],
+    /// Whether the foundation moves sideways.
+    pub(crate) sways: bool,
+    /// Contact springs, which then resist rotation; empty under a foundation that does not rise.
+    pub(crate) bed: Vec<BedSpring>,
+    /// Dashpot against rising and sinking \[N·s/m\].
+    pub(crate) vertical_damping: f64,
+}
 
 impl Discretization {
     /// Puts the feet of the building, which are fixed so far, on a rigid foundation on springs and dashpots: its middle lies
     /// below the middle of the building. Storeys of a shear building deform by w_i = u_i − u_f + h_i θ (theory, Eq. B22).
-    pub(crate) fn put_on_foundation(
-        &mut self,
-        foundation: &Foundation,
-        stiffness: [f64; 3],
-        damping: [f64; 3],
-    ) {
+    pub(crate) fn put_on_foundation(&mut self, foundation: &Foundation, under: &Subgrade) {
+        let lifts = !under.bed.is_empty();
         let sticks = &mut self.stick_model;
-        let feet: Vec<usize> = (0..sticks.nodes.len())
+        let mut feet: Vec<usize> = (0..sticks.nodes.len())
             .filter(|&node| sticks.nodes[node].support == Support::Fixed)
             .collect();
         let (Some(&first), Some(&last)) = (feet.first(), feet.last()) else {
@@ -26,23 +39,34 @@ impl Discretization {
             sticks.nodes[foot].support = Support::Free;
         }
         let middle = 0.5 * (sticks.nodes[first].x + sticks.nodes[last].x);
-        let node = if feet.len() == 1 {
-            first
-        } else {
-            sticks.add_node(middle, 0.0)
+        let plate = match feet.len() {
+            1 => first,
+            _ => sticks.add_node(middle, 0.0),
         };
-        let own = &mut sticks.nodes[node];
+        let own = &mut sticks.nodes[plate];
         own.add_mass(foundation.mass);
         *own = own.with_rotary_inertia(foundation.rotary_inertia);
+        let mut node = plate;
+        if lifts && plate != first {
+            // It rises about the centre of what it carries, with its own mass at its middle.
+            feet.push(plate);
+            let centre = centre_of_what_rises(sticks, &feet, middle);
+            node = sticks.add_node(centre, 0.0);
+        }
+        let centre = sticks.nodes[node].x;
         for spring in &mut sticks.springs {
             let [lower, upper] = spring.ends.map(|end| sticks.nodes[end].y);
             spring.lever = Some(upper - lower);
         }
-        if feet.len() > 1 {
-            let levers = levers(sticks, &feet, middle).into_iter().enumerate();
+        if plate != first {
+            let levers = levers(sticks, &feet, centre).into_iter().enumerate();
             let ties = levers.filter_map(|(at, lever)| {
-                let turned = over_nodes([((node, THETA), lever?)]);
-                Some((index_of((at, Y)), turned))
+                let turned = ((node, THETA), lever?);
+                let raised = lifts.then_some(((node, Y), 1.0));
+                Some((
+                    index_of((at, Y)),
+                    over_nodes(raised.into_iter().chain([turned])),
+                ))
             });
             // Faces of walls follow their axes, which now follow the foundation.
             let faces = std::mem::take(&mut sticks.ties);
@@ -53,13 +77,74 @@ impl Discretization {
                 .collect();
             sticks.ties.extend(faces);
         }
+        if lifts {
+            // Floors that do not turn rise all the same.
+            let guided =
+                (0..sticks.nodes.len()).filter(|&at| sticks.nodes[at].support == Support::Guided);
+            let raised = guided.map(|at| (index_of((at, Y)), over_nodes([((node, Y), 1.0)])));
+            let raised: Vec<_> = raised.collect();
+            sticks.ties.extend(raised);
+        }
+        let [uu, ut, tt] = under.stiffness;
         sticks.foundation = Some(RigidFoundation {
             node,
             feet,
-            stiffness,
-            damping,
+            stiffness: if lifts { [uu, 0.0, 0.0] } else { [uu, ut, tt] },
+            damping: under.damping,
+            sways: under.sways,
+            middle: middle - centre,
+            bed: under.bed.clone(),
         });
         self.foot = Some(node);
+        self.add_bed(foundation, under, middle - centre);
+    }
+
+    /// Adds contact springs in compression alone under a foundation whose middle lies this far to the right of its node, and the
+    /// dashpot beside them (theory, Eq. B25).
+    fn add_bed(&mut self, foundation: &Foundation, under: &Subgrade, middle: f64) {
+        let Some(node) = self.foot else { return };
+        let bearing = foundation.uplift.and_then(|own| own.bearing);
+        let sinking = |at: f64| over_nodes([((node, Y), 1.0), ((node, THETA), middle + at)]);
+        for (index, spring) in under.bed.iter().enumerate() {
+            let strength = bearing.map(|own| [own.strength * spring.area, own.hardening]);
+            // What is not positive is a fault of the model.
+            let Ok(hysteresis) = Hysteresis::ground(spring.stiffness, strength) else {
+                continue;
+            };
+            self.stick_model.yielding.push(YieldingElement {
+                row: sinking(spring.at),
+                hysteresis,
+                proportional_damping: ProportionalDamping::None,
+            });
+            let (line, spring) = (None, index + 1);
+            self.spring_places
+                .push(SpringPlace::Footing { line, spring });
+        }
+        if under.vertical_damping > 0.0 {
+            self.stick_model.elements.push(Element::Spring {
+                part: Part::Dashpot,
+                stiffness: under.vertical_damping,
+                row: sinking(0.0),
+            });
+        }
+    }
+
+    /// Adds ground in compression alone under every foot of a column, by column lines.
+    pub(super) fn let_feet_lift(&mut self, feet: &[Option<usize>], stiffness: f64) {
+        for (line, foot) in feet.iter().enumerate() {
+            // What is not positive is a fault of the model.
+            let (Some(foot), Ok(hysteresis)) = (*foot, Hysteresis::ground(stiffness, None)) else {
+                continue;
+            };
+            self.stick_model.yielding.push(YieldingElement {
+                row: over_nodes([((foot, Y), 1.0)]),
+                hysteresis,
+                proportional_damping: ProportionalDamping::None,
+            });
+            let (line, spring) = (Some(line + 1), 1);
+            self.spring_places
+                .push(SpringPlace::Footing { line, spring });
+        }
     }
 
     /// Adds mass-proportional damping of the motion relative to the foundation, for a building whose equations have the same on
@@ -79,6 +164,7 @@ impl Discretization {
         sticks.nodes[ground].support = Support::Fixed;
         let base = sticks.nodes[foundation.node];
         let turning = (foundation.node, THETA);
+        let raised = (!foundation.bed.is_empty()).then_some(((foundation.node, Y), -1.0));
         for node in 0..ground {
             let own = sticks.nodes[node];
             let of_mass = alpha * own.mass;
@@ -89,11 +175,15 @@ impl Discretization {
                     let relative = [(place, 1.0), ((foundation.node, X), -1.0), (turning, own.y)];
                     sticks.add_dashpot(ground, &over_nodes(relative), of_mass);
                 }
-                // Floors of a shear building do not rise.
-                if own.support == Support::Free && node != foundation.node {
-                    let lever = own.x - base.x;
+                // Floors of a shear building rise with their foundation alone, and it does not rise unless it can lift off.
+                let rises = own.support == Support::Free && node != foundation.node;
+                if rises || raised.is_some() {
                     sticks.add_dashpot(ground, &over_nodes([((node, Y), 1.0)]), -of_mass);
+                }
+                if rises {
+                    let lever = own.x - base.x;
                     let relative = [((node, Y), 1.0), (turning, -lever)];
+                    let relative = relative.into_iter().chain(raised);
                     sticks.add_dashpot(ground, &over_nodes(relative), of_mass);
                 }
             }
@@ -106,7 +196,19 @@ impl Discretization {
     }
 }
 
-/// Distance to the right of the middle of the foundation, for nodes that rise with a foot: those on columns that keep their
+/// Centre of the masses that rise and sink with the feet: about it, rising and turning do not act on each other \[m\].
+fn centre_of_what_rises(sticks: &StickModel, feet: &[usize], middle: f64) -> f64 {
+    let (mut carried, mut moment) = (0.0, 0.0);
+    for (node, lever) in sticks.nodes.iter().zip(levers(sticks, feet, middle)) {
+        if let Some(lever) = lever {
+            carried += node.inertia[Y];
+            moment += node.inertia[Y] * lever;
+        }
+    }
+    middle + moment / carried
+}
+
+/// Distance to the right of the node of the foundation, for nodes that rise with a foot: those on columns that keep their
 /// length, and those beyond hinges that do not stretch.
 fn levers(sticks: &StickModel, feet: &[usize], middle: f64) -> Vec<Option<f64>> {
     let mut levers = vec![None; sticks.nodes.len()];

@@ -663,13 +663,12 @@ impl<'a> Cuts<'a> {
             }
             form.springs.add_times(-1.0, &self.springs[index][Y]);
             let carried = stick_model.carried((index, Y));
-            let [(place, share)] = *carried.entries() else {
-                continue;
-            };
-            if let Some(dof) = equations.dof(element::place_of(place)) {
-                let mass = node.inertia[Y] * share;
-                form.acceleration.add(dof, -mass);
-                form.velocity.add(dof, -equations.alpha * mass);
+            for (place, share) in element::places(&carried) {
+                if let Some(dof) = equations.dof(place) {
+                    let mass = node.inertia[Y] * share;
+                    form.acceleration.add(dof, -mass);
+                    form.velocity.add(dof, -equations.alpha * mass);
+                }
             }
             form.constant -= self.gravity * (node.inertia[Y] + node.load / STANDARD_GRAVITY);
         }

@@ -36,6 +36,7 @@ pub use discretization::{Discretization, Mat};
 pub use element::{Element, Part};
 pub use equations::{Equations, YieldingSpring};
 pub use frame_walls::InFrame;
+pub(crate) use foundation::Subgrade;
 pub use inner_link::{InnerLink, LinkEnd};
 pub(crate) use member_end::{ductility, end_stiffnesses};
 pub(crate) use member_forces::Motion;

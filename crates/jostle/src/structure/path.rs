@@ -28,9 +28,9 @@ impl Path {
                 }
             }
         }
-        // Storeys deform by the rotation of their foundation: it comes after the last of them, and leaves no fill-in.
+        // Storeys deform by the rotation of their foundation, and rise with it: it comes after the last of them, and leaves no fill-in.
         if let Some(foundation) = &stick_model.foundation {
-            let turning = ties.root(foundation.node, THETA);
+            let moves = [Y, THETA];
             let stands = |node: &usize| {
                 let carried = stick_model.ties.contains_key(&index_of((*node, Y)));
                 let mut springs = stick_model.springs.iter();
@@ -39,9 +39,13 @@ impl Path {
             let order = node_order(stick_model);
             let mut last = order.iter().enumerate();
             let last = last.rfind(|(_, (_, node))| stands(node));
-            if let (Some(root), Some((position, &(rank, _)))) = (turning, last) {
-                let after = Some((rank, THETA, position));
-                last_met[root] = last_met[root].max(after);
+            if let Some((position, &(rank, _))) = last {
+                for component in moves {
+                    if let Some(root) = ties.root(foundation.node, component) {
+                        let after = Some((rank, component, position));
+                        last_met[root] = last_met[root].max(after);
+                    }
+                }
             }
         }
         let mut roots: Vec<usize> = (0..last_met.len())
@@ -158,8 +162,11 @@ impl Ties {
                     );
                 }
             }
-            // It does not rise itself.
-            ties.merge(Self::place(foundation.node, Y), GROUND);
+            // Without contact springs it does not rise.
+            let held = [(X, !foundation.sways), (Y, foundation.bed.is_empty())];
+            for (component, _) in held.into_iter().filter(|(_, held)| *held) {
+                ties.merge(Self::place(foundation.node, component), GROUND);
+            }
         }
         ties
     }

@@ -15,6 +15,24 @@ pub enum MemberEnd {
 }
 
 impl MemberEnd {
+    /// In words at a column.
+    #[must_use]
+    pub fn of_column(self) -> &'static str {
+        match self {
+            Self::First => "foot",
+            Self::Last => "head",
+        }
+    }
+
+    /// In words at a beam.
+    #[must_use]
+    pub fn of_beam(self) -> &'static str {
+        match self {
+            Self::First => "left",
+            Self::Last => "right",
+        }
+    }
+
     /// In words at a member of a space frame: foot and head of a column, left and right of a beam along x, first and last of a beam
     /// across.
     #[must_use]
@@ -128,6 +146,13 @@ pub enum SpringPlace {
         line: usize,
         /// Which way it gives.
         motion: BaseMotion,
+    },
+    /// Ground under a foundation that can lift off, or under the foot of a column.
+    Footing {
+        /// Column line; `None` for the foundation of the whole building.
+        line: Option<usize>,
+        /// Contact spring, from 1, from the left.
+        spring: usize,
     },
     /// A whole storey of a building in plan, in one direction.
     PlanStorey {
@@ -244,7 +269,9 @@ impl SpringPlace {
     #[must_use]
     pub fn is_damped_with_structure(&self) -> bool {
         match self {
-            Self::Base { .. } | Self::Shear { .. } | Self::Fibre { .. } => false,
+            Self::Base { .. } | Self::Footing { .. } | Self::Shear { .. } | Self::Fibre { .. } => {
+                false
+            }
             Self::Diagonal { place, .. } => place.kind == DiagonalKind::Brace,
             own => !own.is_isolation(),
         }
@@ -283,13 +310,13 @@ impl SpringPlace {
     }
 
     /// Whether it counts among the hinges of a building: what cracks and yields, without isolation, columns that fail in shear,
-    /// struts that lift off, and fibres, which are many in one section.
+    /// struts and foundations that lift off, and fibres, which are many in one section.
     #[must_use]
     pub fn is_hinge(&self) -> bool {
         let strut =
             matches!(self, Self::Diagonal { place, .. } if place.kind == DiagonalKind::Infill);
-        let fibre = matches!(self, Self::Fibre { .. });
-        !(self.is_isolation() || self.is_shear() || strut || fibre)
+        let other = matches!(self, Self::Fibre { .. } | Self::Footing { .. });
+        !(self.is_isolation() || self.is_shear() || strut || other)
     }
 
     /// Shear of a wall or a coupling beam of a building that is one frame.
@@ -345,24 +372,15 @@ impl std::fmt::Display for SpringPlace {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match *self {
             Self::Column { storey, line, end } => {
-                let end = match end {
-                    MemberEnd::First => "foot",
-                    MemberEnd::Last => "head",
-                };
+                let end = end.of_column();
                 write!(formatter, "column {line}, storey {storey}, {end}")
             }
             Self::Beam { floor, bay, end } => {
-                let end = match end {
-                    MemberEnd::First => "left",
-                    MemberEnd::Last => "right",
-                };
+                let end = end.of_beam();
                 write!(formatter, "beam {bay}, floor {floor}, {end}")
             }
             Self::Shear { storey, line, end } => {
-                let end = match end {
-                    MemberEnd::First => "foot",
-                    MemberEnd::Last => "head",
-                };
+                let end = end.of_column();
                 write!(
                     formatter,
                     "column {line}, storey {storey}, shear at the {end}"
@@ -413,6 +431,12 @@ impl std::fmt::Display for SpringPlace {
                     BaseMotion::Sliding => "sliding",
                 };
                 write!(formatter, "base {line}, {motion}")
+            }
+            Self::Footing {
+                line: Some(line), ..
+            } => write!(formatter, "footing {line}"),
+            Self::Footing { line: None, spring } => {
+                write!(formatter, "footing, spring {spring}")
             }
             Self::PlanStorey { storey, axis } => {
                 write!(formatter, "storey {storey}, {}", axis.name())

@@ -93,10 +93,9 @@ impl StickModel {
         let foundation = self.foundation.as_ref()?;
         let tied = self.ties.get(&index_of((node, Y)))?;
         // Faces of walls follow their axes as well.
-        match *tied.entries() {
-            [(turned, lever)] if turned == index_of((foundation.node, THETA)) => Some(lever),
-            _ => None,
-        }
+        let turned = index_of((foundation.node, THETA));
+        let mut turned = tied.entries().iter().filter(|(index, _)| *index == turned);
+        turned.next().map(|(_, lever)| *lever)
     }
 
     /// Whether any of it moves across the row.

@@ -7,7 +7,7 @@ use super::element::Element;
 use super::order::Turn;
 use crate::hysteresis::Hysteresis;
 use crate::linear::Row;
-use crate::model::ProportionalDamping;
+use crate::model::{BedSpring, ProportionalDamping};
 
 /// Lumped masses and the massless elements between them.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -39,7 +39,7 @@ pub struct StickModel {
     pub foundation: Option<RigidFoundation>,
 }
 
-/// A rigid body at the foot of a building, on springs and dashpots: it moves sideways and turns, and does not rise.
+/// A rigid body at the foot of a building, on springs and dashpots: it moves sideways and turns. It rises if it can lift off.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RigidFoundation {
     /// Its node, at height zero; it carries its mass and rotary inertia.
@@ -50,6 +50,12 @@ pub struct RigidFoundation {
     pub stiffness: [f64; 3],
     /// Dashpots of the soil over the same \[N·s/m, N·s, N·m·s\].
     pub damping: [f64; 3],
+    /// Whether it moves sideways.
+    pub sways: bool,
+    /// How far its middle lies to the right of its node, which is the centre of the masses that rise with it \[m\].
+    pub middle: f64,
+    /// Contact springs, if it can lift off; they stand among the elements that yield.
+    pub bed: Vec<BedSpring>,
 }
 
 /// A point with three displacements: in the plane x (right), y (up) and θ (counter-clockwise); of a floor in plan x, across and θ.

@@ -31,7 +31,10 @@ impl System {
             let points = row.points_between_floors(model, index);
             let points = points.each_ref().map(|points| &points[..]);
             let number = foundations.len();
-            let on_soil = building.base.foundation.zip(Ground::of(model, number));
+            let on_soil = building.base.foundation.and_then(|foundation| {
+                let ground = Ground::of(model, &foundation, number)?;
+                Some((foundation, ground))
+            });
             let damping = match (building.base.isolation, &on_soil) {
                 (Some(_), _) => {
                     fixed(model, index, points, true).map(|fixed| (rayleigh(&fixed), None))
@@ -53,7 +56,7 @@ impl System {
             };
             let mut discretization = Discretization::with_points(building, points);
             if let Some((founded, foundation)) = &founded {
-                founded.support(&mut discretization, foundation);
+                founded.support(&mut discretization, foundation, building.mass_damping);
             } else if let Damping::Rayleigh { alpha, .. } = damping {
                 discretization.damp_relative_to_mat(alpha);
             }
@@ -751,7 +754,7 @@ fn relative_to_foundation(building: &BuildingSystem, port: Port) -> Port {
     if let Some(foundation) = building.foundation
         && port.height != 0.0
     {
-        port.row.extend([(foundation.dofs[1], port.height)]);
+        port.row.extend([(foundation.turning, port.height)]);
     }
     port
 }

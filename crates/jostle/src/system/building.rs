@@ -314,7 +314,7 @@ impl BuildingSystem {
     #[must_use]
     pub fn rocking(&self, displacement: &[f64]) -> f64 {
         let foundation = self.foundation.as_ref();
-        foundation.map_or(0.0, |own| displacement[own.dofs[1]])
+        foundation.map_or(0.0, |own| displacement[own.turning])
     }
 
     /// Lateral modes, longest period first.

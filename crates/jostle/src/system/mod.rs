@@ -97,7 +97,9 @@ impl System {
                 support.dof = support.dof - building.offset + offset;
             }
             if let Some(foundation) = &mut building.foundation {
-                for dof in &mut foundation.dofs {
+                let dofs = [&mut foundation.sway, &mut foundation.rise];
+                let dofs = dofs.into_iter().flatten();
+                for dof in dofs.chain([&mut foundation.turning]) {
                     *dof = *dof - building.offset + offset;
                 }
             }

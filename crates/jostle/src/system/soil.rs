@@ -7,16 +7,22 @@ use crate::interface::{LinkElement, Port, PortPair};
 use crate::linear::Row;
 use crate::linear::full_matrix::{FullMatrix, PivotedLu};
 use crate::model::{
-    Building, Damping, Foundation, FoundationSprings, Gravity, HalfSpace, LinkLaw, Model,
-    SoilCoupling,
+    Building, Damping, Foundation, FoundationSprings, Gravity, GroundSprings, HalfSpace, LinkLaw,
+    MassDamping, Model, SoilCoupling,
 };
-use crate::structure::{Discretization, Equations};
+use crate::structure::{Discretization, Equations, RigidFoundation, Subgrade};
 
 /// The foundation of a building of a system.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FoundationPlace {
-    /// Degrees of freedom of its displacement and its rotation in the vectors of a [`crate::State`].
-    pub dofs: [usize; 2],
+    /// Degree of freedom of its displacement in the vectors of a [`crate::State`]; `None` if it is held.
+    pub sway: Option<usize>,
+    /// Degree of freedom of its rotation there.
+    pub turning: usize,
+    /// Degree of freedom of its rise there; `None` if it cannot lift off.
+    pub rise: Option<usize>,
+    /// How far its middle lies to the right of the point that it rises with \[m\].
+    pub middle: f64,
     /// Its dimensions.
     pub foundation: Foundation,
     /// Springs and dashpots under it, without neighbours. Of given matrices, those of this foundation alone.
@@ -43,8 +49,7 @@ pub(super) struct Founded {
     pub(super) springs: FoundationSprings,
     fixed_period: f64,
     fixed_damping: f64,
-    stiffness: [f64; 3],
-    dashpots: [f64; 3],
+    under: Subgrade,
 }
 
 /// Relative change of the period at which the search for it ends.
@@ -52,16 +57,20 @@ const SAME_PERIOD: f64 = 1e-13;
 /// Most steps of this search; it gains several digits in each.
 const MOST_STEPS: usize = 60;
 
-/// Soil under a building: given matrices, or a half-space.
+/// Soil under a building: given matrices, a half-space, or springs of the foundation alone.
 pub(super) enum Ground<'a> {
     HalfSpace(&'a HalfSpace),
+    Springs(GroundSprings),
     /// Stiffness and dashpots of one foundation: uu, uθ, θθ.
     Given([[f64; 3]; 2]),
 }
 
 impl<'a> Ground<'a> {
-    /// Under the foundation of this number.
-    pub(super) fn of(model: &'a Model, number: usize) -> Option<Self> {
+    /// Under a foundation, the one of this number of those on the soil of the model.
+    pub(super) fn of(model: &'a Model, foundation: &Foundation, number: usize) -> Option<Self> {
+        if let Some(ground) = foundation.uplift.and_then(|own| own.ground) {
+            return Some(Self::Springs(ground));
+        }
         let soil = model.soil.as_ref()?;
         match &soil.coupling {
             SoilCoupling::Given { stiffness, damping } => {
@@ -89,19 +98,61 @@ impl<'a> Ground<'a> {
                 sway_damping: damping[0],
                 rocking_stiffness: stiffness[2],
                 rocking_damping: damping[2],
-                frequency: 0.0,
+                ..FoundationSprings::default()
             },
+            Self::Springs(own) => {
+                let [sway_stiffness, sway_damping] = own.sway.unwrap_or_default();
+                FoundationSprings {
+                    sway_stiffness,
+                    sway_damping,
+                    vertical_stiffness: own.vertical_stiffness,
+                    vertical_damping: own.vertical_damping,
+                    ..FoundationSprings::default()
+                }
+            }
         }
     }
 
-    /// Entries over displacement and rotation.
-    fn matrices(&self, springs: &FoundationSprings) -> [[f64; 3]; 2] {
+    /// What stands under a foundation with these springs, whose rocking becomes that of its contact springs if it can lift off.
+    ///
+    /// # Errors
+    /// Contact springs that the soil does not allow.
+    fn under(
+        &self,
+        foundation: &Foundation,
+        springs: &mut FoundationSprings,
+    ) -> Result<Subgrade, String> {
+        let sways = !matches!(self, Self::Springs(GroundSprings { sway: None, .. }));
+        let own = |springs: &FoundationSprings, bed| Subgrade {
+            stiffness: [springs.sway_stiffness, 0.0, springs.rocking_stiffness],
+            damping: [springs.sway_damping, 0.0, springs.rocking_damping],
+            sways,
+            bed,
+            vertical_damping: springs.vertical_damping,
+        };
         match self {
-            Self::HalfSpace(_) => [
-                [springs.sway_stiffness, 0.0, springs.rocking_stiffness],
-                [springs.sway_damping, 0.0, springs.rocking_damping],
-            ],
-            Self::Given(matrices) => *matrices,
+            Self::Given([stiffness, damping]) => Ok(Subgrade {
+                stiffness: *stiffness,
+                damping: *damping,
+                ..own(springs, Vec::new())
+            }),
+            _ if foundation.uplift.is_none() => Ok(Subgrade {
+                vertical_damping: 0.0,
+                ..own(springs, Vec::new())
+            }),
+            _ => {
+                let rocking =
+                    matches!(self, Self::HalfSpace(_)).then_some(springs.rocking_stiffness);
+                let bed = foundation.bed(springs.vertical_stiffness, rocking)?;
+                let turned = bed.iter().map(|own| own.stiffness * own.at * own.at);
+                springs.rocking_stiffness = turned.sum();
+                if rocking.is_none() {
+                    // Dashpots stand beside the springs, and share their sum as they do.
+                    let ratio = springs.vertical_damping / springs.vertical_stiffness;
+                    springs.rocking_damping = ratio * springs.rocking_stiffness;
+                }
+                Ok(own(springs, bed))
+            }
         }
     }
 }
@@ -130,15 +181,16 @@ impl Founded {
             springs: FoundationSprings::default(),
             fixed_period: first.period(),
             fixed_damping: damping_ratio(&fixed.equations, first),
-            stiffness: [0.0; 3],
-            dashpots: [0.0; 3],
+            under: Subgrade::default(),
         };
         let mut period = found.fixed_period;
         for _ in 0..MOST_STEPS {
             found.springs = ground.springs(foundation, period);
-            [found.stiffness, found.dashpots] = ground.matrices(&found.springs);
+            found.under = ground
+                .under(foundation, &mut found.springs)
+                .map_err(|problem| ("foundation", problem))?;
             let mut standing = Discretization::with_points(building, points);
-            standing.put_on_foundation(foundation, found.stiffness, found.dashpots);
+            standing.put_on_foundation(foundation, &found.under);
             let mut standing = BuildingSystem::new(&building.name, standing);
             let leaning = Gravity {
                 preload: false,
@@ -150,7 +202,7 @@ impl Founded {
             let next = standing.lateral_modes().next().ok_or_else(unstable)?;
             let change = next.period() / period - 1.0;
             period = next.period();
-            if change.abs() <= SAME_PERIOD || matches!(ground, Ground::Given(_)) {
+            if change.abs() <= SAME_PERIOD || !matches!(ground, Ground::HalfSpace(_)) {
                 break;
             }
         }
@@ -158,10 +210,15 @@ impl Founded {
     }
 
     /// Stands a discretized building on its springs.
-    pub(super) fn support(&self, discretization: &mut Discretization, foundation: &Foundation) {
-        discretization.put_on_foundation(foundation, self.stiffness, self.dashpots);
-        if let Damping::Rayleigh { alpha, .. } = self.damping {
-            discretization.damp_relative_to_foundation(alpha);
+    pub(super) fn support(
+        &self,
+        discretization: &mut Discretization,
+        foundation: &Foundation,
+        damped: MassDamping,
+    ) {
+        discretization.put_on_foundation(foundation, &self.under);
+        if let (Damping::Rayleigh { alpha, .. }, MassDamping::Support) = (&self.damping, damped) {
+            discretization.damp_relative_to_foundation(*alpha);
         }
     }
 
@@ -171,26 +228,22 @@ impl Founded {
         building: &BuildingSystem,
         foundation: Foundation,
     ) -> Option<FoundationPlace> {
-        let node = building
-            .discretization
-            .stick_model
-            .foundation
-            .as_ref()?
-            .node;
+        let RigidFoundation { node, middle, .. } =
+            *building.discretization.stick_model.foundation.as_ref()?;
         let first = building.lateral_modes().next()?;
         Some(FoundationPlace {
-            dofs: [
-                building.equations.horizontal(node)?,
-                building.equations.rotation(node)?,
-            ],
+            sway: building.equations.horizontal(node),
+            turning: building.equations.rotation(node)?,
+            rise: building.equations.vertical(node),
+            middle,
             foundation,
             springs: self.springs,
             fixed_period: self.fixed_period,
             period: first.period(),
             fixed_damping: self.fixed_damping,
             damping: damping_ratio(&building.equations, first),
-            own_stiffness: self.stiffness,
-            own_damping: self.dashpots,
+            own_stiffness: self.under.stiffness,
+            own_damping: self.under.damping,
         })
     }
 }
@@ -474,7 +527,9 @@ pub(super) fn links(
     let port = |foundation: usize, shares: [f64; 2]| {
         let (building, place) = &founded[foundation];
         let own = &buildings[*building];
-        let entries = place.dofs.into_iter().zip(shares);
+        let dofs = [place.sway, Some(place.turning)];
+        let entries = dofs.into_iter().zip(shares);
+        let entries = entries.filter_map(|(dof, share)| Some((dof?, share)));
         let row: Row = entries.filter(|(_, share)| *share != 0.0).collect();
         let row_of_own = row.moved_down(own.offset);
         (!row.is_empty()).then(|| Port {

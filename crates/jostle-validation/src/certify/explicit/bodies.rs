@@ -287,7 +287,7 @@ fn turning(building: &jostle::system::BuildingSystem) -> Vec<usize> {
         .filter(|track| track.direction == jostle::system::Direction::Turning)
         .map(|track| track.dof)
         .collect();
-    dofs.extend(building.foundation.map(|own| own.dofs[1]));
+    dofs.extend(building.foundation.map(|own| own.turning));
     dofs
 }
 

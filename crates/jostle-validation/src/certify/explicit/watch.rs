@@ -302,7 +302,9 @@ fn place(building: &BuildingSystem, signals: &mut Vec<Signal>) -> Place {
     let forces: Vec<(usize, f64)> = nodes
         .filter_map(|(node, at)| Some((building.equations.horizontal(node)? + offset, at.y)))
         .collect();
-    let sway = building.foundation.map(|own| own.dofs);
+    let sway = building
+        .foundation
+        .and_then(|own| Some([own.sway?, own.turning]));
     let mut below: Row = building.foot.map(|dof| (dof, -1.0)).into_iter().collect();
     if let Some([dof, _]) = sway {
         below = vec![(dof, -1.0)];

@@ -1,16 +1,17 @@
-//! Braces, struts, walls and coupling beams of frames.
+//! Braces, struts, walls and coupling beams of frames, and foundations that lift off.
 
 use serde::Serialize;
 
 use crate::quantity::{Quantity, Unit};
 
-/// A brace, a strut of an infill panel, a wall or a coupling beam.
+/// A brace, a strut of an infill panel, a wall, a coupling beam, or the ground under a foundation, which bears compression alone.
 #[derive(Clone, Debug, Default, Serialize, PartialEq)]
 pub struct PartSummary {
     /// Name: `BUILDING.brace.STOREY.BAY`, with the way it rises from left to right, `up` or `down`, where two cross;
-    /// `BUILDING.wall.NUMBER`; `BUILDING.coupling-beam.FLOOR.BAY`.
+    /// `BUILDING.wall.NUMBER`; `BUILDING.coupling-beam.FLOOR.BAY`; `BUILDING.footing`, with the column line where every column has
+    /// its own.
     pub name: String,
-    /// `brace`, `infill`, `wall` or `coupling-beam`.
+    /// `brace`, `infill`, `wall`, `coupling-beam` or `footing`.
     pub kind: &'static str,
     /// Greatest tension, of a wall at its foot; of a coupling beam its greatest shear, positive as that of beams. Zero if there is none
     /// \[N\].
@@ -18,9 +19,9 @@ pub struct PartSummary {
     /// Greatest compression, or shear of the other sense, as a negative force; zero if there is none \[N\].
     pub force_min_n: f64,
     /// Greatest elongation, ≥ 0, of a wall between its foot and its top; of a coupling beam, how far its ends rise against
-    /// each other beyond their mean rotation \[m\].
+    /// each other beyond their mean rotation; of a footing the greatest rise above the ground as it was, of any contact spring \[m\].
     pub deformation_max: f64,
-    /// The same in the other sense, as a magnitude, ≥ 0 \[m\].
+    /// The same in the other sense, as a magnitude, ≥ 0; of a footing its greatest sinking \[m\].
     pub deformation_min: f64,
     /// Greatest moment at the foot of a wall, positive where the right face is stretched; absent in others \[N·m\].
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -37,20 +38,32 @@ pub struct PartSummary {
     pub rotation_min_rad: Option<f64>,
     /// Energy dissipated \[J\].
     pub dissipated_j: f64,
+    /// Of a footing: share of the run in which a contact spring bears nothing, the greatest of all springs, 0…1 \[–\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lifted_share: Option<f64>,
+    /// Of a foundation: greatest force of a contact spring over the area of its strip \[Pa\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pressure_max_pa: Option<f64>,
+    /// Of a footing: settlement of the ground at the end of the run, the greatest of all springs, ≥ 0 \[m\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub settlement_m: Option<f64>,
 }
 
 #[rustfmt::skip]
 impl PartSummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
-        Quantity::<Self>::real("force_max_n", Unit::N, "greatest tension, of a wall at its foot; greatest shear of a coupling beam", |p| p.force_max_n),
-        Quantity::<Self>::real("force_min_n", Unit::N, "greatest compression, or shear of the other sense, negative", |p| p.force_min_n),
-        Quantity::<Self>::real("deformation_max", Unit::M, "greatest elongation, of a wall between its foot and its top; transverse displacement between the ends of a coupling beam", |p| p.deformation_max),
-        Quantity::<Self>::real("deformation_min", Unit::M, "the same in the other sense, as a magnitude", |p| p.deformation_min),
+        Quantity::<Self>::real("force_max_n", Unit::N, "greatest tension, of a wall at its foot; greatest shear of a coupling beam; of a footing 0", |p| p.force_max_n),
+        Quantity::<Self>::real("force_min_n", Unit::N, "greatest compression, or shear of the other sense, negative; of a footing that of a contact spring", |p| p.force_min_n),
+        Quantity::<Self>::real("deformation_max", Unit::M, "greatest elongation, of a wall between its foot and its top; transverse displacement between the ends of a coupling beam; rise of a footing above the ground as it was", |p| p.deformation_max),
+        Quantity::<Self>::real("deformation_min", Unit::M, "the same in the other sense, as a magnitude; of a footing its greatest sinking", |p| p.deformation_min),
         Quantity::<Self>::optional("moment_max_n_m", Unit::NM, "greatest moment at the foot of a wall, positive where its right face is stretched", |p| p.moment_max_n_m),
         Quantity::<Self>::optional("moment_min_n_m", Unit::NM, "least moment at the foot of a wall", |p| p.moment_min_n_m),
         Quantity::<Self>::optional("rotation_max_rad", Unit::RAD, "greatest rotation of the hinge of a wall, or of the chord of a coupling beam", |p| p.rotation_max_rad),
         Quantity::<Self>::optional("rotation_min_rad", Unit::RAD, "the same in the other sense, as a magnitude", |p| p.rotation_min_rad),
         Quantity::<Self>::real("dissipated_j", Unit::J, "energy dissipated", |p| p.dissipated_j),
+        Quantity::<Self>::optional("lifted_share", Unit::NONE, "of a footing: share of the run in which a contact spring bears nothing, the greatest of all", |p| p.lifted_share),
+        Quantity::<Self>::optional("pressure_max_pa", Unit::PA, "of a foundation: greatest force of a contact spring over the area of its strip", |p| p.pressure_max_pa),
+        Quantity::<Self>::optional("settlement_m", Unit::M, "of a footing: settlement of the ground at the end of the run, the greatest of all contact springs", |p| p.settlement_m),
     ];
 }

@@ -1,6 +1,7 @@
 //! What direct runs follow: a number over displacements, and what of it is reported.
 
 use crate::history::{Column, Kind, Owner};
+use crate::hysteresis::HysteresisRule;
 use crate::linear::Row;
 use crate::stepping::floor_peaks::floor_of;
 use crate::structure::Discretization;
@@ -31,6 +32,8 @@ pub(crate) enum Statistic {
     Closing(usize),
     /// Energy that dashpots take, from their coefficients uu, uθ, θθ over two rows.
     Dashpots([f64; 3], [Row; 2]),
+    /// Time for which a spring has no force at ends of steps.
+    Lifted(usize),
 }
 
 /// The drift ratio of a vertical line: the difference of two displacements over a height \[m\], and a rotation.
@@ -56,6 +59,7 @@ pub(super) fn watches(system: &System, rises: bool) -> Vec<Watch> {
         of_support(index, building, &mut all);
         of_foundation(index, building, &mut all);
         of_sections(index, building, &mut all);
+        of_footings(building, &mut all);
         if rises {
             all.extend(building.vertical_points().map(|(floor, dof)| {
                 let column = Column::displacement(index, floor + 1).up();
@@ -72,7 +76,7 @@ pub(super) fn watches(system: &System, rises: bool) -> Vec<Watch> {
 
 /// Displacements of floors in all directions, drifts of vertical lines, and corners.
 fn of_floors(index: usize, building: &BuildingSystem, all: &mut Vec<Watch>) {
-    let turned = building.foundation.as_ref().map(|own| own.dofs[1]);
+    let turned = building.foundation.as_ref().map(|own| own.turning);
     let mut below: Option<&Track> = None;
     for (place, track) in building.tracks.iter().enumerate() {
         let owner = floor_of(index, building, place);
@@ -140,10 +144,29 @@ fn of_foundation(index: usize, building: &BuildingSystem, all: &mut Vec<Watch>) 
     };
     let of = |kind| Column::along(Owner::Foundation(index), kind);
     let displacement = of(Kind::Displacement);
-    all.push(moved(displacement, own.dofs[0]));
-    all.push(moved(displacement.turning(), own.dofs[1]));
-    let dashpots = Statistic::Dashpots(own.own_damping, own.dofs.map(Row::single));
+    all.extend(own.sway.map(|dof| moved(displacement, dof)));
+    all.push(moved(displacement.turning(), own.turning));
+    let sway = own.sway.map(Row::single).unwrap_or_default();
+    let dashpots = Statistic::Dashpots(own.own_damping, [sway, Row::single(own.turning)]);
     all.push(Watch::new(of(Kind::Work), dashpots));
+    let Some(rise) = own.rise else { return };
+    all.push(moved(displacement.up(), rise));
+    let middle = [(rise, 1.0), (own.turning, own.middle)];
+    let damping = [own.springs.vertical_damping, 0.0, 0.0];
+    let rows = [middle.into_iter().collect(), Row::default()];
+    let dashpots = Statistic::Dashpots(damping, rows);
+    all.push(Watch::new(of(Kind::Work), dashpots));
+}
+
+/// Ground under foundations and feet of columns that can lift off.
+fn of_footings(building: &BuildingSystem, all: &mut Vec<Watch>) {
+    let springs = building.equations.springs.iter().enumerate();
+    let ground = springs.filter(|(_, own)| own.hysteresis.rule() == HysteresisRule::Ground);
+    all.extend(ground.map(|(index, _)| {
+        let spring = building.spring_offset + index;
+        let column = Column::along(Owner::Spring(spring), Kind::Lifted);
+        Watch::new(column, Statistic::Lifted(spring))
+    }));
 }
 
 /// Ends of columns that are made of fibres.

@@ -24,6 +24,8 @@ pub(super) struct Watches {
     closings: Vec<Followed<usize>>,
     lengths: Vec<Followed<[Row; 2]>>,
     dashpots: Vec<Followed<([f64; 3], [Row; 2])>>,
+    /// Springs.
+    lifted: Vec<Followed<usize>>,
 }
 
 /// A number with the place of its peak.
@@ -51,6 +53,7 @@ impl Watches {
                 Statistic::Dashpots(matrix, rows) => {
                     follow(&mut all.dashpots, (matrix, rows), place);
                 }
+                Statistic::Lifted(spring) => follow(&mut all.lifted, spring, place),
             }
         }
         all
@@ -136,6 +139,11 @@ impl Watches {
             let (x, turn) = (x - own.then.0, turn - own.then.1);
             let taken = uu * x * x + 2.0 * ut * x * turn + tt * turn * turn;
             peaks[own.place].greatest.value += taken / step;
+        }
+        for own in &self.lifted {
+            if state.springs[own.number].force() == 0.0 {
+                peaks[own.place].greatest.value += step;
+            }
         }
     }
 

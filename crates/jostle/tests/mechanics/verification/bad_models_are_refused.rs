@@ -160,15 +160,6 @@ const CASES: &[Case] = &[
         "at least one storey",
     ),
     (
-        |m| {
-            let f = frame_of(m);
-            f.spans.clear();
-            f.beam_segments.clear();
-        },
-        "building[0].spans",
-        "at least one span",
-    ),
-    (
         |m| frame_of(m).spans[1] = -6.0,
         "building[0].spans[1]",
         "must be greater than zero, found -6 m",

@@ -180,7 +180,7 @@ fn a_shear_building_on_soil_is_the_same_as_by_its_matrices() {
         assert!(swayed.greatest.value > 0.0 && rocked.greatest.value > 0.0);
         let damped = found.peaks.work(owner);
         assert!(damped > 0.0 && damped < found.energy.damped);
-        let sway = found.state.displacement[place.dofs[0]];
+        let sway = found.state.displacement[place.sway.expect("it sways")];
         assert!(sway <= swayed.greatest.value && sway >= swayed.least.value);
     }
 }
@@ -346,8 +346,11 @@ fn static_coupling_is_that_of_the_half_space() {
         });
         entry.sum()
     };
-    let sway = coupled([places[0].dofs[0], places[1].dofs[0]]);
-    let rocking = coupled([places[0].dofs[1], places[1].dofs[1]]);
+    let sway = coupled([
+        places[0].sway.expect("it sways"),
+        places[1].sway.expect("it sways"),
+    ]);
+    let rocking = coupled([places[0].turning, places[1].turning]);
     let s = 412.0;
     let g = SOIL.shear_modulus();
     let far = 1.0 / (2.0 * PI * g * s);

@@ -48,6 +48,7 @@ mod space_frames;
 mod storey_forces;
 mod support;
 mod total_force_of_a_gap;
+mod uplift;
 mod vertical_in_plan;
 mod walls_in_plan;
 mod wide_gap_leaves_buildings_independent;

@@ -481,8 +481,8 @@ fn a_column_that_fails_unloads_its_hinges() {
     };
     building.hinges = Some(Hinges::Frame(FrameHinges {
         columns: vec![vec![hinge.expect("sound"); 2]],
-        beams: Vec::new(),
         shear: vec![vec![own(1.5e5).shear_spring(), own(9e5).shear_spring()]],
+        ..FrameHinges::default()
     }));
     let curve = pushed(&assembled(&alone(building)), 0.04);
     assert_eq!(curve.end, PushEnd::Target);
@@ -540,8 +540,8 @@ fn two_failing_frames() -> Model {
     let mut left = framed("left", frame(3, &[4.0, 6.0]));
     left.hinges = Some(Hinges::Frame(FrameHinges {
         columns: vec![vec![hinge(2.5e5); 3]; 3],
-        beams: Vec::new(),
         shear: vec![vec![fails(1.2e5); 3]; 3],
+        ..FrameHinges::default()
     }));
     let mut right = framed("right", frame(4, &[5.0]));
     right.hinges = Some(Hinges::Frame(FrameHinges {

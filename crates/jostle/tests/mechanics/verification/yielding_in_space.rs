@@ -512,7 +512,7 @@ fn frame(floor_mass: f64) -> (Frame, FrameHinges) {
     let hinges = FrameHinges {
         columns: vec![vec![hinge(columns, 3.2, 500e3); 3]; 3],
         beams: vec![vec![hinge(beams, 6.0, 250e3), hinge(beams, 5.0, 250e3)]; 3],
-        shear: Vec::new(),
+        ..FrameHinges::default()
     };
     (frame, hinges)
 }

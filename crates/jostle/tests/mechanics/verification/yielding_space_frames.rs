@@ -274,7 +274,7 @@ fn a_pair_of_frames_yields_as_its_plane_limit() {
         let hinges = FrameHinges {
             columns: vec![vec![column(0, 0).1; 3], vec![column(0, 1).1; 3]],
             beams: vec![vec![beam(0, 0).1, beam(1, 0).1]; 2],
-            shear: Vec::new(),
+            ..FrameHinges::default()
         };
         let standing = |name: &str, y: f64| PlanFrame {
             name: name.to_owned(),

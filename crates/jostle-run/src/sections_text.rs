@@ -7,7 +7,7 @@ use jostle::results::summary::{BuildingSummary, FibreSummary};
 use crate::numbers::counted;
 
 /// What the ends of columns that are made of fibres went through.
-pub(super) fn write_sections(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::Result {
+pub(crate) fn write_sections(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::Result {
     for building in buildings {
         let all = &building.sections;
         let Some(worst) = all.iter().max_by(|a, b| {

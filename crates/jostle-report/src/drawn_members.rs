@@ -1,0 +1,71 @@
+//! Braces, panels and walls of plane frames, and members of space frames, as the pictures of a report draw them.
+
+use jostle::{Diagonal, DiagonalKind, FrameWall, SpaceFrame, SpaceMember, SpacePlace};
+use serde::Serialize;
+
+/// A brace, or a strut of an infill panel.
+#[derive(Serialize)]
+pub(crate) struct DiagonalData {
+    storey: usize,
+    /// Column lines of its lower and its upper end, from 0.
+    lines: [usize; 2],
+    /// Whether it is part of a panel.
+    infill: bool,
+}
+
+/// A wall of a frame.
+#[derive(Serialize)]
+pub(crate) struct WallData {
+    /// Column line of its axis, from 0.
+    line: usize,
+    /// First and last storey, from 1.
+    storeys: [usize; 2],
+    /// Length \[m\].
+    length: f64,
+}
+
+/// A column or a beam of a space frame.
+#[derive(Serialize)]
+pub(crate) struct MemberData {
+    /// Both ends on the site \[m\].
+    ends: [[f64; 2]; 2],
+    /// Floors, from 0, with which they move; `null` is the ground.
+    floors: [Option<usize>; 2],
+}
+
+impl DiagonalData {
+    pub(crate) fn of(own: &Diagonal) -> Self {
+        Self {
+            storey: own.place.storey,
+            lines: own.place.lines(),
+            infill: own.place.kind == DiagonalKind::Infill,
+        }
+    }
+}
+
+impl WallData {
+    pub(crate) fn of(own: &FrameWall) -> Self {
+        Self {
+            line: own.line - 1,
+            storeys: own.storeys,
+            length: own.length,
+        }
+    }
+}
+
+impl MemberData {
+    pub(crate) fn all_of(frame: &SpaceFrame) -> Vec<Self> {
+        let member = |own: &SpaceMember| {
+            let level = own.place.storey();
+            let lower = match own.place {
+                SpacePlace::Column { .. } => level.checked_sub(1),
+                SpacePlace::BeamX { .. } | SpacePlace::BeamY { .. } => Some(level),
+            };
+            Self {
+                ends: own.place.crossings().map(|crossing| frame.point(crossing)),
+                floors: [lower, Some(level)],
+            }
+        };
+        frame.members.iter().map(member).collect()
+    }
+}
