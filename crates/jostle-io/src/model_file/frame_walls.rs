@@ -8,7 +8,7 @@ use jostle::{CouplingBeam, FramePlace, FrameWall, Section as CrossSection};
 use super::brace::tables;
 use super::hinges::read_spring;
 use super::places::range;
-use super::section::{Material, Sides, own_mass, rectangle, rigidities};
+use super::section::{Material, STAND_IN, Sides, own_mass, rectangle, rigidities};
 use crate::keys::{AXIAL, Section, WALL_STIFFNESS};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
@@ -110,7 +110,7 @@ fn read_wall(
                 "length",
                 "add length = \"3 m\", along the frame: beams span between the faces of walls",
             );
-            return None;
+            None
         }
     };
     let thickness = reader.get(&view, "thickness").map(|field| {
@@ -126,38 +126,47 @@ fn read_wall(
     }
     let [material, _] = bays.materials;
     let by_size = thickness.is_some();
-    let mut section = read_section(reader, &view, entry, sides, by_size, material)?;
-    let stated = reader.get(&view, "mass");
-    section.line_mass = match stated {
-        Some(field) => reader.quantity(&field, Dimension::LineMass)?,
-        None => own_mass(reader, &view, Some(section), !by_size, material)?,
+    let section = read_section(reader, &view, entry, sides, by_size, material);
+    let line_mass = match reader.get(&view, "mass") {
+        Some(field) => reader.quantity(&field, Dimension::LineMass),
+        None => own_mass(reader, &view, section, !by_size, material),
     };
-    let stiffness_factors = read_factors(reader, &view, material, None)?;
-    let section = reduced(section, stiffness_factors);
-    let (line, storeys, length) = (line?, storeys?, length?);
-    let heights = &bays.heights[storeys[0] - 1..storeys[1]];
-    let hinge = match reader.get(&view, "hinge") {
-        Some(field) => {
-            let foot = Foot {
-                rigidity: section.flexural_rigidity,
-                storey: heights[0],
-                height: heights.iter().sum(),
-                length,
-            };
-            Some(read_hinge(reader, &field, foot)?)
-        }
-        None => None,
-    };
-    let shear = match reader.get(&view, "shear_hinge") {
-        Some(field) => Some(read_sliding(reader, &field, section, heights[0])?),
-        None => None,
+    let stiffness_factors = read_factors(reader, &view, material, None);
+    // After a fault, so that those of hinges are found as well.
+    let stand_in = reduced(
+        section.unwrap_or(STAND_IN),
+        stiffness_factors.unwrap_or([1.0; 2]),
+    );
+    let [first, last] = storeys.unwrap_or([1, 1]);
+    let heights = &bays.heights[first - 1..last];
+    let hinge = reader.get(&view, "hinge").map(|field| {
+        let foot = Foot {
+            rigidity: stand_in.flexural_rigidity,
+            storey: heights[0],
+            height: heights.iter().sum(),
+            length: length.unwrap_or(1.0),
+        };
+        read_hinge(reader, &field, foot)
+    });
+    let shear = reader.get(&view, "shear_hinge");
+    let shear = shear.map(|field| read_sliding(reader, &field, stand_in, heights[0]));
+    let stiffness_factors = stiffness_factors?;
+    let section = CrossSection {
+        line_mass: line_mass?,
+        ..reduced(section?, stiffness_factors)
     };
     let wall = FrameWall {
-        line,
-        storeys,
-        length,
-        hinge,
-        shear,
+        line: line?,
+        storeys: storeys?,
+        length: length?,
+        hinge: match hinge {
+            Some(hinge) => Some(hinge?),
+            None => None,
+        },
+        shear: match shear {
+            Some(shear) => Some(shear?),
+            None => None,
+        },
         stiffness_factors,
     };
     Some((wall, section))
@@ -405,37 +414,45 @@ fn read_beams(
             None
         }
     };
-    let stated = view
-        .has("floors")
-        .then(|| range(reader, &view, "floors", storeys));
-    let ([first, last], floors) = places?;
-    let floors = match stated {
-        Some(stated) => stated?,
-        None => floors,
-    };
+    let stated = reader.get(&view, "floors");
+    let stated = stated.map(|_| range(reader, &view, "floors", storeys));
+    let bay = places.map_or(1, |([first, _], _)| first);
     // Between the faces of the walls.
     let half = |line: usize| {
         let own = walls.iter().flatten().filter(|own| own.line == line);
         own.map(|own| 0.5 * own.length).fold(0.0, f64::max)
     };
-    let clear = bays.spans[first - 1] - half(first) - half(first + 1);
+    let span = bays.spans.get(bay - 1);
+    let clear = span.map_or(1.0, |span| span - half(bay) - half(bay + 1));
     let sides: Sides = [("width", "\"300 mm\""), ("depth", "\"600 mm\"")];
     let by_size = view.has("width") || view.has("depth");
     let [_, material] = bays.materials;
-    let section = read_section(reader, &view, entry, sides, by_size, material)?;
+    let section = read_section(reader, &view, entry, sides, by_size, material);
     let depth = reader.get(&view, "depth");
     let depth =
         depth.and_then(|field| reader.quietly(|reader| reader.positive(&field, Dimension::Length)));
     let slenderness = depth.map(|depth| clear / depth);
-    let stiffness_factors = read_factors(reader, &view, material, Some(slenderness))?;
-    let section = CrossSection {
-        line_mass: 0.0,
-        ..reduced(section, stiffness_factors)
-    };
+    let stiffness_factors = read_factors(reader, &view, material, Some(slenderness));
+    let stand_in = reduced(
+        section.unwrap_or(STAND_IN),
+        stiffness_factors.unwrap_or([1.0; 2]),
+    );
     // A fault of the walls, noted elsewhere.
     let length = clear.max(f64::MIN_POSITIVE);
-    let shear = match reader.get(&view, "hinge") {
-        Some(field) => Some(read_sliding(reader, &field, section, length)?),
+    let shear = reader.get(&view, "hinge");
+    let shear = shear.map(|field| read_sliding(reader, &field, stand_in, length));
+    let ([first, last], floors) = places?;
+    let floors = match stated {
+        Some(stated) => stated?,
+        None => floors,
+    };
+    let stiffness_factors = stiffness_factors?;
+    let section = CrossSection {
+        line_mass: 0.0,
+        ..reduced(section?, stiffness_factors)
+    };
+    let shear = match shear {
+        Some(shear) => Some(shear?),
         None => None,
     };
     let bays = first..=last;
