@@ -12,7 +12,9 @@ const MOST_ROWS: usize = 200;
 pub(crate) fn section(page: &Page) -> Option<Markup> {
     let buildings = page.summary.buildings.iter();
     let own = buildings.filter(|building| !building.sections.is_empty());
-    let own: Vec<_> = own.map(|building| (&building.name[..], &building.sections[..])).collect();
+    let own: Vec<_> = own
+        .map(|building| (&building.name[..], &building.sections[..]))
+        .collect();
     if own.is_empty() {
         return None;
     }
@@ -75,7 +77,8 @@ fn table(all: &[&FibreSummary]) -> Markup {
 
 fn cells(own: &FibreSummary) -> [String; 9] {
     let nothing = || format::NOTHING.to_owned();
-    let strain = |strain: Option<f64>| strain.map_or_else(nothing, |own| format::significant(1e3 * own, 3));
+    let strain =
+        |strain: Option<f64>| strain.map_or_else(nothing, |own| format::significant(1e3 * own, 3));
     let instant = |at: Option<f64>| at.map_or_else(nothing, |at| format::fixed(at, 3));
     let greatest = |a: f64, b: f64, unit: f64| format::significant(a.max(-b) / unit, 4);
     [

@@ -39,7 +39,11 @@ pub(crate) fn places(model: &Model) -> Vec<Place> {
         if !building.may_yield() {
             continue;
         }
-        for (own, at) in Discretization::new(building).spring_places.into_iter().enumerate() {
+        for (own, at) in Discretization::new(building)
+            .spring_places
+            .into_iter()
+            .enumerate()
+        {
             if let Some(hysteresis) = hysteresis_of(building, at) {
                 places.push(Place {
                     building: index,
@@ -451,6 +455,7 @@ mod tests {
         let place = |spring: usize| Place {
             building: 0,
             spring,
+            index: spring,
             at: SpringPlace::Storey { storey: spring + 1 },
             hysteresis,
         };

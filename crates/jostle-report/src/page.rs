@@ -8,9 +8,9 @@ use crate::message;
 use crate::site_drawing::SITE_STYLE;
 use crate::verdict::{closest_approach, nearest, outside, peak_closing, verdict};
 use crate::{
-    Page, bounds, calculation, checks, contact_box, describe, devices, floor_spectra, format,
-    fibres, friction, grounds, hinges, joints, members, method, payload, shear_failures, site_plan, spread,
-    tables,
+    Page, bounds, calculation, checks, contact_box, describe, devices, fibres, floor_spectra,
+    format, friction, grounds, hinges, joints, members, method, payload, shear_failures, site_plan,
+    spread, tables,
 };
 
 /// The scripts, in the order of their dependence; together they are one module.

@@ -55,7 +55,10 @@ impl FibreOptions {
         let strain = self.peak_strain.unwrap_or(law.peak_strain);
         let fall = ConcreteFall {
             residual: self.residual,
-            ultimate: self.ultimate_strain.unwrap_or_else(|| self.end_of_fall(law)) / strain,
+            ultimate: self
+                .ultimate_strain
+                .unwrap_or_else(|| self.end_of_fall(law))
+                / strain,
         };
         Hysteresis::concrete(law.peak_stress * area, strain * self.length, fall)
     }
@@ -103,7 +106,10 @@ impl Section {
         // One fibre for the bars of a row.
         let mut rows: Vec<(f64, f64)> = Vec::new();
         for bar in &self.bars {
-            match rows.iter_mut().find(|(depth, _)| (*depth - bar.depth).abs() < 1e-9) {
+            match rows
+                .iter_mut()
+                .find(|(depth, _)| (*depth - bar.depth).abs() < 1e-9)
+            {
                 Some((_, area)) => *area += bar.area(),
                 None => rows.push((bar.depth, bar.area())),
             }

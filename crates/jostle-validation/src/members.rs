@@ -1,7 +1,7 @@
 //! Plane frames as they are drawn, with braces, infill struts and walls, beside neighbours, against an integrator of eighth order.
 
-pub(crate) mod files;
 mod fibres;
+pub(crate) mod files;
 mod rocking;
 
 use std::ops::ControlFlow;

@@ -57,13 +57,17 @@ fn fibres(hinges: &FrameHinges) -> Option<String> {
     let ends = |own: &ColumnFibres| own.at_ends.into_iter().filter(|stands| *stands).count();
     let count: usize = hinges.fibres.values().map(ends).sum();
     let ([storey, line], first) = hinges.fibres.first_key_value()?;
-    let ([concrete, steel], layers) = first.fibres.iter().fold(([0.0; 2], 0), |(sums, layers), own| {
-        let force = own.spring.backbone().side(Side::Negative).yielding.force;
-        match own.spring.rule() {
-            HysteresisRule::Concrete(_) => ([sums[0] + force, sums[1]], layers + 1),
-            _ => ([sums[0], sums[1] + force], layers),
-        }
-    });
+    let ([concrete, steel], layers) =
+        first
+            .fibres
+            .iter()
+            .fold(([0.0; 2], 0), |(sums, layers), own| {
+                let force = own.spring.backbone().side(Side::Negative).yielding.force;
+                match own.spring.rule() {
+                    HysteresisRule::Concrete(_) => ([sums[0] + force, sums[1]], layers + 1),
+                    _ => ([sums[0], sums[1] + force], layers),
+                }
+            });
     Some(format!(
         "fibres at {} of columns; column {} of storey {}: {} over {}, {} kN of concrete and {} kN of bars",
         counted(count, "end"),

@@ -63,14 +63,19 @@ fn read_all(
     members: Option<&[ReinforcedMember]>,
 ) -> Option<BTreeMap<FramePlace, ColumnFibres>> {
     if !frame.axial.columns_flexible {
-        *reader.bad(field, "needs columns that change their length: without it their axial force is not known") =
-            Some("add axial = \"flexible\" to the building".into());
+        *reader.bad(
+            field,
+            "needs columns that change their length: without it their axial force is not known",
+        ) = Some("add axial = \"flexible\" to the building".into());
     }
     let layers = match reader.get(view, "fibres") {
         Some(field) => {
             let count = reader.count(&field)?;
             if !(2..=MOST_LAYERS).contains(&count) {
-                reader.bad(&field, format!("must lie between 2 and {MOST_LAYERS}, found {count}"));
+                reader.bad(
+                    &field,
+                    format!("must lie between 2 and {MOST_LAYERS}, found {count}"),
+                );
                 return None;
             }
             Some(count)
@@ -89,17 +94,18 @@ fn read_all(
         Some(field) => reader.choice(&field, FIBRE_ENDS, &[])? == "base",
         None => false,
     };
-    let mut number = |key: &'static str, needs: fn(f64) -> bool, range: &str| match reader.get(view, key) {
-        Some(field) => {
-            let value = reader.quantity(&field, Dimension::Dimensionless)?;
-            if needs(value) {
-                return Some(Some(value));
+    let mut number =
+        |key: &'static str, needs: fn(f64) -> bool, range: &str| match reader.get(view, key) {
+            Some(field) => {
+                let value = reader.quantity(&field, Dimension::Dimensionless)?;
+                if needs(value) {
+                    return Some(Some(value));
+                }
+                reader.bad(&field, format!("must {range}, found {value}"));
+                None
             }
-            reader.bad(&field, format!("must {range}, found {value}"));
-            None
-        }
-        None => Some(None),
-    };
+            None => Some(None),
+        };
     let below_one = |value: f64| (0.0..1.0).contains(&value);
     let peak_strain = number("peak_strain", |v| v > 0.0, "be greater than 0");
     let residual = number("residual", below_one, "be at least 0 and less than 1");
@@ -112,7 +118,11 @@ fn read_all(
         .filter(|own| own.member == Member::Column)
         .collect();
     if columns.len() != frame.bare_members()[0] {
-        let some = if columns.is_empty() { "no" } else { "not every" };
+        let some = if columns.is_empty() {
+            "no"
+        } else {
+            "not every"
+        };
         *reader.bad(field, format!("takes fibres from the sections, but {some} column has bars")) = Some(
             "add concrete = \"C30\", steel = \"HRB400\", bars = \"12 d20\", cover = \"35 mm\" to column".into(),
         );
@@ -124,7 +134,8 @@ fn read_all(
         if !foot {
             continue;
         }
-        let length = length.unwrap_or_else(|| FibreOptions::hinge_length(0.5 * own.length, &own.section));
+        let length =
+            length.unwrap_or_else(|| FibreOptions::hinge_length(0.5 * own.length, &own.section));
         let options = FibreOptions::over(length);
         let options = FibreOptions {
             layers: layers.unwrap_or(options.layers),
@@ -144,8 +155,13 @@ fn read_all(
                 all.insert([own.floor - 1, own.place - 1], column);
             }
             Err(faults) => {
-                let problem = faults.first().map_or_else(String::new, |fault| fault.problem.clone());
-                reader.bad(field, format!("column {} of storey {}: {problem}", own.place, own.floor));
+                let problem = faults
+                    .first()
+                    .map_or_else(String::new, |fault| fault.problem.clone());
+                reader.bad(
+                    field,
+                    format!("column {} of storey {}: {problem}", own.place, own.floor),
+                );
                 return None;
             }
         }

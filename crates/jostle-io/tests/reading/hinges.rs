@@ -502,23 +502,37 @@ fn columns_with_bars_become_fibres() {
     assert_eq!(hinges.fibres.len(), 6);
     let own = &hinges.fibres[&[1, 2]];
     assert_eq!((own.length, own.at_ends), (0.4, [true, true]));
-    let sums = own.fibres.iter().fold([0.0; 3], |[area, first, steel], fibre| {
-        let backbone = fibre.spring.backbone();
-        match fibre.spring.rule() {
-            // Characteristic strength of C30 by GB 50010.
-            HysteresisRule::Concrete(_) => {
-                let force = backbone.side(Side::Negative).yielding.force;
-                [area + force / 20.1e6, first + force * fibre.at, steel]
+    let sums = own
+        .fibres
+        .iter()
+        .fold([0.0; 3], |[area, first, steel], fibre| {
+            let backbone = fibre.spring.backbone();
+            match fibre.spring.rule() {
+                // Characteristic strength of C30 by GB 50010.
+                HysteresisRule::Concrete(_) => {
+                    let force = backbone.side(Side::Negative).yielding.force;
+                    [area + force / 20.1e6, first + force * fibre.at, steel]
+                }
+                _ => [area, first, steel + backbone.yield_force() / 400e6],
             }
-            _ => [area, first, steel + backbone.yield_force() / 400e6],
-        }
-    });
-    assert!((sums[0] / 0.25 - 1.0).abs() < 1e-12, "{} m2 of concrete", sums[0]);
+        });
+    assert!(
+        (sums[0] / 0.25 - 1.0).abs() < 1e-12,
+        "{} m2 of concrete",
+        sums[0]
+    );
     assert!(sums[1].abs() < 1e-6, "the axis is in the middle");
     let bars = 12.0 * std::f64::consts::PI * 0.01_f64.powi(2);
-    assert!((sums[2] / bars - 1.0).abs() < 1e-12, "{} m2 of steel", sums[2]);
+    assert!(
+        (sums[2] / bars - 1.0).abs() < 1e-12,
+        "{} m2 of steel",
+        sums[2]
+    );
     // 0.08 · 1.5 m + 0.022 · 20 mm · 400.
-    let by_rule = hinges_of(&of_fibres(FLEXIBLE, ", length = \"paulay-priestley\", ends = \"base\""));
+    let by_rule = hinges_of(&of_fibres(
+        FLEXIBLE,
+        ", length = \"paulay-priestley\", ends = \"base\"",
+    ));
     assert_eq!(by_rule.fibres.len(), 3);
     let own = &by_rule.fibres[&[0, 0]];
     assert!((own.length - 0.296).abs() < 1e-12, "{} m", own.length);
@@ -528,16 +542,34 @@ fn columns_with_bars_become_fibres() {
 #[test]
 fn ties_confine_the_core_of_fibres() {
     let column = r#", steel = "HRB400", bars = "12 d20", cover = "35 mm", ties = "4 d10 @ 100 mm""#;
-    let text = frame(column, "", &format!("{FLEXIBLE}\nhinges = {{ rule = \"fibre\", length = 0.4, fibres = 20 }}"));
+    let text = frame(
+        column,
+        "",
+        &format!("{FLEXIBLE}\nhinges = {{ rule = \"fibre\", length = 0.4, fibres = 20 }}"),
+    );
     let hinges = hinges_of(&text);
-    let strains = hinges.fibres[&[0, 0]].fibres.iter().filter_map(|fibre| match fibre.spring.rule() {
-        HysteresisRule::Concrete(_) => Some(fibre.spring.backbone().side(Side::Negative).yielding.deformation / 0.4),
-        _ => None,
-    });
+    let strains =
+        hinges.fibres[&[0, 0]]
+            .fibres
+            .iter()
+            .filter_map(|fibre| match fibre.spring.rule() {
+                HysteresisRule::Concrete(_) => Some(
+                    fibre
+                        .spring
+                        .backbone()
+                        .side(Side::Negative)
+                        .yielding
+                        .deformation
+                        / 0.4,
+                ),
+                _ => None,
+            });
     let strains: Vec<f64> = strains.collect();
     // Layers inside the ties have a core between two covers.
     assert_eq!(strains.len(), 20 + 18);
-    let (least, greatest) = strains.iter().fold((f64::MAX, 0.0_f64), |(a, b), s| (a.min(*s), b.max(*s)));
+    let (least, greatest) = strains
+        .iter()
+        .fold((f64::MAX, 0.0_f64), |(a, b), s| (a.min(*s), b.max(*s)));
     assert!(greatest > 1.5 * least, "{least} and {greatest}");
 }
 
@@ -552,25 +584,45 @@ fn fibres_that_cannot_be_say_why() {
     let length = ", length = \"0.4 m\"";
     says(
         &of_fibres("axial = \"rigid\"\ngravity = true", length),
-        &["needs columns that change their length", "axial = \"flexible\""],
+        &[
+            "needs columns that change their length",
+            "axial = \"flexible\"",
+        ],
     );
     says(&of_fibres(FLEXIBLE, ""), &["length", "paulay-priestley"]);
     says(
         &of_fibres("axial = \"flexible\"", length),
         &["needs the weight of the building", "gravity = true"],
     );
-    says(&of_fibres(FLEXIBLE, ", length = 0.4, fibres = 1"), &["between 2 and 400"]);
-    says(&of_fibres(FLEXIBLE, ", length = 0.4, residual = 1.5"), &["at least 0 and less than 1"]);
     says(
-        &of_fibres(FLEXIBLE, ", length = 0.4, peak_strain = 0.004, ultimate_strain = 0.003"),
+        &of_fibres(FLEXIBLE, ", length = 0.4, fibres = 1"),
+        &["between 2 and 400"],
+    );
+    says(
+        &of_fibres(FLEXIBLE, ", length = 0.4, residual = 1.5"),
+        &["at least 0 and less than 1"],
+    );
+    says(
+        &of_fibres(
+            FLEXIBLE,
+            ", length = 0.4, peak_strain = 0.004, ultimate_strain = 0.003",
+        ),
         &["ultimate strain must be greater"],
     );
     says(
         &of_fibres(FLEXIBLE, ", length = 0.4, column = { yield = 1 }"),
         &["cannot be combined with rule = \"fibre\""],
     );
-    let bare = frame("", "", &format!("{FLEXIBLE}\nhinges = {{ rule = \"fibre\", length = 0.4 }}"));
+    let bare = frame(
+        "",
+        "",
+        &format!("{FLEXIBLE}\nhinges = {{ rule = \"fibre\", length = 0.4 }}"),
+    );
     says(&bare, &["no column has bars"]);
-    let other = frame("", "", "hinges = { rule = \"takeda\", length = 0.4, column = { cracking = 1e5, yield = 2e5, post_cracking = 0.3, post_yield = 0.02 } }");
+    let other = frame(
+        "",
+        "",
+        "hinges = { rule = \"takeda\", length = 0.4, column = { cracking = 1e5, yield = 2e5, post_cracking = 0.3, post_yield = 0.02 } }",
+    );
     says(&other, &["has no meaning without fibres"]);
 }

@@ -58,7 +58,10 @@ fn pushed_to_and_fro(name: &str, case: &Value, fibres: &[Fibre]) -> Vec<Row> {
     let mut memories = vec![HysteresisMemory::default(); fibres.len()];
     let mut moved = [0.0; 2];
     let mut got: [Vec<f64>; 5] = Default::default();
-    for (step, top) in std::iter::once(0.0).chain(path(&numbers(input, "/cycles_m"))).enumerate() {
+    for (step, top) in std::iter::once(0.0)
+        .chain(path(&numbers(input, "/cycles_m")))
+        .enumerate()
+    {
         let mut forces = [0.0; 2];
         for _ in 0..60 {
             let mut tangent = [0.0; 3];
@@ -91,16 +94,31 @@ fn pushed_to_and_fro(name: &str, case: &Value, fibres: &[Fibre]) -> Vec<Row> {
             moved[1] -= (a * left[1] - c * left[0]) / determinant;
         }
         for (fibre, memory) in fibres.iter().zip(&mut memories) {
-            *memory = fibre.spring.respond(memory, moved[0] + fibre.at * moved[1]).memory;
+            *memory = fibre
+                .spring
+                .respond(memory, moved[0] + fibre.at * moved[1])
+                .memory;
         }
         if step > 0 && step % 10 == 0 {
-            let values = [-forces[1] / height, forces[0], forces[1], moved[0], moved[1]];
+            let values = [
+                -forces[1] / height,
+                forces[0],
+                forces[1],
+                moved[0],
+                moved[1],
+            ];
             for (list, value) in got.iter_mut().zip(values) {
                 list.push(value);
             }
         }
     }
-    let keys = ["V_n", "hinge.N", "hinge.M", "hinge.elongation_m", "hinge.rotation"];
+    let keys = [
+        "V_n",
+        "hinge.N",
+        "hinge.M",
+        "hinge.elongation_m",
+        "hinge.rotation",
+    ];
     let what = [
         "force at the top, led to and fro [N]",
         "axial force of the section [N]",
@@ -113,7 +131,10 @@ fn pushed_to_and_fro(name: &str, case: &Value, fibres: &[Fibre]) -> Vec<Row> {
         .zip(what)
         .zip(got)
         .map(|((key, what), got)| {
-            let expected: Vec<f64> = points.iter().map(|point| point[key].as_f64().expect("a number")).collect();
+            let expected: Vec<f64> = points
+                .iter()
+                .map(|point| point[key].as_f64().expect("a number"))
+                .collect();
             Row::worst_of(name, what, &expected, &got[..expected.len()], POLYGON)
         })
         .collect()
@@ -138,7 +159,11 @@ fn path(amplitudes: &[f64]) -> Vec<f64> {
 fn file(input: &Value, tolerance: f64) -> String {
     let of = |key: &str| number(input, key);
     let section = |key: &str| number(input, &format!("/section/{key}"));
-    let spans: Vec<f64> = input.get("span_m").and_then(Value::as_f64).into_iter().collect();
+    let spans: Vec<f64> = input
+        .get("span_m")
+        .and_then(Value::as_f64)
+        .into_iter()
+        .collect();
     let columns = (spans.len() + 1) as f64;
     let mass = of("/mass_kg");
     let area = section("width_m") * section("depth_m");
@@ -203,9 +228,16 @@ fn shaken(name: &str, case: &Value, tolerance: f64) -> Vec<Row> {
         let (hinge, node) = if single {
             ("hinge".to_owned(), "hinge".to_owned())
         } else {
-            (format!("hinge{}", number_of + 1), format!("h{}", number_of + 1))
+            (
+                format!("hinge{}", number_of + 1),
+                format!("h{}", number_of + 1),
+            )
         };
-        let names = [format!("{hinge}.N"), format!("{hinge}.M"), format!("{node}.rotation")];
+        let names = [
+            format!("{hinge}.N"),
+            format!("{hinge}.M"),
+            format!("{node}.rotation"),
+        ];
         for (list, name) in expected.iter_mut().zip(names) {
             let of = |key: &str| number(&case["dynamic"]["peaks"][&name], key);
             list.extend([of("/max"), of("/min")]);
@@ -217,9 +249,33 @@ fn shaken(name: &str, case: &Value, tolerance: f64) -> Vec<Row> {
     let got = [top.displacement_max_m, top.displacement_min_m];
     let [axial, moment, turned] = expected;
     vec![
-        Row::worst_of(name, with("displacement of the top [m]"), &of_top, &got, close),
-        Row::worst_of(name, with("axial forces of sections [N]"), &axial, &forces, close),
-        Row::worst_of(name, with("moments of sections [N·m]"), &moment, &moments, close),
-        Row::worst_of(name, with("rotations of sections [rad]"), &turned, &turns, close),
+        Row::worst_of(
+            name,
+            with("displacement of the top [m]"),
+            &of_top,
+            &got,
+            close,
+        ),
+        Row::worst_of(
+            name,
+            with("axial forces of sections [N]"),
+            &axial,
+            &forces,
+            close,
+        ),
+        Row::worst_of(
+            name,
+            with("moments of sections [N·m]"),
+            &moment,
+            &moments,
+            close,
+        ),
+        Row::worst_of(
+            name,
+            with("rotations of sections [rad]"),
+            &turned,
+            &turns,
+            close,
+        ),
     ]
 }

@@ -288,7 +288,11 @@ fn check_frame_hinges(faults: &mut Faults, path: &str, hinges: &FrameHinges, fra
     for ([storey, line], own) in &hinges.fibres {
         let path = format!("{path}.fibres");
         faults.require(frame.column(*storey, *line).is_some(), &path, || {
-            format!("stand where there is no column: storey {}, line {}", storey + 1, line + 1)
+            format!(
+                "stand where there is no column: storey {}, line {}",
+                storey + 1,
+                line + 1
+            )
         });
         faults.positive(own.length, format!("{path}.length"), "m");
         faults.require(own.fibres.len() >= 2, &path, || {
@@ -300,7 +304,10 @@ fn check_frame_hinges(faults: &mut Faults, path: &str, hinges: &FrameHinges, fra
     faults.require(
         hinges.fibres.is_empty() || frame.axial.columns_flexible,
         format!("{path}.fibres"),
-        || "need columns that change their length: without it their axial force is not known".into(),
+        || {
+            "need columns that change their length: without it their axial force is not known"
+                .into()
+        },
     );
     let members = [
         ("column", &hinges.columns, frame.spans.len() + 1),
@@ -346,7 +353,8 @@ fn check_members_of(faults: &mut Faults, path: &str, frame: &Frame) {
         format!("{path}.floor_load"),
         || format!("has {loads} entries for {storeys} storeys; give one value, or one per storey from the ground up"),
     );
-    for (floor, (field, load)) in each(&frame.floor_load, &format!("{path}.floor_load")).enumerate() {
+    for (floor, (field, load)) in each(&frame.floor_load, &format!("{path}.floor_load")).enumerate()
+    {
         let line = frame.beam_mass.get(floor).copied().unwrap_or(0.0);
         let mass = frame.floor_mass.get(floor).copied().unwrap_or(0.0);
         let weight = STANDARD_GRAVITY * (line * frame.beam_length(floor) + mass);

@@ -121,7 +121,8 @@ impl Fibre {
 
     /// Work of first loading.
     fn work_of_loading(&self, compression: f64) -> f64 {
-        let trapezium = |[from, low]: [f64; 2], to: f64, high: f64| 0.5 * (low + high) * (to - from);
+        let trapezium =
+            |[from, low]: [f64; 2], to: f64, high: f64| 0.5 * (low + high) * (to - from);
         let force = self.first_loading(compression)[0];
         if compression < self.peak {
             let chord = self.chord(compression);
@@ -141,7 +142,8 @@ impl Fibre {
         // Forces of the inner corners, then half of the last one.
         let last = self.corner(index)[1];
         let inner = (i - 1.0).max(0.0);
-        let sum = inner * (inner + 1.0) / n - inner * (inner + 1.0) * (2.0 * inner + 1.0) / (6.0 * n * n)
+        let sum = inner * (inner + 1.0) / n
+            - inner * (inner + 1.0) * (2.0 * inner + 1.0) / (6.0 * n * n)
             + inner / (6.0 * n * n);
         self.peak / n * (self.strength * sum + 0.5 * last)
     }
@@ -326,7 +328,10 @@ mod tests {
             worst = worst.max(apart / STRENGTH);
             crushed = crushed.max(strain);
         }
-        assert!(crushed > 6.0 * PEAK, "it never lost its strength: {crushed}");
+        assert!(
+            crushed > 6.0 * PEAK,
+            "it never lost its strength: {crushed}"
+        );
         assert!(worst < 2e-4, "{worst:e} of the strength apart");
     }
 
@@ -334,7 +339,9 @@ mod tests {
     #[test]
     fn work_is_the_area_under_the_force() {
         let fibre = fibre();
-        let turns = [0.0, -0.0011, -0.0003, -0.0031, 0.001, -0.0009, -0.02, 0.0, -0.021];
+        let turns = [
+            0.0, -0.0011, -0.0003, -0.0031, 0.001, -0.0009, -0.02, 0.0, -0.021,
+        ];
         let (mut once, mut sum_once) = (HysteresisMemory::default(), 0.0);
         let (mut parts, mut sum_parts) = (HysteresisMemory::default(), 0.0);
         for ends in turns.windows(2) {
@@ -353,7 +360,10 @@ mod tests {
             }
             assert_eq!(once, parts, "to {}", ends[1]);
             let close = 1e-6 * STRENGTH * PEAK;
-            assert!((sum_once - sum_parts).abs() < close, "{sum_once} {sum_parts}");
+            assert!(
+                (sum_once - sum_parts).abs() < close,
+                "{sum_once} {sum_parts}"
+            );
         }
         let dissipated = sum_once - fibre.recoverable_energy(&once);
         assert!(dissipated > 0.0);
@@ -377,7 +387,10 @@ mod tests {
                 let middle = fibre.respond(&here, 0.5 * (here.deformation() + end));
                 memory = fibre.respond(&here, end).memory;
                 let expected = 0.5 * (here.force() + memory.force());
-                assert!((middle.force - expected).abs() < 1e-9 * STRENGTH, "towards {end}");
+                assert!(
+                    (middle.force - expected).abs() < 1e-9 * STRENGTH,
+                    "towards {end}"
+                );
                 if end == turn {
                     break;
                 }

@@ -24,8 +24,8 @@
 
 mod backbone;
 mod circular;
-mod concrete;
 mod compression;
+mod concrete;
 mod degrading;
 mod failing;
 mod friction;

@@ -6,6 +6,7 @@
 mod base;
 mod capacity;
 mod diagonal;
+mod fibres;
 mod floor_matrices;
 mod frame_members;
 mod frame_wall;
@@ -18,7 +19,6 @@ mod members;
 mod plan_bearings;
 mod plan_frame;
 mod plan_spring;
-mod fibres;
 mod shear_spring;
 mod soil;
 mod space_frame;
@@ -35,6 +35,7 @@ pub use capacity::{
     CapacityLine, MemberCapacity, RotationLimits, RotationMeasure, RuleCapacity, ShearCapacity,
 };
 pub use diagonal::{Diagonal, DiagonalKind, DiagonalPlace, Rise};
+pub use fibres::{ColumnFibres, Fibre};
 pub(crate) use floor_matrices::displacement_in_words;
 pub use floor_matrices::{FloorMatrices, GivenFloor, GivenInPlan};
 pub use frame_members::FramePlace;
@@ -49,7 +50,6 @@ pub use link_law::LinkLaw;
 pub use members::{JointRequest, MemberRequest};
 pub use plan_frame::{LumpedFloor, PlanFrame, SharedColumn};
 pub use plan_spring::{PlanAxis, PlanSpring};
-pub use fibres::{ColumnFibres, Fibre};
 pub use shear_spring::{ShearEnds, ShearSpring};
 pub use soil::{Foundation, FoundationSprings, HalfSpace, Soil, SoilCoupling};
 pub use space_frame::{SpaceFrame, SpaceMember, SpacePlace, SpaceSection};

@@ -201,7 +201,6 @@ fn footings_of(
     footings.into_iter().map(|(_, footing)| footing).collect()
 }
 
-
 /// Kind of the ground under foundations.
 const FOOTING: &str = "footing";
 

@@ -9,11 +9,11 @@ use super::in_plan::{BuildingInPlan, FloorInPlan};
 use super::response::{BuildingResponse, FloorResponse};
 use super::summary::{
     AcceptanceSummary, AcrossSummary, AxialFailureSummary, BuildingSummary, CapacitySummary,
-    ContactSummary, EnergySummary, ExceededSummary, FloorSummary, ForcesSummary, FoundationSummary,
-    GapSummary, HingeSummary, ImpactSummary, IsolationInPlan, IsolationSummary, JointRatio,
-    JointSummary, LinkFloorSummary, LinkSummary, MemberComparison, MotionSummary, PartSummary, FibreSummary,
-    PromiseSummary, RatioPlace, RatioSummary, SectionSummary, ShearFailure, ShearFailureSummary,
-    SpringSummary, StruckSummary, Summary, WallSummary, WorkSummary,
+    ContactSummary, EnergySummary, ExceededSummary, FibreSummary, FloorSummary, ForcesSummary,
+    FoundationSummary, GapSummary, HingeSummary, ImpactSummary, IsolationInPlan, IsolationSummary,
+    JointRatio, JointSummary, LinkFloorSummary, LinkSummary, MemberComparison, MotionSummary,
+    PartSummary, PromiseSummary, RatioPlace, RatioSummary, SectionSummary, ShearFailure,
+    ShearFailureSummary, SpringSummary, StruckSummary, Summary, WallSummary, WorkSummary,
 };
 use crate::quantity::{Places, Quantity};
 

@@ -19,10 +19,10 @@ use crate::results::ground::{closing_of_grounds, ground_summary};
 use crate::results::isolation::{isolation_summary, mat_summary, wall_summaries};
 use crate::results::members::members_of;
 use crate::results::parts::{degree_of_coupling, parts_of};
-use crate::results::sections::sections_of;
 use crate::results::response::{
     Amplification, BuildingResponse, FloorResponse, building_response, floor_responses,
 };
+use crate::results::sections::sections_of;
 use crate::results::shear_failure::shear_failures;
 use crate::results::summary::{
     BuildingSummary, ContactSummary, EnergySummary, FloorSummary, Floors, GapSummary, HingeSummary,

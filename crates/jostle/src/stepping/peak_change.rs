@@ -184,7 +184,11 @@ fn measured_with(system: &System, column: Column, linear: bool) -> Option<Column
         }
         Owner::Section { building, .. } => {
             let section = 0;
-            Some(Column::new(Owner::Section { building, section }, kind, direction))
+            Some(Column::new(
+                Owner::Section { building, section },
+                kind,
+                direction,
+            ))
         }
         Owner::Building(_) if along => Some(column),
         Owner::Support(_) if along && kind == Kind::Force => Some(column),

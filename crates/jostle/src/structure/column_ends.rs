@@ -77,13 +77,15 @@ impl StickModel {
             MemberEnd::First => [joint, node],
             MemberEnd::Last => [node, joint],
         };
-        let between = |component, share: f64| [((upper, component), share), ((lower, component), -share)];
+        let between =
+            |component, share: f64| [((upper, component), share), ((lower, component), -share)];
         let first = self.yielding.len();
-        self.yielding.extend(own.fibres.iter().map(|fibre| YieldingElement {
-            row: over_nodes(between(Y, 1.0).into_iter().chain(between(THETA, fibre.at))),
-            hysteresis: fibre.spring,
-            proportional_damping: ProportionalDamping::None,
-        }));
+        self.yielding
+            .extend(own.fibres.iter().map(|fibre| YieldingElement {
+                row: over_nodes(between(Y, 1.0).into_iter().chain(between(THETA, fibre.at))),
+                hysteresis: fibre.spring,
+                proportional_damping: ProportionalDamping::None,
+            }));
         let section = FibreSection {
             storey,
             line,

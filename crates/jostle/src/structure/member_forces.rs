@@ -268,7 +268,11 @@ impl MemberForces {
         for section in &discretization.sections {
             let springs = discretization.springs_of_section(section);
             let sum = |share: &dyn Fn(f64) -> f64| LinearForm {
-                springs: springs.clone().zip(&section.at).map(|(spring, at)| (spring, share(*at))).collect(),
+                springs: springs
+                    .clone()
+                    .zip(&section.at)
+                    .map(|(spring, at)| (spring, share(*at)))
+                    .collect(),
                 ..LinearForm::default()
             };
             let forms = [sum(&|_| 1.0), sum(&|at| at)];

@@ -182,7 +182,10 @@ fn of_sections(index: usize, building: &BuildingSystem, all: &mut Vec<Watch>) {
             section,
         };
         let moved = Column::along(owner, Kind::Displacement);
-        for (column, row) in [(moved.up(), &own.elongation), (moved.turning(), &own.rotation)] {
+        for (column, row) in [
+            (moved.up(), &own.elongation),
+            (moved.turning(), &own.rotation),
+        ] {
             let row = building.equations.row(&stick_model.carried_row(row));
             let row = row.moved_up(building.offset);
             all.push(Watch::new(column, Statistic::Extremes(row)));

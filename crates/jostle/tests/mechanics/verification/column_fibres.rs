@@ -2,9 +2,7 @@
 
 use std::sync::Arc;
 
-use jostle::hysteresis::{
-    Backbone, ConcreteFall, Corners, Hysteresis, HysteresisRule, Stage,
-};
+use jostle::hysteresis::{Backbone, ConcreteFall, Corners, Hysteresis, HysteresisRule, Stage};
 use jostle::statics::{STANDARD_GRAVITY, compressions};
 use jostle::{
     Base, Building, ColumnFibres, Damping, Fibre, Frame, FrameHinges, Gravity, Hinges, Model,
@@ -105,7 +103,10 @@ fn shaken(model: &Model, sign: f64) -> (System, Outcome) {
 fn answers((system, outcome): &(System, Outcome)) -> [Vec<[f64; 2]>; 3] {
     let floors = outcome.peaks.floors(0);
     let moved = floors.iter().map(|floor| {
-        [floor.displacement_max().value, floor.displacement_min().value]
+        [
+            floor.displacement_max().value,
+            floor.displacement_min().value,
+        ]
     });
     let forces = |kind: usize| {
         let sections = system.buildings[0].members.sections.iter();
@@ -179,7 +180,10 @@ fn halves_of_fibres_are_the_whole() {
         .fibres
         .iter()
         .flat_map(|fibre| {
-            let curve = fibre.spring.backbone().side(jostle::hysteresis::Side::Negative);
+            let curve = fibre
+                .spring
+                .backbone()
+                .side(jostle::hysteresis::Side::Negative);
             let spring = match fibre.spring.rule() {
                 HysteresisRule::Concrete(fall) => {
                     let top = curve.yielding;
@@ -234,7 +238,10 @@ fn elastic_fibres_at_the_feet_are_springs_of_a_base() {
     let [a, b] = [on_fibres, on_base].map(|own| {
         let (_, outcome) = shaken(&own, 1.0);
         let floor = &outcome.peaks.floors(0)[0];
-        [floor.displacement_max().value, floor.displacement_min().value]
+        [
+            floor.displacement_max().value,
+            floor.displacement_min().value,
+        ]
     });
     agree(&[a], &[b], 1e-4, "floors");
 }

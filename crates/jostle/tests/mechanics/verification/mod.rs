@@ -3,11 +3,11 @@
 mod a_row_of_three_buildings;
 mod bad_models_are_refused;
 mod base_gravity_and_shifted_equilibrium;
+mod column_fibres;
 mod contact_constants;
 mod contact_laws;
 mod corners;
 mod damping_of_yielding;
-mod column_fibres;
 mod diagonals;
 mod direct_in_space;
 mod direct_runs_refine_their_steps;
