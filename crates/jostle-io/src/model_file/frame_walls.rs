@@ -22,6 +22,12 @@ const HINGE_INITIAL: f64 = 100.0;
 /// The effective height of a wall over its height: the resultant of forces that grow linearly with height \[–\].
 const EFFECTIVE_HEIGHT: f64 = 2.0 / 3.0;
 
+/// Stands in after a fault, so that those of hinges are found as well.
+const UNREAD: CrossSection = CrossSection {
+    shear_rigidity: Some(1.0),
+    ..STAND_IN
+};
+
 /// The frame in which walls stand.
 #[derive(Clone, Copy)]
 pub(super) struct Bays<'a> {
@@ -132,9 +138,8 @@ fn read_wall(
         None => own_mass(reader, &view, section, !by_size, material),
     };
     let stiffness_factors = read_factors(reader, &view, material, None);
-    // After a fault, so that those of hinges are found as well.
     let stand_in = reduced(
-        section.unwrap_or(STAND_IN),
+        section.unwrap_or(UNREAD),
         stiffness_factors.unwrap_or([1.0; 2]),
     );
     let [first, last] = storeys.unwrap_or([1, 1]);
@@ -434,7 +439,7 @@ fn read_beams(
     let slenderness = depth.map(|depth| clear / depth);
     let stiffness_factors = read_factors(reader, &view, material, Some(slenderness));
     let stand_in = reduced(
-        section.unwrap_or(STAND_IN),
+        section.unwrap_or(UNREAD),
         stiffness_factors.unwrap_or([1.0; 2]),
     );
     // A fault of the walls, noted elsewhere.
