@@ -159,6 +159,7 @@ spans = []
 column = { EI = "600 MN.m2", EA = "6 GN" }
 beam = { EI = "1 MN.m2" }
 floor_mass = "120 t"
+density = 0
 axial = "flexible"
 gravity = true
 damping = { alpha = 0.2, relative_to = "ground" }
