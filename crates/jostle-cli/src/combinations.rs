@@ -131,7 +131,10 @@ const COLUMNS: &str = "COLUMNS";
 /// Stands for columns whose ends are made of fibres.
 const FIBRES: &str = "FIBRES";
 
-/// Keys of these.
+/// Hinges of these.
+const HINGES_OF_FIBRES: &str = "hinges = { rule = \"fibre\", length = \"0.4 m\" }\n";
+
+/// All keys of these.
 const OF_FIBRES: &str = "column = { width = 0.5, depth = 0.5, concrete = \"C30\", steel = \"HRB400\", bars = \"12 d20\" }\naxial = \"flexible\"\ngravity = true\nhinges = { rule = \"fibre\", length = \"0.4 m\" }\n";
 
 #[rustfmt::skip]
@@ -277,7 +280,7 @@ fn model(kind: usize, feature: &Feature) -> String {
         };
         let columns = match feature.keys {
             COLUMNS => Some(BY_LINE[kind]),
-            FIBRES => Some(OF_FIBRES),
+            FIBRES if kind == 0 => Some(OF_FIBRES),
             _ => None,
         };
         let (keys, own_tables) = match columns {
@@ -296,6 +299,12 @@ fn model(kind: usize, feature: &Feature) -> String {
                     .replace("spans", &format!("{}spans", YIELDING[0])),
             ),
             OWN_WORDS => (YIELDING[kind], own.tables.to_owned()),
+            FIBRES if kind > 0 && YIELDING[kind].is_empty() => (
+                "",
+                own.tables
+                    .replace("spans", &format!("{HINGES_OF_FIBRES}spans")),
+            ),
+            FIBRES if kind > 0 => (HINGES_OF_FIBRES, own.tables.to_owned()),
             // Frames at lines of a plan have theirs in their tables.
             _ if columns.is_some() && own.tables.contains("column =") => ("", own_tables),
             _ if columns.is_some() => (columns.unwrap_or_default(), own_tables),

@@ -40,10 +40,9 @@ fn sentence(name: &str, all: &[FibreSummary]) -> String {
 
 fn table(all: &[&FibreSummary]) -> Markup {
     let columns = [
-        (message::greatest_compression(), "kN"),
-        (message::least_compression(), "kN"),
-        (message::greatest_moment(), "kN·m"),
-        (message::greatest_rotation(), "mrad"),
+        (message::compression(), "kN"),
+        (message::moment(), "kN·m"),
+        (message::rotation(), "mrad"),
         (message::strain_of_bars(), "‰"),
         (message::yielded(), "s"),
         (message::strain_of_concrete(), "‰"),
@@ -75,15 +74,17 @@ fn table(all: &[&FibreSummary]) -> Markup {
     }
 }
 
-fn cells(own: &FibreSummary) -> [String; 9] {
+fn cells(own: &FibreSummary) -> [String; 8] {
     let nothing = || format::NOTHING.to_owned();
     let strain =
         |strain: Option<f64>| strain.map_or_else(nothing, |own| format::significant(1e3 * own, 3));
     let instant = |at: Option<f64>| at.map_or_else(nothing, |at| format::fixed(at, 3));
     let greatest = |a: f64, b: f64, unit: f64| format::significant(a.max(-b) / unit, 4);
     [
-        format::significant(-own.axial_min_n / 1e3, 4),
-        format::significant(-own.axial_max_n / 1e3, 4),
+        message::least_to_greatest(
+            format::significant(-own.axial_max_n / 1e3, 3),
+            format::significant(-own.axial_min_n / 1e3, 3),
+        ),
         greatest(own.moment_max_n_m, own.moment_min_n_m, 1e3),
         greatest(own.rotation_max_rad, own.rotation_min_rad, 1e-3),
         strain(own.steel_strain),

@@ -86,9 +86,15 @@ fn read(
     let base = read_base(reader, view, false);
     let hinges = reader.get(view, "hinges").and_then(|field| {
         let table = reader.reopen(&field, &[Section::Hinges]);
-        if let Some(from) = table.and_then(|table| reader.get(&table, "from")) {
+        if let Some(from) = table.as_ref().and_then(|table| reader.get(table, "from")) {
             *reader.bad(&from, "is not possible for frames in plan yet") =
                 Some("give the moments of column and beam".into());
+            return None;
+        }
+        let rule = table.as_ref().and_then(|table| reader.get(table, "rule"));
+        if let Some(rule) = rule.filter(|rule| rule.as_text() == Some("fibre")) {
+            *reader.bad(&rule, "is not possible for frames in plan yet") =
+                Some("take another rule, with the moments of column and beam".into());
             return None;
         }
         match hinges::read_frame(reader, &field, &frame, None)? {

@@ -625,4 +625,22 @@ fn fibres_that_cannot_be_say_why() {
         "hinges = { rule = \"takeda\", length = 0.4, column = { cracking = 1e5, yield = 2e5, post_cracking = 0.3, post_yield = 0.02 } }",
     );
     says(&other, &["has no meaning without fibres"]);
+    let in_plan = r#"
+[[building]]
+name = "A"
+kind = "frame"
+storeys = 2
+plan = ["12 m", "10 m"]
+mass = "150 t"
+[[building.frame]]
+name = "1"
+at = ["0 m", "0 m"]
+spans = ["6 m", "6 m"]
+column = { width = "500 mm", depth = "500 mm" }
+beam = { width = "300 mm", depth = "600 mm" }
+concrete = "C30"
+axial = "flexible"
+hinges = { rule = "fibre", length = 0.4 }
+"#;
+    says(in_plan, &["is not possible for frames in plan yet"]);
 }

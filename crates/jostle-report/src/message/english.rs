@@ -1055,12 +1055,11 @@ messages! {
     // fibres
     columns_that_follow_their_axial_force = "Columns that follow their axial force";
     ends_that_yielded_and_crushed(name, yielded, crushed, total) = "{name}: bars yielded at {yielded} of {total} ends of columns, and concrete passed its strength at {crushed}.";
-    least_compression = "least compression";
-    greatest_moment = "greatest moment";
-    greatest_rotation = "greatest rotation";
-    strain_of_bars = "tensile strain of bars";
-    strain_of_concrete = "strain of concrete";
-    past_its_strength = "past its strength";
+    compression = "compression";
+    least_to_greatest(least, greatest) = "{least} to {greatest}";
+    strain_of_bars = "bars stretched";
+    strain_of_concrete = "concrete compressed";
+    past_its_strength = "past strength";
 
     // shear_failures
     columns_that_fail_in_shear = "Columns that fail in shear";
