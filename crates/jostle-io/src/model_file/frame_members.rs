@@ -76,7 +76,8 @@ fn read_grid(
 ) -> Option<Grid> {
     let own = &walls.sections[usize::from(member == Member::Beam)];
     let layout = Layout::read(reader, view, member, storeys, across);
-    if layout.is_none() && !own.is_empty() {
+    // A stick has no beams.
+    if layout.is_none() && (!own.is_empty() || across == 0) {
         let rows = (0..storeys.unwrap_or(1)).map(|storey| {
             let places = (0..across).map(|place| own.get(&[storey, place]).copied());
             places.collect::<Vec<_>>()

@@ -207,9 +207,13 @@ pub(super) fn read_frame(
             Some(_) => &[(Member::Beam, "beam")][..],
             None => &[(Member::Column, "column"), (Member::Beam, "beam")],
         };
-        let hinges = of_sections(
-            reader, field, frame, kinds, rule?, initial?, method?, members?,
-        )?;
+        let wanted = Wanted {
+            kinds,
+            rule: rule?,
+            initial: initial?,
+            method: method?,
+        };
+        let hinges = of_sections(reader, field, frame, &wanted, members?)?;
         return with_fibres(hinges, fibres);
     }
     if let (Some(_), Some(field)) = (&fibres, reader.get(&view, "column")) {
@@ -481,17 +485,28 @@ fn key_of(quantity: Quantity) -> Option<&'static str> {
     }
 }
 
+/// Which hinges follow from sections, and how.
+struct Wanted<'a> {
+    kinds: &'a [(Member, &'a str)],
+    rule: HysteresisRule,
+    initial: Initial,
+    method: &'a str,
+}
+
 /// Hinges from the reinforcement of the members.
 fn of_sections(
     reader: &mut Reader<'_>,
     field: &Field<'_>,
     frame: &Frame,
-    kinds: &[(Member, &str)],
-    rule: HysteresisRule,
-    initial: Initial,
-    method: &str,
+    wanted: &Wanted<'_>,
     members: &[ReinforcedMember],
 ) -> Option<FrameHinges> {
+    let Wanted {
+        kinds,
+        rule,
+        initial,
+        method,
+    } = *wanted;
     let storeys = frame.storey_heights.len();
     let mut hinges = FrameHinges::default();
     let mut sound = true;

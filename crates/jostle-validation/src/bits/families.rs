@@ -7,7 +7,7 @@ use super::pinned::Pinned;
 use super::recorded::Recorded;
 use super::run_results::run;
 use super::{
-    answers, examples, in_plane, in_space, isolated, linked, on_grounds, on_soil, yielding,
+    answers, examples, in_plane, in_space, isolated, linked, on_grounds, on_soil, parts, yielding,
 };
 
 /// Models of one kind.
@@ -21,7 +21,7 @@ pub(super) struct Family {
 }
 
 /// All of them.
-pub(super) const FAMILIES: [Family; 10] = [
+pub(super) const FAMILIES: [Family; 11] = [
     family("plane", in_plane::models),
     family("examples", examples::models),
     family("opensees", examples::compared_models),
@@ -31,6 +31,7 @@ pub(super) const FAMILIES: [Family; 10] = [
     family("linked", linked::models),
     family("grounds", on_grounds::models),
     family("yielding", yielding::models),
+    family("parts", parts::models),
     Family {
         name: "answers",
         models: answers::models,

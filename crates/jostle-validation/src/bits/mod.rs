@@ -18,6 +18,7 @@ mod linked;
 mod numbers;
 mod on_grounds;
 mod on_soil;
+mod parts;
 mod pinned;
 mod recorded;
 mod run_results;

@@ -1,0 +1,95 @@
+//! Buildings of walls, of columns made of fibres, and on foundations that lift off, beside a neighbour.
+
+use jostle::Solver;
+use jostle_io::{Format, read_model_text};
+
+use super::pinned::Pinned;
+
+const WALLED: &str = r#"
+motion = { record = "el-centro-1940-ns", pga = "0.5 g", duration = "2.5 s" }
+[[building]]
+name = "W"
+storeys = 2
+storey_height = "3 m"
+spans = ["5 m"]
+concrete = "C30"
+floor_mass = "60 t"
+wall = [
+  { line = 1, length = "2 m", thickness = "200 mm", hinge = { rule = "bilinear", stiffness = "20 GN.m/rad", yield = "400 kN.m", post_yield = 0.02 } },
+  { line = 2, length = "2 m", thickness = "200 mm" },
+]
+coupling_beam = [{ between = [1, 2], width = "200 mm", depth = "600 mm" }]
+[[building]]
+name = "N"
+kind = "shear"
+mass = ["50 t", "50 t"]
+stiffness = "60 MN/m"
+storey_height = "3 m"
+[[gap]]
+between = ["W", "N"]
+width = "10 mm"
+law = "kelvin-no-tension"
+stiffness = "400 MN/m"
+"#;
+
+const FIBRED: &str = r#"
+motion = { record = "el-centro-1940-ns", pga = "0.5 g", duration = "2.5 s" }
+[[building]]
+name = "F"
+storeys = 1
+storey_height = "3 m"
+spans = ["4 m"]
+column = { width = "400 mm", depth = "400 mm", concrete = "C30", steel = "HRB400", bars = "8 d20" }
+beam = { EI = "100 MN.m2" }
+floor_mass = "60 t"
+axial = "flexible"
+elastic_modulus = "30 GPa"
+gravity = true
+hinges = { rule = "fibre", length = "0.3 m", fibres = 8, ends = "base" }
+[[building]]
+name = "N"
+kind = "shear"
+mass = ["50 t", "50 t"]
+stiffness = "60 MN/m"
+storey_height = "3 m"
+[[gap]]
+between = ["F", "N"]
+width = "10 mm"
+law = "kelvin-no-tension"
+stiffness = "400 MN/m"
+"#;
+
+const LIFTING: &str = r#"
+motion = { record = "el-centro-1940-ns", pga = "0.5 g", duration = "2.5 s" }
+[[building]]
+name = "L"
+kind = "shear"
+mass = ["100 t", "100 t"]
+stiffness = "200 MN/m"
+storey_height = "3 m"
+gravity = true
+foundation = { length = "4 m", width = "6 m", mass = "100 t", uplift = true, springs = 5, vertical_stiffness = "800 MN/m" }
+[[building]]
+name = "N"
+kind = "shear"
+mass = ["50 t", "50 t"]
+stiffness = "60 MN/m"
+storey_height = "3 m"
+[[gap]]
+between = ["L", "N"]
+width = "10 mm"
+law = "kelvin-no-tension"
+stiffness = "400 MN/m"
+"#;
+
+/// Every model.
+pub(super) fn models() -> Vec<Pinned> {
+    let all = [("walls", WALLED), ("fibres", FIBRED), ("lifting", LIFTING)];
+    let model = |(name, text): (&str, &str)| Pinned {
+        name: name.to_owned(),
+        input: read_model_text(name, text, Format::Toml, "".as_ref())
+            .map_err(|error| error.to_string()),
+        solvers: vec![Solver::Riccati, Solver::Stiffness],
+    };
+    all.into_iter().map(model).collect()
+}
