@@ -77,7 +77,7 @@ fn read_grid(
     let own = &walls.sections[usize::from(member == Member::Beam)];
     let layout = Layout::read(reader, view, member, storeys, across);
     // A stick has no beams.
-    if layout.is_none() && (!own.is_empty() || across == 0) {
+    if layout.is_none() && (walls.incomplete || !own.is_empty() || across == 0) {
         let rows = (0..storeys.unwrap_or(1)).map(|storey| {
             let places = (0..across).map(|place| own.get(&[storey, place]).copied());
             places.collect::<Vec<_>>()
