@@ -32,7 +32,7 @@ pub(super) fn rows() -> Vec<Row> {
     let mut rows = pushed_to_and_fro(CANTILEVER.0, &document(CANTILEVER.1), &section);
     for (name, text) in [CANTILEVER, PORTAL] {
         let case = document(text);
-        for tolerance in [1e-3, 1e-5] {
+        for tolerance in [1e-3, 1e-4] {
             rows.extend(shaken(name, &case, tolerance));
         }
     }
