@@ -45,10 +45,7 @@ impl FibreSection {
 impl std::fmt::Display for FibreSection {
     /// Its name within the building, such as `column.1.2.foot`.
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let end = match self.end {
-            MemberEnd::First => "foot",
-            MemberEnd::Last => "head",
-        };
+        let end = self.end.of_column();
         write!(formatter, "column.{}.{}.{end}", self.line, self.storey)
     }
 }
