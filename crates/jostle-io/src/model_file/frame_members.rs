@@ -54,7 +54,7 @@ pub(super) fn read(
         walls,
     );
     [&columns, &beams].map(|grid| match grid {
-        Some(grid) if reader.count_faults() == noted => compact(grid),
+        Some(grid) if !walls.incomplete && reader.count_faults() == noted => compact(grid),
         _ => (vec![STAND_IN; storeys.unwrap_or(1)], BTreeMap::new()),
     })
 }
