@@ -255,17 +255,15 @@ fn name(summary: &LinkSummary, floor: &LinkFloorSummary) -> String {
     format!("{pair}, {place}, {}", summary.law)
 }
 
-/// Force of bearings of first loading, friction at high speed.
+/// Force of bearings of first loading to both sides, friction at high speed.
 fn first_loading(isolation: &Isolation, result: &IsolationSummary) -> Vec<[f64; 2]> {
-    let Some([strength, second, yielding]) = isolation.isolator.yielding(result.weight_n) else {
-        return Vec::new();
-    };
+    let (isolator, weight) = (&isolation.isolator, result.weight_n);
+    let yielding = isolator.yielding(weight).map_or(0.0, |[_, _, at]| at);
     let reach = 1.1 * result.displacement_peak_m().max(yielding);
-    symmetric(
-        yielding,
-        strength + second * yielding,
-        [reach, strength + second * reach],
-    )
+    let points = isolator.first_loading(weight, reach);
+    let right = points.iter().skip(1);
+    let left = right.clone().rev().map(|point| point.map(|value| -value));
+    left.chain(right.copied()).collect()
 }
 
 /// A line through zero, a corner and an end, and the same on the other side.
@@ -281,7 +279,7 @@ fn symmetric(deformation: f64, force: f64, [reach, end]: [f64; 2]) -> Vec<[f64; 
 /// The ring that stops a mat in plan, or else the limit of its bearings; empty without both \[m\].
 fn circle(isolation: &Isolation) -> Vec<[f64; 2]> {
     let ring = isolation.stops[0].map(|stop| stop.at);
-    let Some(radius) = ring.or(isolation.limit) else {
+    let Some(radius) = ring.or(isolation.reach()) else {
         return Vec::new();
     };
     let corners = (0..=CORNERS).map(|corner| TAU * f64::from(corner) / f64::from(CORNERS));
@@ -297,7 +295,7 @@ const CORNERS: u32 = 72;
 fn marks(isolation: &Isolation) -> Vec<f64> {
     let stops = Side::BOTH.into_iter().zip(isolation.stops);
     let stops = stops.filter_map(|(side, stop)| Some(side.sign() * stop?.at));
-    let limits = isolation.limit.into_iter().flat_map(|at| [-at, at]);
+    let limits = isolation.reach().into_iter().flat_map(|at| [-at, at]);
     stops.chain(limits).collect()
 }
 
@@ -374,7 +372,7 @@ fn title(page: &Page) -> String {
 fn sentence(name: &str, isolation: &Isolation, result: &IsolationSummary) -> String {
     let moved = result.displacement_peak_m();
     let mut text = message::moves_on_its_bearings(name, format::millimetres(moved));
-    if let Some(limit) = isolation.limit {
+    if let Some(limit) = isolation.reach() {
         let used = format::fixed(100.0 * moved / limit, 0);
         text.push_str(&message::share_of_limit(&used, format::millimetres(limit)));
     }
@@ -397,6 +395,18 @@ fn sentence(name: &str, isolation: &Isolation, result: &IsolationSummary) -> Str
     if let Some(force) = result.stop_force_peak_n.filter(|force| *force > 0.0) {
         text.push_str(&message::a_stop_is_hit(format::force(force)));
     }
+    let stages: Vec<_> = result
+        .stages
+        .iter()
+        .map(|stage| [stage.travel_peak_m, stage.travel_m].map(format::millimetres))
+        .map(|[went, travel]| message::travel_of(went, travel))
+        .collect();
+    if !stages.is_empty() {
+        text.push_str(&message::stages_slide(&stages.join(", ")));
+    }
+    if result.reached_rims() {
+        text.push_str(message::the_bearings_stood_at_their_rims());
+    }
     text
 }
 
@@ -417,7 +427,7 @@ fn rows(page: &Page) -> (Vec<Row>, usize) {
                     own.force_across_peak_n.max(result.force_peak_n)
                 })),
                 milli(moved),
-                isolation.limit.map_or_else(none, milli),
+                isolation.reach().map_or_else(none, milli),
                 isolation
                     .limit
                     .map_or_else(none, |limit| format::fixed(100.0 * moved / limit, 0)),

@@ -2,6 +2,7 @@
 
 mod fibres;
 pub(crate) mod files;
+mod pendulums;
 mod rocking;
 
 use std::ops::ControlFlow;
@@ -74,6 +75,7 @@ pub fn rows() -> Vec<Row> {
     }
     rows.extend(fibres::rows());
     rows.extend(rocking::rows());
+    rows.extend(pendulums::rows());
     rows
 }
 

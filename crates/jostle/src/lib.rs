@@ -119,9 +119,9 @@ pub use model::{
     FrameWall, Gap, Given, GivenFloor, GivenInPlan, Gravity, GroundSprings, HalfSpace, Hinges,
     Integrator, Isolation, Isolator, IsolatorDamping, Joint, JointRequest, Level, Link, LinkLaw,
     MassDamping, MemberRequest, Model, ModelFault, PlanArea, PlanAxis, PlanContact, PlanFrame,
-    PlanPoint, PlanSpring, ProportionalDamping, Rise, Section, Shear, ShearEnds, ShearSpring, Soil,
-    SoilCoupling, Solver, SpaceFrame, SpaceMember, SpacePlace, SpaceSection, SpeedFriction, Stop,
-    Structure, Tier, TierStorey, Tiers, Uplift, Wall,
+    PlanPoint, PlanSpring, ProportionalDamping, Rise, Section, Shear, ShearEnds, ShearSpring,
+    SlidingSurface, Soil, SoilCoupling, Solver, SpaceFrame, SpaceMember, SpacePlace, SpaceSection,
+    SpeedFriction, Stop, Structure, Tier, TierStorey, Tiers, Uplift, Wall,
 };
 pub use motion::{Bearing, GroundMotion, GroundPath, GroundPoint, Grounds, OwnGround, Wave};
 pub use quantity::{Quantity, Unit};

@@ -117,6 +117,7 @@ impl Materials {
             | HysteresisRule::DegradingTrilinear
             | HysteresisRule::Sliding { .. }
             | HysteresisRule::Concrete(_)
+            | HysteresisRule::Pendulums(_)
             | HysteresisRule::Ground
             | HysteresisRule::InPlan { .. }) => Err(rule.name()),
         }

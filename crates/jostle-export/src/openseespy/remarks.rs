@@ -22,6 +22,7 @@ impl Script<'_> {
             | HysteresisRule::Sliding { .. }
             | HysteresisRule::Stop { .. }
             | HysteresisRule::Concrete(_)
+            | HysteresisRule::Pendulums(_)
             | HysteresisRule::Ground
             | HysteresisRule::InPlan { .. } => None,
         };

@@ -645,6 +645,7 @@ fn corners_of(rule: HysteresisRule, numbers: [Option<f64>; 4]) -> Option<Corners
         | HysteresisRule::Ground
         | HysteresisRule::Failing(_)
         | HysteresisRule::Concrete(_)
+        | HysteresisRule::Pendulums(_)
         | HysteresisRule::InPlan { .. } => Corners {
             cracking: cracking?,
             yielding: yielding?,

@@ -3,8 +3,8 @@
 use super::plan::is_inside_hull;
 use super::{Faults, each};
 use crate::model::{
-    Base, Building, Damping, Isolation, Isolator, IsolatorDamping, Model, PlanPoint, Structure,
-    Tiers, WALL,
+    Base, Building, Damping, Isolation, Isolator, IsolatorDamping, Model, PlanPoint,
+    SlidingSurface, Structure, Tiers, WALL,
 };
 
 /// Least distance of two bearings that keep a mat from turning \[m\].
@@ -75,6 +75,16 @@ fn check_isolation_in_plan(faults: &mut Faults, path: &str, isolation: &Isolatio
             || "cannot stand beside isolation: columns are fixed to the mat; leave out base".into(),
         );
     }
+    let several = matches!(
+        isolation.isolator,
+        Isolator::DoublePendulum { .. } | Isolator::TriplePendulum { .. }
+    );
+    faults.require(!several, format!("{own}.kind"), || {
+        format!(
+            "\"{}\" slides along one line only and is not possible under a building with a plan; take \"friction-pendulum\", with the radius and the friction of the stage that slides most",
+            isolation.isolator.name()
+        )
+    });
     let [left, right] = isolation.stops;
     faults.require(left == right, format!("{own}.stop"), || {
         "is a ring under a building with a plan, the same all round: give at and stiffness instead of left and right, or moat walls ([[wall]] with from and to)".into()
@@ -162,6 +172,36 @@ fn check_isolator(faults: &mut Faults, own: &str, isolation: &Isolation) {
                 || format!("must be at least 0 and less than 1, found {post_yield}"),
             );
         }
+        Isolator::HighDampingRubber {
+            stiffness,
+            damping_ratio,
+            displacement,
+            yield_displacement,
+        } => {
+            faults.positive(stiffness, format!("{own}.stiffness"), "N/m");
+            faults.positive(displacement, format!("{own}.displacement"), "m");
+            faults.positive(yield_displacement, format!("{own}.yield_displacement"), "m");
+            faults.require(
+                yield_displacement < displacement,
+                format!("{own}.yield_displacement"),
+                || {
+                    format!(
+                        "must be less than displacement ({displacement} m), found {yield_displacement} m; it is about 0.05 to 0.1 of the height of the rubber"
+                    )
+                },
+            );
+            // Beyond, the loop would be wider than that of friction alone.
+            let most = 2.0 / std::f64::consts::PI * (1.0 - yield_displacement / displacement);
+            faults.require(
+                damping_ratio > 0.0 && damping_ratio < most,
+                format!("{own}.damping_ratio"),
+                || {
+                    format!(
+                        "must be greater than 0 and less than {most:.3}, that of a loop without hardening; found {damping_ratio}"
+                    )
+                },
+            );
+        }
         Isolator::Pendulum {
             radius,
             friction,
@@ -187,7 +227,64 @@ fn check_isolator(faults: &mut Faults, own: &str, isolation: &Isolation) {
             );
             faults.not_negative(friction.rate, format!("{field}.rate"), "s/m");
         }
+        Isolator::DoublePendulum {
+            surfaces,
+            slip_displacement,
+        } => check_surfaces(faults, own, &surfaces, slip_displacement),
+        Isolator::TriplePendulum {
+            surfaces,
+            slip_displacement,
+        } => {
+            check_surfaces(faults, own, &surfaces, slip_displacement);
+            check_order_of_surfaces(faults, own, &surfaces);
+        }
     }
+}
+
+/// Faults of the surfaces of a pendulum of several, one by one.
+fn check_surfaces(faults: &mut Faults, own: &str, surfaces: &[SlidingSurface], slip: f64) {
+    faults.positive(slip, format!("{own}.slip_displacement"), "m");
+    for (index, surface) in surfaces.iter().enumerate() {
+        let at = |key: &str| format!("{own}.{key}[{index}]");
+        faults.positive(surface.radius, at("radius"), "m");
+        faults.positive(surface.capacity, at("capacity"), "m");
+        faults.require(
+            surface.friction > 0.0 && surface.friction < 1.0,
+            at("friction"),
+            || {
+                format!(
+                    "must be greater than zero and less than one, found {}",
+                    surface.friction
+                )
+            },
+        );
+    }
+}
+
+/// The stages of a triple pendulum are in series only in this order of friction and radii (Fenz and Constantinou, 2008).
+fn check_order_of_surfaces(faults: &mut Faults, own: &str, surfaces: &[SlidingSurface; 4]) {
+    let [lower, below, above, upper] = surfaces;
+    let [first, last] = [below, above].map(|inner| inner.friction);
+    faults.require(
+        first == last && first < lower.friction && lower.friction <= upper.friction,
+        format!("{own}.friction"),
+        || {
+            format!(
+                "must be equal on both inner surfaces, greater on the lower bowl and not less on the upper one, as in friction = [0.04, 0.015, 0.015, 0.08]; found [{}, {first}, {last}, {}]",
+                lower.friction, upper.friction
+            )
+        },
+    );
+    faults.require(
+        lower.radius > below.radius && upper.radius > above.radius,
+        format!("{own}.radius"),
+        || {
+            format!(
+                "must be greater on each bowl than on the inner surface beside it, as in radius = [\"2.1 m\", \"0.3 m\", \"0.3 m\", \"2.1 m\"]; found [{}, {}, {}, {}] m",
+                lower.radius, below.radius, above.radius, upper.radius
+            )
+        },
+    );
 }
 
 /// Faults of the walls of a model.

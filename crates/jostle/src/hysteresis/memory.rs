@@ -14,8 +14,8 @@ pub struct HysteresisMemory {
     pub(super) extremes: [f64; 2],
     /// Deformation of either side at which the backbone is reached again, as magnitudes; 0 before cracking.
     pub(super) peaks: [f64; 2],
-    /// Deformation at which each slider of the parallel model has no force.
-    pub(super) offsets: [f64; 2],
+    /// Deformation at which each slider of the parallel model has no force; how far each stage in series has slid.
+    pub(super) offsets: [f64; 3],
     /// Start of the last unloading.
     pub(super) turn: Corner,
     /// Start of the line towards a peak.

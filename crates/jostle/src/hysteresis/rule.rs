@@ -6,6 +6,7 @@ use super::concrete::{self, ConcreteFall};
 use super::failing::{self, FallingBranch};
 use super::friction::{Rates, Strength};
 use super::memory::{Branch, HysteresisMemory, Response, Stage};
+use super::pendulums::{self, SlidingStage};
 use super::pinched::{self, Pinching};
 use super::{compression, degrading, oriented, sliders};
 
@@ -59,6 +60,8 @@ pub enum HysteresisRule {
     Failing(FallingBranch),
     /// Concrete that bears compression alone, crushes, and unloads towards a strain that stays; [`Hysteresis::concrete`] makes it.
     Concrete(ConcreteFall),
+    /// Sliding surfaces in series: double and triple friction pendulums; [`Hysteresis::pendulums`] makes them.
+    Pendulums([SlidingStage; 3]),
     /// A row of a force in plan that is the same in every direction; [`Hysteresis::in_plan`] makes all three. On its own a row
     /// along x or across is that force on a straight line.
     InPlan {
@@ -109,6 +112,7 @@ impl HysteresisRule {
             | Self::Ground
             | Self::Failing(_)
             | Self::Concrete(_)
+            | Self::Pendulums(_)
             | Self::InPlan { .. } => false,
         }
     }
@@ -129,6 +133,7 @@ impl HysteresisRule {
             Self::Ground => "ground",
             Self::Failing(_) => "failing",
             Self::Concrete(_) => "concrete",
+            Self::Pendulums(_) => "pendulums",
             Self::InPlan { law, .. } => match law {
                 CircularLaw::Slider | CircularLaw::Friction { .. } => "friction in plan",
                 CircularLaw::Ring => "ring",
@@ -388,6 +393,7 @@ impl Hysteresis {
             | HysteresisRule::Ground
             | HysteresisRule::Failing(_)
             | HysteresisRule::Concrete(_)
+            | HysteresisRule::Pendulums(_)
             | HysteresisRule::InPlan { .. }
             | HysteresisRule::Sliding { .. } => self.backbone.initial(),
         }
@@ -485,6 +491,9 @@ impl Hysteresis {
             HysteresisRule::Concrete(fall) => {
                 concrete::respond(&self.backbone, &fall, memory, deformation)
             }
+            HysteresisRule::Pendulums(stages) => {
+                pendulums::respond(&self.backbone, &stages, memory, deformation)
+            }
             HysteresisRule::InPlan { row, .. } => self.on_a_line(row, memory, deformation),
         };
         let force = response.force;
@@ -538,6 +547,10 @@ impl Hysteresis {
             HysteresisRule::Concrete(fall) if deformation != memory.deformation => {
                 concrete::answer(&self.backbone, &fall, memory, deformation)
             }
+            HysteresisRule::Pendulums(stages) if deformation != memory.deformation => {
+                let answer = pendulums::answer(&self.backbone, &stages, memory, deformation);
+                [answer.force, answer.tangent]
+            }
             HysteresisRule::Elastic
             | HysteresisRule::Bilinear
             | HysteresisRule::Normal
@@ -549,6 +562,7 @@ impl Hysteresis {
             | HysteresisRule::Ground
             | HysteresisRule::Failing(_)
             | HysteresisRule::Concrete(_)
+            | HysteresisRule::Pendulums(_)
             | HysteresisRule::InPlan { .. } => {
                 let response = self.respond(memory, deformation);
                 [response.force, response.tangent]
@@ -581,6 +595,7 @@ impl Hysteresis {
             | HysteresisRule::Stop { .. }
             | HysteresisRule::Pinched(_)
             | HysteresisRule::Ground
+            | HysteresisRule::Pendulums(_)
             | HysteresisRule::Failing(_) => *memory = self.respond(memory, deformation).memory,
         }
     }
@@ -623,6 +638,7 @@ impl Hysteresis {
             | HysteresisRule::PeakOriented
             | HysteresisRule::Sliding { .. }
             | HysteresisRule::Failing(_)
+            | HysteresisRule::Pendulums(_)
             | HysteresisRule::InPlan { .. }
             | HysteresisRule::Stop { .. } => self.backbone.initial(),
             HysteresisRule::Pinched(pinching) => {
@@ -693,6 +709,9 @@ impl Hysteresis {
             }
             HysteresisRule::Concrete(fall) => {
                 concrete::next_corner(&self.backbone, &fall, memory, towards)
+            }
+            HysteresisRule::Pendulums(stages) => {
+                pendulums::next_corner(&self.backbone, &stages, memory, towards)
             }
             HysteresisRule::InPlan { .. } => towards.sign() * f64::INFINITY,
         }
@@ -803,7 +822,14 @@ mod tests {
             ultimate: 4.0,
         };
         let concrete = Hysteresis::concrete(250.0, 0.004, fall).expect("sound");
-        for spring in springs.chain([failing, concrete]) {
+        let stage = |friction: f64| SlidingStage {
+            friction,
+            stiffness: 4e4,
+            travel: 0.008,
+        };
+        let stages = [stage(60.0), stage(150.0), SlidingStage::STILL];
+        let pendulums = Hysteresis::pendulums(1e5, stages).expect("sound");
+        for spring in springs.chain([failing, concrete, pendulums]) {
             let rule = spring.rule();
             let (mut known, mut kept) = (HysteresisMemory::default(), HysteresisMemory::default());
             let mut furthest = 0.0_f64;

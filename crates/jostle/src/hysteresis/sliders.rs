@@ -39,7 +39,7 @@ fn sliders(backbone: &Backbone) -> [Slider; 2] {
 pub(super) struct Answer {
     pub(super) force: f64,
     pub(super) tangent: f64,
-    pub(super) offsets: [f64; 2],
+    pub(super) offsets: [f64; 3],
 }
 
 /// Largest deformation of a slider towards a side, with the sign of the side, and whether it slips there.

@@ -44,7 +44,8 @@ pub use gap::{FloorPairs, Gap, LEVEL_TOLERANCE, Level, PlanContact};
 pub use given::{Given, MatrixEntry};
 pub use integrator::Integrator;
 pub use isolation::{
-    BearingBounds, BearingFactors, Isolation, Isolator, IsolatorDamping, SpeedFriction, Stop,
+    BearingBounds, BearingFactors, Isolation, Isolator, IsolatorDamping, SlidingSurface,
+    SpeedFriction, Stop,
 };
 pub use link_law::LinkLaw;
 pub use members::{JointRequest, MemberRequest};

@@ -1,7 +1,9 @@
 //! What a run does to bearings and walls.
 
 use super::response::FloorResponse;
-use super::summary::{FloorSummary, GapSummary, IsolationInPlan, IsolationSummary, WallSummary};
+use super::summary::{
+    FloorSummary, GapSummary, IsolationInPlan, IsolationSummary, StageSummary, WallSummary,
+};
 use crate::history::{Column, Extreme, Kind, Owner};
 use crate::results::Run;
 use crate::results::in_plan::{FloorInPlan, floor_in_plan};
@@ -21,7 +23,7 @@ pub(super) fn isolation_summary(
     let peaks = &outcome.peaks;
     let (mat_moves, bearings) = (peaks.floor(index, 0).displacement(), Owner::Support(index));
     let springs = building.equations.springs.iter().enumerate();
-    let (mut hysteretic, mut stop) = (0.0, None);
+    let (mut hysteretic, mut stop, mut stages) = (0.0, None, Vec::new());
     for (spring, own) in springs {
         let global = building.spring_offset + spring;
         let Some(place) = building.discretization.spring_places.get(spring) else {
@@ -32,6 +34,12 @@ pub(super) fn isolation_summary(
                 let memory = &outcome.state.springs[global];
                 let work = peaks.work(Owner::Spring(global));
                 hysteretic += work - own.hysteresis.recoverable_energy(memory);
+                let force = peaks.owned_by(Owner::Spring(global)).of(Kind::Force);
+                let travels = own.hysteresis.travels(force.size()).into_iter();
+                stages.extend(travels.map(|[travel_peak_m, travel_m]| StageSummary {
+                    travel_peak_m,
+                    travel_m,
+                }));
             }
             SpringPlace::Stop { .. } => {
                 let force = peaks.owned_by(Owner::Spring(global)).of(Kind::Force);
@@ -69,11 +77,12 @@ pub(super) fn isolation_summary(
         hysteretic_j: hysteretic,
         damped_j: peaks.work(bearings),
         stop_force_peak_n: stop,
-        limit_exceeded: mat.isolation.limit.is_some_and(|limit| {
+        limit_exceeded: mat.isolation.reach().is_some_and(|limit| {
             let stroke = in_plan.as_ref().map(|own| own.stroke_peak_m);
             stroke.unwrap_or(max.max(-min)) > limit
         }),
-        limit_m: mat.isolation.limit,
+        limit_m: mat.isolation.reach(),
+        stages,
         in_plan,
     })
 }

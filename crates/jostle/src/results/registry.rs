@@ -13,7 +13,8 @@ use super::summary::{
     FoundationSummary, GapSummary, HingeSummary, ImpactSummary, IsolationInPlan, IsolationSummary,
     JointRatio, JointSummary, LinkFloorSummary, LinkSummary, MemberComparison, MotionSummary,
     PartSummary, PromiseSummary, RatioPlace, RatioSummary, SectionSummary, ShearFailure,
-    ShearFailureSummary, SpringSummary, StruckSummary, Summary, WallSummary, WorkSummary,
+    ShearFailureSummary, SpringSummary, StageSummary, StruckSummary, Summary, WallSummary,
+    WorkSummary,
 };
 use crate::quantity::{Places, Quantity};
 
@@ -94,6 +95,7 @@ const OWNERS: &[Row] = &[
     ("Floors in plan", "buildings[].floors[]", None, "A.floor3.", &[entries!(FloorInPlan::QUANTITIES)]),
     ("Bearings", "buildings[].isolation", None, "J1.isolation_", &[entries!(IsolationSummary::QUANTITIES)]),
     ("Bearings in plan", "buildings[].isolation", None, "A.isolation_", &[entries!(IsolationInPlan::QUANTITIES)]),
+    ("Stages of pendulums", "buildings[].isolation.stages[]", None, "", &[entries!(StageSummary::QUANTITIES)]),
     ("Foundations", "buildings[].foundation", None, "", &[entries!(FoundationSummary::QUANTITIES)]),
     ("Ground under a building", "buildings[].ground", None, "", &[entries!(GroundSummary::QUANTITIES)]),
     ("Ground in plan", "buildings[].ground", None, "", &[entries!(GroundInPlan::QUANTITIES)]),

@@ -615,7 +615,7 @@ fn warnings(run: &Run) -> Vec<String> {
     }
     let slides = |building: &crate::model::Building| {
         let isolation = building.base.isolation.as_ref();
-        isolation.is_some_and(|own| matches!(own.isolator, crate::model::Isolator::Pendulum { .. }))
+        isolation.is_some_and(|own| own.isolator.slides())
     };
     for building in run.model.buildings.iter().filter(|own| slides(own)) {
         if run.motion.is_vertical() {

@@ -41,7 +41,10 @@ pub(super) fn put_on_mat(
                 }
                 Isolator::Linear { .. }
                 | Isolator::LeadRubber { .. }
-                | Isolator::Pendulum { .. } => CircularLaw::Slider,
+                | Isolator::HighDampingRubber { .. }
+                | Isolator::Pendulum { .. }
+                | Isolator::DoublePendulum { .. }
+                | Isolator::TriplePendulum { .. } => CircularLaw::Slider,
             };
             let rows = Hysteresis::in_plan(law, own[0], own[1]);
             (second, rows.ok())

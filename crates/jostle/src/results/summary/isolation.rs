@@ -93,9 +93,31 @@ pub struct IsolationSummary {
     /// That limit; `None` without one \[m\].
     #[serde(skip)]
     pub limit_m: Option<f64>,
+    /// Stages of bearings with several sliding surfaces, in the order in which `check` lists them; empty for others.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub stages: Vec<StageSummary>,
     /// Across and over all bearings; absent in one plane.
     #[serde(flatten)]
     pub in_plan: Option<IsolationInPlan>,
+}
+
+/// A stage of a bearing with several sliding surfaces: of a triple pendulum both inner surfaces together, then the lower and the
+/// upper bowl, each by what the slider turns less.
+#[derive(Clone, Copy, Debug, Serialize, PartialEq)]
+pub struct StageSummary {
+    /// Greatest travel, either sign \[m\].
+    pub travel_peak_m: f64,
+    /// Travel at its rim \[m\].
+    pub travel_m: f64,
+}
+
+#[rustfmt::skip]
+impl StageSummary {
+    /// Its numbers.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::real("travel_peak_m", Unit::M, "greatest travel, either sign", |s| s.travel_peak_m),
+        Quantity::<Self>::real("travel_m", Unit::M, "travel at its rim", |s| s.travel_m),
+    ];
 }
 
 /// Bearings of a building in plan.
@@ -154,6 +176,13 @@ impl IsolationSummary {
             Some(own) => own.residual_stroke_m,
             None => self.residual_m.abs(),
         }
+    }
+
+    /// Whether every stage of bearings with several sliding surfaces stood at its rim.
+    #[must_use]
+    pub fn reached_rims(&self) -> bool {
+        let at_rim = |stage: &StageSummary| stage.travel_peak_m >= stage.travel_m;
+        !self.stages.is_empty() && self.stages.iter().all(at_rim)
     }
 
     /// Greatest displacement of a bearing over the limit of the bearings; `None` without a limit \[–\].

@@ -29,7 +29,7 @@ pub use energy::EnergySummary;
 pub use foundation::FoundationSummary;
 pub use gaps::{ContactSummary, GapSummary, ImpactSummary};
 pub use hinges::{HingeSummary, SpringSummary};
-pub use isolation::{Floors, IsolationInPlan, IsolationSummary, WallSummary};
+pub use isolation::{Floors, IsolationInPlan, IsolationSummary, StageSummary, WallSummary};
 pub use joints::{JointRatio, JointSummary};
 pub use links::{LinkFloorSummary, LinkSummary};
 pub use members::{

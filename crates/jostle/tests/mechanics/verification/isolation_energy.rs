@@ -4,8 +4,8 @@
 use jostle::history::Owner;
 use jostle::results::summary::{BuildingSummary, IsolationInPlan};
 use jostle::{
-    Column, GroundMotion, Isolation, Isolator, Model, Outcome, Plan, Stop, Structure, Summary,
-    System,
+    Column, GroundMotion, Isolation, Isolator, Model, Outcome, Plan, SlidingSurface, Stop,
+    Structure, Summary, System,
 };
 
 use crate::verification::isolation_in_plan::{
@@ -38,6 +38,18 @@ fn isolated(isolator: Isolator, stops: [Option<Stop>; 2]) -> Model {
     own.stops = stops;
     building.base.isolation = Some(own);
     row(vec![building], 0.0, law(jostle::LawKind::Hertz, 1.0))
+}
+
+fn double_pendulum() -> Isolator {
+    let surface = |radius, friction| SlidingSurface {
+        radius,
+        friction,
+        capacity: 0.02,
+    };
+    Isolator::DoublePendulum {
+        surfaces: [surface(1.0, 0.02), surface(1.5, 0.05)],
+        slip_displacement: 1e-3,
+    }
 }
 
 /// Area of the loops of the bearings, as a sum of trapezia over all steps.
@@ -78,6 +90,7 @@ fn bearings_in_one_plane_dissipate_the_area_of_their_loops() {
             [Some(stop); 2],
         ),
         ("pendulum", plan::pendulum(), [None; 2]),
+        ("double pendulum", double_pendulum(), [None; 2]),
         (
             "pendulum, rising friction",
             plan::fast_pendulum(),
@@ -111,7 +124,16 @@ fn bearings_in_one_plane_dissipate_the_area_of_their_loops() {
                     0.5 * second * moved * moved + 0.5 * held * held / slider
                 }
             }
-            Isolator::Linear { .. } => panic!("it yields"),
+            Isolator::DoublePendulum {
+                surfaces,
+                slip_displacement,
+            } => {
+                let [first, second] = surfaces.map(|own| own.friction);
+                0.5 * force * force * slip_displacement / (first.min(second) * weight)
+            }
+            Isolator::Linear { .. }
+            | Isolator::HighDampingRubber { .. }
+            | Isolator::TriplePendulum { .. } => panic!("it is none of them"),
         };
         let area = loops(&outcome);
         let due = area - stored;
