@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use super::outcome::Outcome;
 use super::sensitivity::closing_scale;
 use crate::history::{Column, Impact, Kind, Owner, Peak};
-use crate::structure::MemberSection;
-use crate::system::{Direction, System};
+use crate::model::DiagonalKind;
+use crate::structure::{CouplingForce, MemberSection, SpringPlace, WallForce};
+use crate::system::{BuildingSystem, Direction, System};
 
 /// Weight of differences between parts of runs, which are usually larger than those of the peaks.
 const IN_PARTS: f64 = 0.25;
@@ -50,6 +51,10 @@ pub(super) fn change_of_peaks(system: &System, [a, b]: [&Outcome; 2]) -> f64 {
             let forms = forms.filter(|(own, _)| *own == kind).map(|(_, form)| form);
             worst = worst.max(change_of_forms(index, forms, [a, b]).relative_to(0.0));
         }
+        for forms in forms_of_parts(building) {
+            let change = change_of_forms(index, forms.into_iter(), [a, b]);
+            worst = worst.max(change.relative_to(0.0));
+        }
     }
     let gaps = system.contacts.last().map_or(0, |contact| contact.gap + 1);
     for gap in 0..gaps {
@@ -62,6 +67,29 @@ pub(super) fn change_of_peaks(system: &System, [a, b]: [&Outcome; 2]) -> f64 {
         }
     }
     worst
+}
+
+/// Forces and deformations of braces, of struts, of walls and of coupling beams, each kind with those that are measured alike.
+fn forms_of_parts(building: &BuildingSystem) -> Vec<Vec<usize>> {
+    let own = &building.members;
+    let diagonals = &building.discretization.diagonals;
+    let of_diagonals = |kind| {
+        let all = own.diagonals.iter();
+        let own = all.filter(|force| diagonals[force.diagonal].place.kind == kind);
+        own.map(|force| force.form).collect()
+    };
+    let of_walls = |form: fn(&WallForce) -> usize| own.walls.iter().map(form).collect();
+    let of_beams =
+        |form: fn(&CouplingForce) -> usize| own.coupling_beams.iter().map(form).collect();
+    vec![
+        of_diagonals(DiagonalKind::Brace),
+        of_diagonals(DiagonalKind::Infill),
+        of_walls(|wall| wall.axial),
+        of_walls(|wall| wall.moment),
+        of_walls(|wall| wall.elongation),
+        of_beams(|beam| beam.shear),
+        of_beams(|beam| beam.chord),
+    ]
 }
 
 /// Change of forces of a building that are measured by the greatest of them.
@@ -190,10 +218,28 @@ fn measured_with(system: &System, column: Column, linear: bool) -> Option<Column
                 direction,
             ))
         }
+        Owner::Spring(spring) if kind == Kind::Force => {
+            let own = footing_of(system, spring)?;
+            Some(Column::along(Owner::Spring(own), kind))
+        }
         Owner::Building(_) if along => Some(column),
         Owner::Support(_) if along && kind == Kind::Force => Some(column),
         _ => None,
     }
+}
+
+/// The first spring of the ground under the foundation, or the column, to which a spring belongs; `None` for other springs.
+fn footing_of(system: &System, spring: usize) -> Option<usize> {
+    let mut buildings = system.buildings.iter();
+    let building = buildings.find(|own| own.spring_range().contains(&spring))?;
+    let places = &building.discretization.spring_places;
+    let line = |place: &SpringPlace| match *place {
+        SpringPlace::Footing { line, .. } => Some(line),
+        _ => None,
+    };
+    let own = line(places.get(spring - building.spring_offset)?)?;
+    let first = places.iter().position(|place| line(place) == Some(own))?;
+    Some(building.spring_offset + first)
 }
 
 /// The column that stands for all floors of a building along and across.
