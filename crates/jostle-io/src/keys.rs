@@ -42,6 +42,12 @@ pub(crate) enum Section {
     Brace,
     /// Panels of masonry in them.
     Infill,
+    /// Strengths of its masonry.
+    InfillStrength,
+    /// Curve of first loading of its struts.
+    InfillBackbone,
+    /// Openings in it.
+    InfillOpening,
     /// Walls at column lines of a frame.
     FrameWall,
     /// Yielding at the foot of a wall.
@@ -64,6 +70,10 @@ pub(crate) enum Section {
     Port,
     /// Cross-section of a column.
     Column,
+    /// A steel profile by its sizes.
+    Profile,
+    /// A slab as flange of a beam.
+    Slab,
     /// Cross-section of a beam.
     Beam,
     StiffnessFactor,
@@ -212,6 +222,8 @@ pub(crate) enum Kind {
     /// A word for all, or a table.
     ChoiceOrTable(&'static [&'static str], Section),
     NumberOrTable(Section),
+    /// The same, or a list of numbers.
+    NumbersOrTable(Section),
     Table(Section),
     /// A table with the keys of several.
     TableOf(&'static [Section]),
@@ -270,7 +282,7 @@ impl Kind {
             | Self::PerContact(dimension) => Some(dimension),
             Self::ContactStiffness => Some(Dimension::HertzStiffness),
             Self::LinkDamping => Some(Dimension::Damping),
-            Self::NumberOrTable(_) => Some(Dimension::Dimensionless),
+            Self::NumberOrTable(_) | Self::NumbersOrTable(_) => Some(Dimension::Dimensionless),
             Self::Plan | Self::PlanPoints => Some(Dimension::Length),
             Self::PlanStiffness => Some(Dimension::Stiffness),
             Self::GradeOr(_) | Self::Concrete(_) | Self::ConcreteOr(_) => Some(Dimension::Modulus),
@@ -478,8 +490,30 @@ const fn default(
 pub(crate) const SOIL_COUPLINGS: &[&str] = &["none", "static"];
 /// Ways in which a brace rises, from left to right.
 pub(crate) const DIRECTIONS: &[&str] = &["up", "down", "both"];
+/// Axes of a profile.
+pub(crate) const AXES: &[&str] = &["strong", "weak"];
+
+/// Rules for the effective width of a slab.
+pub(crate) const FLANGE_WIDTHS: &[&str] = &["en1992", "aci318"];
+
+/// Rules for the width of a strut of a panel.
+pub(crate) const STRUT_WIDTHS: &[&str] = &["mainstone", "bertoldi", "paulay-priestley", "holmes"];
+
+/// Rules for the strength of a panel.
+pub(crate) const PANEL_STRENGTHS: &[&str] = &["bertoldi", "sliding"];
+
+/// Rules for its curve of first loading.
+pub(crate) const PANEL_CURVES: &[&str] = &["bertoldi", "panagiotakos-fardis"];
+
 /// Kinds of bearings.
-pub(crate) const ISOLATORS: &[&str] = &["linear", "lead-rubber", "friction-pendulum"];
+pub(crate) const ISOLATORS: &[&str] = &[
+    "linear",
+    "lead-rubber",
+    "high-damping-rubber",
+    "friction-pendulum",
+    "double-friction-pendulum",
+    "triple-friction-pendulum",
+];
 
 use Dimension as D;
 use Kind::{
@@ -656,11 +690,26 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Brace, "hinge", Kind::Table(S::LinkHinge), "Axial force at which it yields, alike in tension and compression; without it the brace is elastic."),
     default(S::Infill, "storeys", Kind::FromTo, "all", "Its storey, counted from 1; or the first and the last."),
     default(S::Infill, "bay", Kind::FromTo, "all", "Its bay, likewise, from the left."),
-    optional(S::Infill, "modulus", Quantity(D::Modulus), "Modulus of elasticity of the masonry; with thickness and width.").usual("a modulus of masonry", 1e8, 5e10),
+    optional(S::Infill, "modulus", Quantity(D::Modulus), "Modulus of elasticity of the masonry along the strut; with thickness and width.").usual("a modulus of masonry", 1e8, 5e10),
     optional(S::Infill, "thickness", Quantity(D::Length), "Thickness of the panel.").usual("a thickness of a panel", 0.03, 1.5),
-    optional(S::Infill, "width", Quantity(D::Length), "Width of the strut across its axis.").usual("a width of a strut", 0.1, 6.0),
+    optional(S::Infill, "width", Kind::ChoiceOr(STRUT_WIDTHS, D::Length), "Width of the strut across its axis, or a rule for it from the bay between axes, the panel and the columns beside it.").usual("a width of a strut", 0.1, 6.0),
     optional(S::Infill, "stiffness", Quantity(D::Stiffness), "Axial force per shortening of one strut, instead of modulus, thickness and width.").usual("an axial stiffness", 1e5, 1e11),
+    optional(S::Infill, "strength", Kind::Table(S::InfillStrength), "Strengths of the masonry, from which the strut cracks, loses force and pinches by backbone; without strength and force it stays elastic."),
+    optional(S::Infill, "force", Quantity(D::Force), "Axial strength of one strut, instead of strength; openings reduce it.").usual("an axial strength", 1e3, 1e8),
+    optional(S::Infill, "backbone", TextOrTable(S::InfillBackbone), "Curve of first loading with strength or force: `\"bertoldi\"` (usual), or `{ rule = \"panagiotakos-fardis\", softening = 0.05, residual = 0.1 }`."),
+    optional(S::Infill, "opening", NumberOrTable(S::InfillOpening), "Share of the length that openings take: 1 − 1.5 share of stiffness and strength stay (Dawe and Seah, 1989); or length and area (Decanini and others, 2014).").usual("a share of openings", 0.01, 1.0),
     optional(S::Infill, "hinge", Kind::Table(S::LinkHinge), "Cracking of each strut: rule pinched and corners; without it struts stay elastic."),
+    required(S::InfillStrength, "rule", Choice(PANEL_STRENGTHS), "`bertoldi`, the least of four stresses (crushing of the diagonal and of corners, sliding, cracking); or `sliding`, (sliding + 0.4 vertical_stress) over the length and thickness of the panel (FEMA 306)."),
+    optional(S::InfillStrength, "compression", Quantity(D::Modulus), "bertoldi: compressive strength across the bed joints.").usual("a strength of masonry", 1e5, 5e7),
+    optional(S::InfillStrength, "shear", Quantity(D::Modulus), "bertoldi: shear strength in diagonal compression.").usual("a strength of masonry", 1e4, 5e6),
+    required(S::InfillStrength, "sliding", Quantity(D::Modulus), "Strength of the bed joints against sliding.").usual("a strength of masonry", 1e4, 5e6),
+    default(S::InfillStrength, "vertical_stress", Quantity(D::Modulus), "0", "Vertical compression of the panel under weight.").usual("a stress of masonry", 1e3, 1e7),
+    required(S::InfillBackbone, "rule", Choice(PANEL_CURVES), "`bertoldi`: 0.8 of the strength at four times the secant stiffness, the strength on the secant, then falling by 0.02 of it to 0.35; `panagiotakos-fardis`: cracking at the strength, 1.3 of it on the secant, then falling."),
+    optional(S::InfillBackbone, "shear_modulus", Quantity(D::Modulus), "panagiotakos-fardis: shear modulus of the masonry, 0.4 modulus if not given.").usual("a modulus of masonry", 1e8, 5e10),
+    optional(S::InfillBackbone, "softening", Quantity(D::Dimensionless), "panagiotakos-fardis: falling slope over the first one, such as 0.05.").usual("a ratio of stiffnesses", 1e-4, 1.0),
+    optional(S::InfillBackbone, "residual", Quantity(D::Dimensionless), "panagiotakos-fardis: share of the greatest force that stays, such as 0.1.").usual("a share of a strength", 1e-3, 1.0),
+    required(S::InfillOpening, "length", Quantity(D::Dimensionless), "Share of the length of the panel.").usual("a share of openings", 0.01, 1.0),
+    required(S::InfillOpening, "area", Quantity(D::Dimensionless), "Share of its area.").usual("a share of openings", 0.01, 1.0),
     optional(S::FrameWall, "at", Quantity(D::Length), "Where its axis stands, from the first column line on: at one of the lines.").usual("a place along the frame", 1e-3, 5e3).signed(),
     optional(S::FrameWall, "line", Count, "Its column line instead of at, counted from 1."),
     default(S::FrameWall, "storeys", Kind::FromTo, "all", "Its storey, counted from 1; or the first and the last."),
@@ -759,6 +808,8 @@ pub(crate) const KEYS: &[Key] = &[
 
     optional(S::Column, "width", Quantity(D::Length), "Width, across the direction of bending.").usual("a section width", 0.05, 5.0).possible(0.005, 10.0),
     optional(S::Column, "depth", Quantity(D::Length), "Depth, in the direction of bending.").usual("a section depth", 0.05, 5.0).possible(0.005, 10.0),
+    optional(S::Column, "profile", TextOrTable(S::Profile), "Steel profile instead of width and depth: a name, such as `\"HEB300\"` (IPE, HEA and HEB are known), or its sizes. It has E = 210 GPa unless the building states elastic_modulus, 7850 kg/m3, and no factor of cracking."),
+    optional(S::Column, "axis", Choice(AXES), "Which axis the profile bends about; `strong` if not given."),
     optional(S::Column, "EI", Quantity(D::FlexuralRigidity), "Flexural rigidity, instead of width and depth.").usual("a flexural rigidity", 1e5, 1e12),
     optional(S::Column, "EA", Quantity(D::Force), "Axial rigidity, with EI; needed for axially flexible columns.").usual("an axial rigidity", 1e5, 1e13),
     optional(S::Column, "GA", Quantity(D::Force), "Shear rigidity G·A_s, with EI; needed for columns with shear deformation.").usual("a shear rigidity", 1e4, 1e13),
@@ -766,8 +817,20 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Column, "line", Kind::FromTo, "all", "Its column line, counted from 1 at the left; or the first and the last."),
     default(S::Column, "storeys", Kind::FromTo, "all", "Its storey, counted from 1 at the ground, likewise."),
     default(S::Column, "omit", Flag, "false", "No columns at these places."),
+    required(S::Profile, "depth", Quantity(D::Length), "Depth.").usual("a depth of a profile", 0.05, 2.0),
+    required(S::Profile, "width", Quantity(D::Length), "Width of the flanges.").usual("a width of a profile", 0.03, 1.0),
+    required(S::Profile, "web", Quantity(D::Length), "Thickness of the web.").usual("a thickness of a plate", 2e-3, 0.15),
+    required(S::Profile, "flange", Quantity(D::Length), "Thickness of a flange.").usual("a thickness of a plate", 2e-3, 0.15),
+    default(S::Profile, "radius", Quantity(D::Length), "none", "Radius of the fillets.").usual("a radius of a fillet", 2e-3, 0.1),
+    required(S::Slab, "depth", Quantity(D::Length), "Thickness, part of the depth of the beam.").usual("a thickness of a slab", 0.04, 1.0),
+    required(S::Slab, "width", Kind::ChoiceOr(FLANGE_WIDTHS, D::Length), "Effective width, web included, or a rule for it: `en1992`, EN 1992-1-1, 5.3.2.1, with 0.85 of the length of end spans and 0.7 of inner ones; `aci318`, ACI 318-19, 6.3.2.1. Lengths of spans are between axes.").usual("an effective width", 0.1, 10.0),
+    optional(S::Slab, "spacing", Quantity(D::Length), "Clear distance to the next beam, for a rule.").usual("a distance of beams", 0.3, 20.0),
+    default(S::Slab, "sides", Count, "2", "1 for a slab on one side alone."),
     optional(S::Beam, "width", Quantity(D::Length), "Width, across the direction of bending.").usual("a section width", 0.05, 5.0).possible(0.005, 10.0),
     optional(S::Beam, "depth", Quantity(D::Length), "Depth, in the direction of bending.").usual("a section depth", 0.05, 5.0).possible(0.005, 10.0),
+    optional(S::Beam, "profile", TextOrTable(S::Profile), "Steel profile instead of width and depth, as of columns."),
+    optional(S::Beam, "axis", Choice(AXES), "Which axis the profile bends about; `strong` if not given."),
+    optional(S::Beam, "slab", Kind::Table(S::Slab), "Slab that bends with the beam of width and depth, as its upper flange: `{ depth = \"150 mm\", width = \"en1992\", spacing = \"4.7 m\" }`. Hinges do not count it."),
     optional(S::Beam, "EI", Quantity(D::FlexuralRigidity), "Flexural rigidity, instead of width and depth.").usual("a flexural rigidity", 1e5, 1e12),
     optional(S::Beam, "EA", Quantity(D::Force), "Axial rigidity, with EI; needed for axially flexible beams.").usual("an axial rigidity", 1e5, 1e13),
     optional(S::Beam, "GA", Quantity(D::Force), "Shear rigidity G·A_s, with EI; needed for beams with shear deformation.").usual("a shear rigidity", 1e4, 1e13),
@@ -819,15 +882,18 @@ pub(crate) const KEYS: &[Key] = &[
 
     required(S::Isolation, "kind", Choice(ISOLATORS), "Kind of the bearings, all of them together."),
     required(S::Isolation, "mat_mass", Quantity(D::Mass), "Mass of the mat between the bearings and the building. The mat is floor 0.").usual("a mass of a mat", 100.0, 1e9),
-    optional(S::Isolation, "stiffness", Quantity(D::Stiffness), "linear: stiffness. lead-rubber: initial stiffness.").usual("a stiffness of bearings", 1e4, 9e10),
+    optional(S::Isolation, "stiffness", Quantity(D::Stiffness), "linear: stiffness. lead-rubber: initial stiffness. high-damping-rubber: effective stiffness, force over displacement of a test to `displacement`.").usual("a stiffness of bearings", 1e4, 9e10),
     optional(S::Isolation, "yield", Quantity(D::Force), "lead-rubber: force at which the lead yields.").usual("a yield force", 100.0, 1e9),
     optional(S::Isolation, "post_yield", Quantity(D::Dimensionless), "lead-rubber: ratio of post-yield to initial stiffness, at least 0 and below 1.").usual("a ratio of stiffnesses", 1e-6, 1.0).signed(),
-    optional(S::Isolation, "radius", Quantity(D::Length), "friction-pendulum: radius of the sliding surface.").usual("a radius of a pendulum", 0.1, 20.0),
-    optional(S::Isolation, "friction", NumberOrTable(S::IsolationFriction), "friction-pendulum: coefficient of friction, or its change with speed.").usual("a coefficient of friction", 1e-3, 1.0),
+    optional(S::Isolation, "displacement", Quantity(D::Length), "high-damping-rubber: amplitude of the test that gave stiffness and damping_ratio.").usual("a displacement of bearings", 0.01, 3.0),
+    optional(S::Isolation, "yield_displacement", Quantity(D::Length), "high-damping-rubber: displacement at which it yields, about 0.05 to 0.1 of the height of the rubber.").usual("a yield displacement of bearings", 1e-3, 0.3),
+    optional(S::Isolation, "radius", Kind::OneOrMore(D::Length), "friction-pendulum: radius of the sliding surface. double-, triple-friction-pendulum: effective radii (radius less the height of the slider) of the two or four surfaces, from one bowl to the other.").usual("a radius of a pendulum", 0.1, 20.0),
+    optional(S::Isolation, "friction", Kind::NumbersOrTable(S::IsolationFriction), "friction-pendulum: coefficient of friction, or its change with speed. double-, triple-friction-pendulum: one of each surface.").usual("a coefficient of friction", 1e-3, 1.0),
+    optional(S::Isolation, "capacity", Quantities(D::Length), "double-, triple-friction-pendulum: how far the slider moves on each surface to its rim.").usual("a travel on a surface", 0.01, 3.0),
     optional(S::Isolation, "bounds", Kind::Table(S::IsolationBounds), "Lower and upper bound of the properties of the bearings. `jostle run` then runs both bounds as well and reports the envelope."),
-    default(S::Isolation, "slip_displacement", Quantity(D::Length), "\"1 mm\"", "friction-pendulum: displacement at which friction is fully mobilised; where it rises with speed, that of fast friction, so that the stiffness before slip is fast × weight / slip_displacement at any speed.").usual("a slip displacement", 1e-5, 0.1),
+    default(S::Isolation, "slip_displacement", Quantity(D::Length), "\"1 mm\"", "Pendulums: displacement at which friction is fully mobilised, of several surfaces the least one; where it rises with speed, that of fast friction, so that the stiffness before slip is fast × weight / slip_displacement at any speed.").usual("a slip displacement", 1e-5, 0.1),
     default(S::Isolation, "damping", Quantity(D::Damping), "0", "Dashpot beside the bearings.").usual("a dashpot coefficient", 100.0, 1e10),
-    optional(S::Isolation, "damping_ratio", Quantity(D::Dimensionless), "linear: ratio of critical damping of the whole mass on the bearings, instead of damping.").usual("a damping ratio", 1e-4, 1.0),
+    optional(S::Isolation, "damping_ratio", Quantity(D::Dimensionless), "linear: ratio of critical damping of the whole mass on the bearings, instead of damping. high-damping-rubber: that of the cycle of the test, its energy over 2π stiffness displacement².").usual("a damping ratio", 1e-4, 1.0),
     optional(S::Isolation, "stop", Kind::Table(S::IsolationStop), "Elastic stops of the mat, or hardening of the bearings; with a plan a ring, the same all round."),
     optional(S::Isolation, "bearings", Kind::PlanPoints, "With a plan: places of the bearings, from the origin of the plan; each takes an equal share of all. Without it four stand for bearings spread evenly over the plan of the lowest floor.").usual("a length in plan", 1e-3, 5e3).possible(0.0, 1e5).signed(),
     optional(S::Isolation, "limit", Quantity(D::Length), "Displacement that the bearings allow. A run that exceeds it warns.").usual("a displacement of bearings", 0.01, 3.0),

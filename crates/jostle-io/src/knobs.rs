@@ -123,6 +123,7 @@ fn entry(
         | Kind::TablePerStorey(section)
         | Kind::TablePerPlace(section)
         | Kind::NumberOrTable(section)
+        | Kind::NumbersOrTable(section)
         | Kind::TextOrTable(section)
         | Kind::ChoiceOrTable(_, section) => std::slice::from_ref(section),
         Kind::WordOrTable(_, sections) | Kind::Tables(sections) | Kind::TableOf(sections) => {

@@ -69,6 +69,21 @@ const TABLES: &[(Section, &str, &str)] = &[
         "A panel is two struts between opposite joints that bear compression alone. Without hinge they stay elastic: compare their greatest force with what the panel bears. Modes and damping ratios count both with half their stiffness, since one of two acts.",
     ),
     (
+        Section::InfillStrength,
+        "`strength` of `[[building.infill]]`",
+        "",
+    ),
+    (
+        Section::InfillBackbone,
+        "`backbone` of `[[building.infill]]`",
+        "",
+    ),
+    (
+        Section::InfillOpening,
+        "`opening` of `[[building.infill]]`",
+        "",
+    ),
+    (
         Section::FrameWall,
         "`[[building.wall]]`",
         "Of a plane frame, also of a frame at a line of a plan. A wall is a wide column with a rigid cross-section: beams span between faces and turn with them. See [Walls and coupling beams](how-to/walls.md).",
@@ -112,6 +127,12 @@ const TABLES: &[(Section, &str, &str)] = &[
         "`beam` of a frame",
         "Likewise by bay and floors. Beams stand between joints: where a column is omitted, tables without `bay` leave out the beams beside it.",
     ),
+    (
+        Section::Profile,
+        "`profile` of a column or a beam",
+        "Two equal flanges and a web.",
+    ),
+    (Section::Slab, "`slab` of a beam", ""),
     (Section::Bars, "`bars` in rows", ""),
     (
         Section::StiffnessFactor,
@@ -439,6 +460,7 @@ fn value(key: &Key) -> String {
         Kind::WordOrTable(word, _) => format!("`{word}`, or a table"),
         Kind::ChoiceOrTable(choices, _) => format!("{}, or a table", words(choices)),
         Kind::NumberOrTable(_) => "number, or a table".into(),
+        Kind::NumbersOrTable(_) => "number, or a list, or a table".into(),
         Kind::Table(_) | Kind::TableOf(_) => "table".into(),
         Kind::TablePerStorey(_) => "table; or a list from the ground up".into(),
         Kind::TablePerPlace(_) => "table; or a list for some places each".into(),

@@ -166,6 +166,10 @@ fn kind(kind: Kind) -> Value {
         Kind::NumberOrTable(section) => {
             json!({ "anyOf": [quantity(Dimension::Dimensionless), table(&[section])] })
         }
+        Kind::NumbersOrTable(section) => json!({ "anyOf": [
+            one_or_list(quantity(Dimension::Dimensionless)),
+            table(&[section]),
+        ] }),
         Kind::Table(section) => table(&[section]),
         Kind::TableOf(sections) => table(sections),
         Kind::TextOrTable(section) => {

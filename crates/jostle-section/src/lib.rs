@@ -12,6 +12,7 @@
 
 pub mod capacity;
 pub mod formula;
+pub mod masonry;
 
 mod bars;
 mod column_fibres;
@@ -21,9 +22,11 @@ mod fibre;
 mod fit;
 mod law;
 mod member;
+mod profile;
 mod section;
 mod steel;
 mod survey;
+mod tee;
 
 pub use bars::{Bar, BarsError, Reinforcement, Ties};
 pub use column_fibres::FibreOptions;
@@ -33,6 +36,8 @@ pub use fibre::{Fibres, Resultants};
 pub use fit::Trilinear;
 pub use law::{ConcreteLaw, SteelLaw, confined};
 pub use member::{EndCurve, EndSide, FORMULA_POST_YIELD};
+pub use profile::{Axis, Profile, STEEL_DENSITY, STEEL_MODULUS};
 pub use section::{Section, SectionFault, Transformed};
 pub use steel::{ASTM_STEEL_GRADES, EN_STEEL_GRADES, STEEL_GRADES, Steel};
 pub use survey::{Analysis, SectionSurvey};
+pub use tee::{FlangeWidth, Slab, Span, Tee};

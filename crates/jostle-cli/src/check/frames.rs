@@ -1,5 +1,6 @@
 //! Frames in words.
 
+use jostle::hysteresis::{Hysteresis, HysteresisRule, Side};
 use jostle::{DiagonalKind, Frame, Section};
 use jostle_run::counted;
 
@@ -148,6 +149,32 @@ pub(super) fn diagonals(frame: &Frame) -> String {
         if count > 0 {
             text += &format!(", {}", counted(count, noun));
         }
+    }
+    let panel = |own: &&jostle::Diagonal| own.place.kind == DiagonalKind::Infill;
+    let cracking = frame.diagonals.iter().filter(panel);
+    let laws: Vec<_> = cracking
+        .filter_map(|own| own.hysteresis)
+        .filter(|own| matches!(own.rule(), HysteresisRule::Pinched(_)))
+        .collect();
+    if !laws.is_empty() {
+        let between = |value: &dyn Fn(&Hysteresis) -> f64| {
+            let values = laws.iter().map(value);
+            let [least, most] = values.fold([f64::INFINITY, 0.0], |[least, most], own| {
+                [f64::min(least, own), f64::max(most, own)]
+            });
+            if most - least < 5e-3 * most {
+                format!("{most:.0}")
+            } else {
+                format!("{least:.0} to {most:.0}")
+            }
+        };
+        let curve = |own: &Hysteresis| *own.backbone().side(Side::Negative);
+        text += &format!(
+            " (struts of {} MN/m that crack at {} kN and bear {} kN)",
+            between(&|own| 1e-6 * own.backbone().initial()),
+            between(&|own| 1e-3 * curve(own).cracking.force),
+            between(&|own| 1e-3 * curve(own).yielding.force),
+        );
     }
     text
 }

@@ -13,12 +13,14 @@ use crate::reader::{Field, Reader, View};
 pub(super) struct Bays<'a> {
     pub(super) heights: &'a [f64],
     pub(super) widths: &'a [f64],
+    /// E I of a column by storey and line, from 0 \[N·m²\]; `None` where there is none.
+    pub(super) column_rigidity: &'a dyn Fn([usize; 2]) -> Option<f64>,
     /// Whether a diagonal finds both its joints.
     pub(super) has_joints: &'a dyn Fn(DiagonalPlace) -> bool,
 }
 
-/// Force per elongation of what stands in a bay, from its diagonal \[N/m; m\]; `None` after a fault.
-pub(super) type Stiffness<'a> = dyn Fn(f64) -> Option<f64> + 'a;
+/// Force per elongation of what stands in a bay, from its place and its diagonal \[N/m; m\]; `None` after a fault.
+pub(super) type Stiffness<'a> = dyn Fn(DiagonalPlace, f64) -> Option<f64> + 'a;
 
 /// Reads the braces of a frame.
 pub(super) fn read_all(reader: &mut Reader<'_>, view: &View<'_>, bays: Bays<'_>) -> Vec<Diagonal> {
@@ -89,8 +91,8 @@ fn read(reader: &mut Reader<'_>, entry: &Field<'_>, bays: Bays<'_>) -> Option<Ve
                 Some("leave out one of them: stiffness is EA over the length of the brace".into());
             return None;
         }
-        (Some(rigidity), None) => &move |length| Some(rigidity? / length),
-        (None, Some(stiffness)) => &move |_| stiffness,
+        (Some(rigidity), None) => &move |_, length| Some(rigidity? / length),
+        (None, Some(stiffness)) => &move |_, _| stiffness,
         (None, None) => {
             reader.missing(
                 &view,
@@ -153,7 +155,7 @@ pub(super) fn places(
                 }
                 found.push(Diagonal {
                     place,
-                    stiffness: stiffness(length)?,
+                    stiffness: stiffness(place, length)?,
                     hysteresis: None,
                 });
             }

@@ -113,7 +113,7 @@ fn read_members(
     };
     let walls = frame_walls::read(reader, view, bays);
     let [(columns, own_columns), (beams, own_beams)] =
-        frame_members::read(reader, view, count, spans.len(), materials, &walls);
+        frame_members::read(reader, view, count, &spans, materials, &walls);
     let (beam_mass, floor_mass) = masses(reader);
     // Frames in plan have no such key.
     let floor_load = view
@@ -154,6 +154,7 @@ fn read_members(
     let bays = Bays {
         heights: &frame.storey_heights,
         widths: &frame.spans,
+        column_rigidity: &|[storey, line]| Some(frame.column(storey, line)?.flexural_rigidity),
         has_joints: &has_joints,
     };
     let mut diagonals = brace::read_all(reader, view, bays);

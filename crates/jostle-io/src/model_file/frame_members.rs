@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use jostle::{FramePlace, Section};
+use jostle_section::Span;
 use jostle_section::formula::Member;
 
 use super::frame_walls::Walls;
@@ -16,17 +17,26 @@ pub(super) type Sections = (Vec<Section>, BTreeMap<FramePlace, Option<Section>>)
 /// Sections by storey or floor and by line or bay; `None` where there is nothing.
 type Grid = Vec<Vec<Option<Section>>>;
 
-/// Columns and beams of a frame of so many bays, with their materials; after a fault, harmless ones.
+/// Columns and beams of a frame of such bays \[m\], with their materials; after a fault, harmless ones.
 pub(super) fn read(
     reader: &mut Reader<'_>,
     view: &View<'_>,
     storeys: Option<usize>,
-    bays: usize,
+    spans: &[f64],
     [column, beam]: [Material; 2],
     walls: &Walls,
 ) -> [Sections; 2] {
     let noted = reader.count_faults();
     let all_joints = |_, _| true;
+    let bays = spans.len();
+    let no_span = |_| None;
+    let span = |bay: usize| {
+        let outer_ends = usize::from(bay == 0) + usize::from(bay + 1 == bays);
+        Some(Span {
+            length: spans[bay],
+            outer_ends,
+        })
+    };
     let columns = read_grid(
         reader,
         view,
@@ -35,6 +45,7 @@ pub(super) fn read(
         bays + 1,
         column,
         &all_joints,
+        &no_span,
         walls,
     );
     let joints = |floor: usize, bay: usize| match &columns {
@@ -51,6 +62,7 @@ pub(super) fn read(
         bays,
         beam,
         &joints,
+        &span,
         walls,
     );
     [&columns, &beams].map(|grid| match grid {
@@ -72,6 +84,7 @@ fn read_grid(
     across: usize,
     material: Material,
     stands: &dyn Fn(usize, usize) -> bool,
+    span: &dyn Fn(usize) -> Option<Span>,
     walls: &Walls,
 ) -> Option<Grid> {
     let own = &walls.sections[usize::from(member == Member::Beam)];
@@ -116,7 +129,8 @@ fn read_grid(
                 continue;
             };
             let exists = stands || layout.tables[table].names_across;
-            row_of_sections.push(sections[table].filter(|_| exists));
+            let own = sections[table].filter(|_| exists);
+            row_of_sections.push(own.map(|own| own.at(span(place))));
         }
         grid.push(row_of_sections);
     }

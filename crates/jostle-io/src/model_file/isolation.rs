@@ -1,8 +1,8 @@
 //! `[building.isolation]`: bearings under a building, and the mat on them.
 
 use jostle::{
-    BearingBounds, BearingFactors, Isolation, Isolator, IsolatorDamping, PlanPoint, SpeedFriction,
-    Stop,
+    BearingBounds, BearingFactors, Isolation, Isolator, IsolatorDamping, PlanPoint, SlidingSurface,
+    SpeedFriction, Stop,
 };
 
 use super::plan::pair;
@@ -10,6 +10,13 @@ use crate::keys::{ISOLATORS, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
 use crate::tree::Value;
+
+/// Bearings that slide up a bowl.
+const PENDULUMS: &[&str] = &[
+    "friction-pendulum",
+    "double-friction-pendulum",
+    "triple-friction-pendulum",
+];
 
 /// Displacement at which sliding bearings slip, where none is given \[m\].
 const SLIP: f64 = 1e-3;
@@ -36,7 +43,7 @@ pub(super) fn read(
             reader.missing(
                 &view,
                 "kind",
-                "add kind = \"lead-rubber\", \"friction-pendulum\" or \"linear\"",
+                "add kind = \"lead-rubber\", \"friction-pendulum\" or another kind of bearings",
             );
             None
         }
@@ -55,17 +62,37 @@ pub(super) fn read(
                 )?,
             }),
             "lead-rubber" => lead_rubber(reader, &view),
+            "high-damping-rubber" => high_damping_rubber(reader, &view),
+            "double-friction-pendulum" => {
+                let (surfaces, slip_displacement) = surfaces(reader, &view, kind)?;
+                Some(Isolator::DoublePendulum {
+                    surfaces,
+                    slip_displacement,
+                })
+            }
+            "triple-friction-pendulum" => {
+                let (surfaces, slip_displacement) = surfaces(reader, &view, kind)?;
+                Some(Isolator::TriplePendulum {
+                    surfaces,
+                    slip_displacement,
+                })
+            }
             _ => pendulum(reader, &view),
         }
     });
-    let (damping, ratio) = (
-        given(reader, &view, "damping", Dimension::Damping),
-        given(reader, &view, "damping_ratio", Dimension::Dimensionless),
-    );
-    if let (Some(_), Some(ratio)) = (
-        reader.get(&view, "damping"),
-        reader.get(&view, "damping_ratio"),
-    ) {
+    let damping = given(reader, &view, "damping", Dimension::Damping);
+    // Of rubber of high damping it is a property of the rubber.
+    let of_dashpot = kind != Some("high-damping-rubber");
+    let ratio = match of_dashpot {
+        true => given(reader, &view, "damping_ratio", Dimension::Dimensionless),
+        false => None,
+    };
+    if of_dashpot
+        && let (Some(_), Some(ratio)) = (
+            reader.get(&view, "damping"),
+            reader.get(&view, "damping_ratio"),
+        )
+    {
         *reader.bad(&ratio, "cannot be combined with damping") =
             Some("keep either damping or damping_ratio".into());
     }
@@ -117,7 +144,7 @@ fn factors(
     kind: &'static str,
 ) -> Option<BearingFactors> {
     let has = |key| match key {
-        "stiffness" => kind != "friction-pendulum",
+        "stiffness" => !PENDULUMS.contains(&kind),
         _ => kind != "linear",
     };
     let keys = ["stiffness", "strength"];
@@ -179,13 +206,19 @@ fn read_places(reader: &mut Reader<'_>, view: &View<'_>, places: Option<&mut Vec
 /// Keys of one kind of bearings, which mean nothing under another.
 fn refuse_keys_of_others(reader: &mut Reader<'_>, view: &View<'_>, kind: &'static str) {
     for (key, kinds) in [
-        ("stiffness", &["linear", "lead-rubber"][..]),
+        (
+            "stiffness",
+            &["linear", "lead-rubber", "high-damping-rubber"][..],
+        ),
         ("yield", &["lead-rubber"]),
         ("post_yield", &["lead-rubber"]),
-        ("radius", &["friction-pendulum"]),
-        ("friction", &["friction-pendulum"]),
-        ("slip_displacement", &["friction-pendulum"]),
-        ("damping_ratio", &["linear"]),
+        ("displacement", &["high-damping-rubber"]),
+        ("yield_displacement", &["high-damping-rubber"]),
+        ("radius", PENDULUMS),
+        ("friction", PENDULUMS),
+        ("capacity", &PENDULUMS[1..]),
+        ("slip_displacement", PENDULUMS),
+        ("damping_ratio", &["linear", "high-damping-rubber"]),
     ] {
         if kinds.contains(&kind) {
             continue;
@@ -214,6 +247,83 @@ fn lead_rubber(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Isolator> {
         yield_force: yield_force?,
         post_yield: post_yield?,
     })
+}
+
+fn high_damping_rubber(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Isolator> {
+    let mut number = |key, dimension, example| needed(reader, view, key, dimension, example);
+    let stiffness = number("stiffness", Dimension::Stiffness, "\"6 MN/m\"");
+    let ratio = number("damping_ratio", Dimension::Dimensionless, "0.15");
+    let displacement = number("displacement", Dimension::Length, "\"200 mm\"");
+    let yielding = number(
+        "yield_displacement",
+        Dimension::Length,
+        "\"15 mm\", about 0.05 to 0.1 of the height of the rubber",
+    );
+    Some(Isolator::HighDampingRubber {
+        stiffness: stiffness?,
+        damping_ratio: ratio?,
+        displacement: displacement?,
+        yield_displacement: yielding?,
+    })
+}
+
+/// The surfaces of a pendulum of several and its slip displacement.
+fn surfaces<const N: usize>(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    kind: &str,
+) -> Option<([SlidingSurface; N], f64)> {
+    let mut list = |key, dimension, [two, four]: [&str; 2]| {
+        let example = if N == 2 { two } else { four };
+        let Some(field) = reader.get(view, key) else {
+            reader.missing(view, key, format!("add {key} = {example}"));
+            return None;
+        };
+        let entries = field.entries().unwrap_or_default();
+        if entries.len() != N {
+            let found = field.node.describe();
+            *reader.bad(
+                &field,
+                format!("must be a list of {N} for a {kind}, one of each surface from one bowl to the other; found {found}"),
+            ) = Some(format!("write {key} = {example}"));
+            return None;
+        }
+        let values = entries
+            .iter()
+            .map(|entry| reader.quantity(entry, dimension));
+        // Every fault is told, not the first alone.
+        let values: Vec<Option<f64>> = values.collect();
+        values.into_iter().collect::<Option<Vec<f64>>>()
+    };
+    let radii = list(
+        "radius",
+        Dimension::Length,
+        [
+            "[\"2.2 m\", \"2.2 m\"]",
+            "[\"2.1 m\", \"0.3 m\", \"0.3 m\", \"2.1 m\"]",
+        ],
+    );
+    let frictions = list(
+        "friction",
+        Dimension::Dimensionless,
+        ["[0.03, 0.06]", "[0.04, 0.015, 0.015, 0.08]"],
+    );
+    let capacities = list(
+        "capacity",
+        Dimension::Length,
+        [
+            "[\"300 mm\", \"300 mm\"]",
+            "[\"300 mm\", \"50 mm\", \"50 mm\", \"300 mm\"]",
+        ],
+    );
+    let slip = given(reader, view, "slip_displacement", Dimension::Length);
+    let (radii, frictions, capacities) = (radii?, frictions?, capacities?);
+    let surfaces = std::array::from_fn(|index| SlidingSurface {
+        radius: radii[index],
+        friction: frictions[index],
+        capacity: capacities[index],
+    });
+    Some((surfaces, slip.unwrap_or(SLIP)))
 }
 
 fn pendulum(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Isolator> {

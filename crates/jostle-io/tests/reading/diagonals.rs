@@ -124,10 +124,109 @@ fn mistakes_are_explained() {
             &pinched("post_yield = -0.1\nresidual = 1.2"),
             "must be greater than 0 and less than 1, a share of the yield force; found 1.2",
         ),
+        (
+            &masonry("width = \"mainstonne\""),
+            "did you mean \"mainstone\"?",
+        ),
+        (
+            &masonry("width = \"holmes\"\nopening = 0.7"),
+            "leave the panel out where openings take two thirds of its length or more",
+        ),
+        (
+            &masonry("width = \"holmes\"\nopening = 1.5"),
+            "must be a share, at least 0 and less than 1; found 1.5",
+        ),
+        (
+            &masonry("width = \"holmes\"\nbackbone = \"bertoldi\""),
+            "backbone: needs a strength",
+        ),
+        (
+            &masonry("width = \"holmes\"\nstrength = { rule = \"bertoldi\" }"),
+            "add compression = \"4 MPa\"",
+        ),
+        (
+            &masonry("width = \"holmes\"\nforce = \"200 kN\"\nbackbone = \"panagiotakos-fardis\""),
+            "write backbone = { rule = \"panagiotakos-fardis\", softening = 0.05, residual = 0.1 }",
+        ),
+        (
+            &masonry(
+                "width = \"3 m\"\nforce = \"200 kN\"\nbackbone = { rule = \"panagiotakos-fardis\", shear_modulus = \"0.1 GPa\", softening = 0.05, residual = 0.1 }",
+            ),
+            "gives no curve that rises to the strength",
+        ),
+        (
+            &masonry(
+                "width = \"holmes\"\nforce = \"200 kN\"\nhinge = { rule = \"pinched\", cracking = \"100 kN\", yield = \"160 kN\", post_cracking = 0.12, post_yield = 0.01, pinching = {} }",
+            ),
+            "hinge states all corners, strength finds them",
+        ),
+        (
+            "[[building.infill]]\nstiffness = \"80 MN/m\"\nforce = \"200 kN\"\n",
+            "give modulus, thickness and width instead of stiffness",
+        ),
     ] {
         let shown = refusal(&format!("{FRAME}{text}"));
         assert!(shown.contains(expected), "{text}\n{shown}");
     }
+}
+
+/// A panel of masonry of a size, with some more keys.
+fn masonry(more: &str) -> String {
+    format!("[[building.infill]]\nmodulus = \"4 GPa\"\nthickness = \"200 mm\"\n{more}\n")
+}
+
+/// Width and strength of the rules for each bay, with what an opening leaves; the first slope is four times the secant.
+#[test]
+fn rules_give_a_panel_its_strut() {
+    let panel = |more: &str| {
+        let text = format!(
+            "[[building.infill]]\nstoreys = 1\nbay = 1\nmodulus = \"4 GPa\"\nthickness = \"200 mm\"\n{more}\n"
+        );
+        diagonals(&text).remove(0)
+    };
+    let rigidity = 30e9 * 0.4_f64.powi(4) / 12.0;
+    // sin 2θ = 2 · 0.6 · 0.8.
+    let relative = 3.0 * (4e9 * 0.2 * 0.96 / (4.0 * rigidity * 3.0)).powf(0.25);
+    let due = |share: f64| 4e9 * 0.2 * share;
+    for (width, share) in [
+        ("mainstone", 0.175 * relative.powf(-0.4)),
+        ("bertoldi", 1.3 / relative - 0.178),
+        ("paulay-priestley", 0.25),
+        ("holmes", 1.0 / 3.0),
+    ] {
+        let own = panel(&format!("width = \"{width}\""));
+        assert!((own.stiffness / due(share) - 1.0).abs() < 1e-12, "{width}");
+        let opened = panel(&format!("width = \"{width}\"\nopening = 0.2"));
+        assert!((opened.stiffness / due(0.7 * share) - 1.0).abs() < 1e-12);
+    }
+    let by_area = panel("width = \"holmes\"\nopening = { length = 0.2, area = 0.1 }");
+    let left = 0.55 * (-0.35_f64).exp() + 0.44 * (-0.5_f64).exp();
+    assert!((by_area.stiffness / due(left / 3.0) - 1.0).abs() < 1e-12);
+    let cracked = panel("width = \"1 m\"\nforce = \"200 kN\"\nopening = 0.2");
+    let secant = 0.7 * due(1.0 / 5.0);
+    assert!((cracked.stiffness / (4.0 * secant) - 1.0).abs() < 1e-12);
+    let curve = |own: &jostle::Diagonal| {
+        *own.hysteresis
+            .expect("it cracks")
+            .backbone()
+            .side(Side::Negative)
+    };
+    let yielding = curve(&cracked).yielding;
+    assert!((yielding.force - 140e3).abs() < 1e-6);
+    assert!((yielding.deformation - 140e3 / secant).abs() < 1e-12);
+    let slides = panel(
+        "width = \"1 m\"\nstrength = { rule = \"sliding\", sliding = \"0.2 MPa\", vertical_stress = \"0.1 MPa\" }\nbackbone = { rule = \"panagiotakos-fardis\", softening = 0.05, residual = 0.1 }",
+    );
+    let strength = 0.24e6 * 4.0 * 0.2 / 0.8;
+    assert!((curve(&slides).cracking.force / strength - 1.0).abs() < 1e-12);
+    assert!((curve(&slides).yielding.force / (1.3 * strength) - 1.0).abs() < 1e-12);
+    let first = 0.4 * 4e9 * 4.0 * 0.2 / 3.0 / 0.64;
+    assert!((slides.stiffness / first - 1.0).abs() < 1e-12);
+    let least = panel(
+        "width = \"mainstone\"\nstrength = { rule = \"bertoldi\", compression = \"5 MPa\", shear = \"0.3 MPa\", sliding = \"0.9 MPa\" }",
+    );
+    let cracking = 0.6 * 0.3e6 * 5.0 * 0.2;
+    assert!((curve(&least).yielding.force / cracking - 1.0).abs() < 1e-12);
 }
 
 /// A panel whose struts crack, with some more keys.

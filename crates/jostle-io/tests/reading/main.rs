@@ -2,6 +2,7 @@
 
 mod accounted;
 mod assumptions;
+mod bearings;
 mod capacity;
 mod codes;
 mod damage;
@@ -22,6 +23,7 @@ mod motions;
 mod mutate;
 mod plain_files;
 mod plans;
+mod profiles_and_slabs;
 mod records;
 mod scan;
 mod shear_failure;

@@ -1,4 +1,5 @@
-//! Buildings of walls, of columns made of fibres, and on foundations that lift off, beside a neighbour.
+//! Buildings of walls, of columns made of fibres, of steel with panels that crack, on foundations that lift off, and on bearings of several sliding surfaces, beside a
+//! neighbour.
 
 use jostle::Solver;
 use jostle_io::{Format, read_model_text};
@@ -82,9 +83,62 @@ law = "kelvin-no-tension"
 stiffness = "400 MN/m"
 "#;
 
+const PANELLED: &str = r#"
+motion = { record = "el-centro-1940-ns", pga = "0.5 g", duration = "2.5 s" }
+[[building]]
+name = "P"
+storeys = 2
+storey_height = "3 m"
+spans = ["5 m"]
+floor_mass = "60 t"
+column = { profile = "HEB300" }
+beam = { width = "300 mm", depth = "500 mm", slab = { depth = "150 mm", width = "en1992", spacing = "4 m" } }
+concrete = "C30"
+infill = [{ modulus = "3 GPa", thickness = "150 mm", width = "bertoldi", opening = 0.2, strength = { rule = "bertoldi", compression = "3 MPa", shear = "0.2 MPa", sliding = "0.2 MPa" } }]
+[[building]]
+name = "N"
+kind = "shear"
+mass = ["50 t", "50 t"]
+stiffness = "60 MN/m"
+storey_height = "3 m"
+[[gap]]
+between = ["P", "N"]
+width = "10 mm"
+law = "kelvin-no-tension"
+stiffness = "400 MN/m"
+"#;
+
+const ON_PENDULUMS: &str = r#"
+motion = { record = "el-centro-1940-ns", pga = "0.5 g", duration = "2.5 s" }
+[[building]]
+name = "T"
+kind = "shear"
+mass = ["100 t", "100 t"]
+stiffness = "200 MN/m"
+storey_height = "3 m"
+isolation = { kind = "triple-friction-pendulum", mat_mass = "100 t", radius = ["0.8 m", "0.2 m", "0.2 m", "0.8 m"], friction = [0.04, 0.015, 0.015, 0.08], capacity = ["30 mm", "10 mm", "10 mm", "30 mm"] }
+[[building]]
+name = "N"
+kind = "shear"
+mass = ["50 t", "50 t"]
+stiffness = "60 MN/m"
+storey_height = "3 m"
+[[gap]]
+between = ["T", "N"]
+width = "10 mm"
+law = "kelvin-no-tension"
+stiffness = "400 MN/m"
+"#;
+
 /// Every model.
 pub(super) fn models() -> Vec<Pinned> {
-    let all = [("walls", WALLED), ("fibres", FIBRED), ("lifting", LIFTING)];
+    let all = [
+        ("walls", WALLED),
+        ("fibres", FIBRED),
+        ("lifting", LIFTING),
+        ("panels", PANELLED),
+        ("pendulums", ON_PENDULUMS),
+    ];
     let model = |(name, text): (&str, &str)| Pinned {
         name: name.to_owned(),
         input: read_model_text(name, text, Format::Toml, "".as_ref())
