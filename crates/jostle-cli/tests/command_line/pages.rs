@@ -7,7 +7,7 @@ use std::path::Path;
 use std::process::Command;
 
 /// Runs a script of `docs` with the program under test; what it complains about is the failure.
-fn check(script: &str) {
+fn check(script: &str, more: &[&str]) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let python = Command::new("python3")
         .args(["-c", "import sys; sys.exit(sys.version_info < (3, 10))"])
@@ -19,6 +19,7 @@ fn check(script: &str) {
     let output = Command::new("python3")
         .arg(root.join("docs").join(script))
         .arg("--check")
+        .args(more)
         .env("JOSTLE", env!("CARGO_BIN_EXE_jostle"))
         .output()
         .expect("the script starts");
@@ -32,10 +33,10 @@ fn check(script: &str) {
 
 #[test]
 fn pages_show_what_commands_print() {
-    check("commands");
+    check("commands", &["--quick"]);
 }
 
 #[test]
 fn pages_show_the_numbers_on_record() {
-    check("numbers");
+    check("numbers", &[]);
 }
