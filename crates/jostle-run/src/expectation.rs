@@ -15,6 +15,8 @@ use crate::prepared::Prepared;
 const MOST_TABLE: f64 = 8e9;
 /// Memory of a run beside its histories \[bytes\].
 const BESIDE: f64 = 40e6;
+/// Memory that a table and a page need for their columns, per byte of a row.
+const OF_COLUMNS: f64 = 700.0;
 /// Histories that are kept at a time: steps that are chosen by comparison keep those of two runs, and the run without contact comes
 /// beside that with contact.
 const KEPT: [[f64; 2]; 2] = [[1.0, 2.0], [2.0, 3.0]];
@@ -55,14 +57,19 @@ impl Prepared {
         let both = both && !self.system.contacts.is_empty();
         let repeats = !matches!(self.plan.solver, Solver::Modal | Solver::Series);
         let kept = KEPT[usize::from(repeats)][usize::from(both)];
-        let (rows, bytes) = size.map_or((0.0, 0.0), |size| (size.rows, size.bytes()));
-        let in_memory = bytes.min(IN_MEMORY);
+        let rows = size.map_or(0.0, |size| size.rows);
+        let row = size.map_or([0.0; 2], |size| {
+            [size.table_bytes, size.row_bytes - size.table_bytes]
+        });
+        // The table, and loops of springs with forces of members.
+        let parts = row.map(|bytes| rows * bytes);
+        let in_memory: f64 = parts.map(|bytes| bytes.min(IN_MEMORY)).iter().sum();
         Expectation {
             steps: (self.motion.duration / self.plan.step).ceil() as u64,
             rows: rows as u64,
-            memory: BESIDE + kept * in_memory,
-            temporary: kept * (bytes - in_memory),
-            history_file: IN_FILE * size.map_or(0.0, |size| size.rows * size.table_bytes),
+            memory: BESIDE + OF_COLUMNS * row[0] + kept * in_memory,
+            temporary: kept * (parts.iter().sum::<f64>() - in_memory),
+            history_file: IN_FILE * parts[0],
         }
     }
 

@@ -39,6 +39,11 @@ impl Storage {
         block: 8 << 20,
         store: || Box::new(InMemory::default()),
     };
+    /// Nowhere, for runs whose histories nobody reads.
+    pub(crate) const NOWHERE: Self = Self {
+        store: || Box::new(Nowhere),
+        ..Self::MEMORY
+    };
 }
 
 impl PartialEq for Storage {
@@ -63,6 +68,20 @@ impl BlockStore for InMemory {
         let last = first + numbers.len();
         numbers.copy_from_slice(&self.blocks[block][first..last]);
         Ok(())
+    }
+}
+
+/// Forgets its blocks.
+#[derive(Debug)]
+struct Nowhere;
+
+impl BlockStore for Nowhere {
+    fn add(&mut self, _: Vec<f64>) -> Result<(), String> {
+        Ok(())
+    }
+
+    fn read(&self, _: usize, _: usize, _: &mut [f64]) -> Result<(), String> {
+        Err("the history was not kept".to_owned())
     }
 }
 
@@ -190,5 +209,77 @@ impl PartialEq for Rows {
     fn eq(&self, other: &Self) -> bool {
         let same = |column| self.column(column) == other.column(column);
         self.width == other.width && self.len() == other.len() && (0..self.width).all(same)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rows of a width, in blocks of three where a row is 24 bytes.
+    fn rows(width: usize, count: usize, block: usize) -> Rows {
+        let storage = Storage {
+            block,
+            ..Storage::MEMORY
+        };
+        let mut rows = Rows::new(width, storage);
+        rows.reserve(count);
+        for row in 0..count {
+            let values = (0..width).map(|column| (100 * row + column) as f64);
+            let place = rows.push().iter_mut();
+            place.zip(values).for_each(|(to, from)| *to = from);
+        }
+        rows
+    }
+
+    #[test]
+    fn rows_and_columns_are_found_in_blocks() {
+        for count in 0..20 {
+            for block in [1, 24, 72, 75, 10_000] {
+                let rows = rows(3, count, block);
+                assert_eq!(rows.len(), count);
+                for column in 0..3 {
+                    let expected = (0..count).map(|row| (100 * row + column) as f64);
+                    let expected: Vec<f64> = expected.collect();
+                    assert_eq!(rows.column(column), expected, "{count} rows, {block} bytes");
+                }
+                for row in 0..count {
+                    let [a, b, c] = [0, 1, 2].map(|column| (100 * row + column) as f64);
+                    assert_eq!(rows.row(row), [a, b, c]);
+                }
+                assert_eq!((rows.unstored(), rows.unread()), (None, None));
+            }
+        }
+        assert_eq!(rows(3, 11, 72), rows(3, 11, 10_000));
+        assert_ne!(rows(3, 11, 72), rows(3, 12, 72));
+    }
+
+    /// A copy shares the full blocks: neither may add one that the other sees.
+    #[test]
+    fn a_copy_in_use_is_told_and_loses_nothing() {
+        let mut first = rows(3, 7, 72);
+        let copy = first.clone();
+        for _ in 0..6 {
+            first.push().fill(1.0);
+        }
+        assert_eq!(first.unstored(), Some("a copy of the history is in use"));
+        assert_eq!((copy.len(), first.len()), (7, 13));
+        assert_eq!(first.column(0)[..7], copy.column(0));
+        assert_eq!(first.column(0)[7..], [1.0; 6]);
+        assert_eq!(first.row(12), [1.0; 3]);
+    }
+
+    #[test]
+    fn what_is_kept_nowhere_cannot_be_read() {
+        let storage = Storage {
+            block: 24,
+            ..Storage::NOWHERE
+        };
+        let mut rows = Rows::new(3, storage);
+        for _ in 0..3 {
+            rows.push().fill(1.0);
+        }
+        assert_eq!(rows.column(0), [0.0, 0.0, 1.0]);
+        assert_eq!(rows.unread(), Some("the history was not kept"));
     }
 }
