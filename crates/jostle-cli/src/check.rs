@@ -87,7 +87,7 @@ pub(crate) fn check(args: &CheckArgs) -> Result<(), Failure> {
         let _ = describe_work(&mut text, &opened.system, &plan, motion.duration);
         let prepared = opened.prepare()?;
         let settings = prepared.settings(true);
-        prepared.check_memory(settings, true, Some("jostle run --force runs it anyway"))?;
+        prepared.check_histories(settings, true, Some("jostle run --force runs it anyway"))?;
         let expected = prepared.expect(settings, true);
         let seconds = prepared.expected_seconds(settings);
         let _ = writeln!(text, "  {}\n", expected.text(seconds));

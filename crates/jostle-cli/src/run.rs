@@ -76,7 +76,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     let settings = prepared.settings(out.is_some() || !args.no_report);
     if !args.force {
         let both = !args.no_report;
-        prepared.check_memory(settings, both, Some("--force runs it anyway"))?;
+        prepared.check_histories(settings, both, Some("--force runs it anyway"))?;
     }
     let mut claim = None;
     if let Some(out) = &out {

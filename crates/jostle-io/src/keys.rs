@@ -1113,7 +1113,7 @@ pub(crate) const KEYS: &[Key] = &[
 
     default(S::Output, "members", FlagOrTexts, "false", "Axial force, shear and moment of columns and beams of frames: true for the greatest of every member, or a list of members such as [\"J1.column.2.3\"] (line, storey) and [\"J1.beam.5.1\"] (floor, span), whose histories are written as well."),
     default(S::Output, "links", Flag, "false", "Whether `history.parquet` has the stroke and the speed of every link and damper beside its force."),
-    default(S::Output, "interval", Quantity(D::Time), "\"5 ms\"", "Least time between rows of histories in free vibration; every step of a closed contact has a row. Memory and files shrink as it grows.").usual("a time between rows", 1e-4, 1.0),
+    default(S::Output, "interval", Quantity(D::Time), "\"5 ms\"", "Least time between rows of histories in free vibration; every step of a closed contact has a row. Files shrink as it grows.").usual("a time between rows", 1e-4, 1.0),
     default(S::Output, "capacity", FlagOrChoices(CAPACITY_RULES), "all rules, if forces of members are asked for and ties are known", "Compares shear and moment of reinforced columns and beams with their capacity at every instant: a rule, a list of rules whose first governs, true for all, of which that of the country of the steel governs, false for none. Implies the forces of all members."),
 
     default(S::Output, "floor_spectra", Kind::FlagTextsOrTable(S::FloorSpectra), "false", "Response spectra of floors, with and without contact: true for every floor, a list of floors such as [\"J1.floor.5\"] or buildings such as [\"J1\"], or a table."),

@@ -89,19 +89,28 @@ pub fn write_history_parquet(
     let columns = history.columns();
     let names = history_names(model, summary, columns).into_iter();
     let names: Vec<(String, Values)> = names.map(|name| (name, Values::Real(vec![]))).collect();
-    // Long rows are large: one column at a time is in memory beside them.
+    let values = |index: usize| Values::Real(history.column(columns[index]).unwrap_or_default());
+    write_by_column(path, summary, &names, history.len(), values)
+}
+
+/// Writes a long table, of which one column at a time is in memory.
+fn write_by_column(
+    path: &Path,
+    summary: &Summary,
+    columns: &[(String, Values)],
+    rows: usize,
+    values: impl Fn(usize) -> Values,
+) -> Result<(), OutputError> {
     write_atomically_by(path, |file| {
         let fields = Fields {
             version: &summary.jostle,
             title: &summary.title,
             facts: &[],
-            columns: &names,
-            rows: history.len(),
+            columns,
+            rows,
         };
-        let values =
-            |index: usize| Values::Real(history.column(columns[index]).unwrap_or_default());
         let out = BufWriter::new(file);
-        let written = write_columns(out, &fields, values).map_err(std::io::Error::other)?;
+        let written = write_columns(out, &fields, &values).map_err(std::io::Error::other)?;
         written.into_inner()?;
         Ok(())
     })
@@ -452,74 +461,96 @@ pub fn write_capacity_parquet(path: &Path, summary: &Summary) -> Result<(), Outp
     )
 }
 
+/// A column of the histories of members: its name, no values of its kind, and what computes its values.
+type MemberColumn<'a> = (&'static str, Values, Box<dyn Fn() -> Values + 'a>);
+
+/// What [`member_history_columns`] computes, without its values.
+fn member_history_table<'a>(
+    system: &'a System,
+    history: &'a MemberHistory,
+) -> Vec<MemberColumn<'a>> {
+    let members = move || {
+        history.members().iter().map(|[building, member]| {
+            let building = &system.buildings[*building];
+            (building, &building.members.members[*member])
+        })
+    };
+    let sections = move || {
+        members().flat_map(|(building, member)| {
+            let sections = member.sections.iter();
+            sections.map(move |section| (building, member, section))
+        })
+    };
+    let (count, instants) = (history.sections(), history.len());
+    // Every instant has a row of every section.
+    let texts = move |texts: Vec<String>| {
+        let rows = texts.iter().cycle().take(count * instants);
+        Values::Text(rows.cloned().collect())
+    };
+    let names = move || {
+        texts(
+            sections()
+                .map(|(of, own, _)| member_name(of, own))
+                .collect(),
+        )
+    };
+    let ends = sections().map(|(_, member, section)| section_name(member.place, section.at));
+    let ends: Vec<String> = ends.map(str::to_owned).collect();
+    let heights = sections().map(|(_, _, section)| {
+        let struck = matches!(section.at, SectionAt::Below | SectionAt::Above);
+        struck.then_some(section.height)
+    });
+    let heights: Vec<Option<f64>> = heights.collect();
+    let times = move || {
+        let times = history.times().into_iter();
+        Values::Real(times.flat_map(|t| std::iter::repeat_n(t, count)).collect())
+    };
+    let real = |force: usize| -> Box<dyn Fn() -> Values + 'a> {
+        Box::new(move || {
+            let mut values = vec![0.0; count * instants];
+            for section in 0..count {
+                let of_section = values.iter_mut().skip(section).step_by(count);
+                let forces = history.force(section, force);
+                of_section.zip(forces).for_each(|(to, from)| *to = from);
+            }
+            Values::Real(values)
+        })
+    };
+    let [number, text] = [|| Values::Real(vec![]), || Values::Text(vec![])];
+    let mut columns: Vec<MemberColumn<'a>> = vec![
+        ("time_s", number(), Box::new(times)),
+        ("member", text(), Box::new(names)),
+        ("end", text(), Box::new(move || texts(ends.clone()))),
+        (
+            "struck_height_m",
+            Values::Instant(vec![]),
+            Box::new(move || {
+                let rows = heights.iter().cycle().take(count * instants);
+                Values::Instant(rows.copied().collect())
+            }),
+        ),
+        ("axial_n", number(), real(0)),
+        ("shear_n", number(), real(1)),
+        ("moment_n_m", number(), real(2)),
+    ];
+    if sections().any(|(.., section)| section.across.is_some()) {
+        columns.extend([
+            ("shear_across_n", number(), real(3)),
+            ("moment_across_n_m", number(), real(4)),
+            ("torque_n_m", number(), real(5)),
+        ]);
+    }
+    columns
+}
+
 /// The columns of the histories of members: one row per instant and section, in the order of time.
 #[must_use]
 pub fn member_history_columns(
     system: &System,
     history: &MemberHistory,
 ) -> Vec<(&'static str, Values)> {
-    let mut sections: Vec<(String, &'static str, Option<f64>)> = Vec::new();
-    for [building, member] in history.members() {
-        let building = &system.buildings[*building];
-        let member = &building.members.members[*member];
-        for section in &member.sections {
-            let struck = matches!(section.at, SectionAt::Below | SectionAt::Above);
-            sections.push((
-                member_name(building, member),
-                section_name(member.place, section.at),
-                struck.then_some(section.height),
-            ));
-        }
-    }
-    let instants = history.times().len();
-    let repeated = |of: fn(&(String, &'static str, Option<f64>)) -> String| {
-        let texts: Vec<String> = sections.iter().map(of).collect();
-        Values::Text(
-            texts
-                .iter()
-                .cycle()
-                .take(texts.len() * instants)
-                .cloned()
-                .collect(),
-        )
-    };
-    let real = |kind: usize| {
-        Values::Real(
-            history
-                .rows()
-                .flatten()
-                .map(|forces| forces[kind])
-                .collect(),
-        )
-    };
-    let times = history.times().iter();
-    let times = times.flat_map(|time| std::iter::repeat_n(*time, sections.len()));
-    let heights = sections.iter().map(|section| section.2).cycle();
-    let members = history.members().iter();
-    let mut followed = members.flat_map(|[building, member]| {
-        &system.buildings[*building].members.members[*member].sections
-    });
-    let in_space = followed.any(|section| section.across.is_some());
-    let mut columns = vec![
-        ("time_s", Values::Real(times.collect())),
-        ("member", repeated(|section| section.0.clone())),
-        ("end", repeated(|section| section.1.to_owned())),
-        (
-            "struck_height_m",
-            Values::Instant(heights.take(sections.len() * instants).collect()),
-        ),
-        ("axial_n", real(0)),
-        ("shear_n", real(1)),
-        ("moment_n_m", real(2)),
-    ];
-    if in_space {
-        columns.extend([
-            ("shear_across_n", real(3)),
-            ("moment_across_n_m", real(4)),
-            ("torque_n_m", real(5)),
-        ]);
-    }
-    columns
+    let columns = member_history_table(system, history).into_iter();
+    columns.map(|(name, _, values)| (name, values())).collect()
 }
 
 /// Writes the histories of members that were asked for; see [`member_history_columns`].
@@ -532,9 +563,13 @@ pub fn write_members_parquet(
     history: &MemberHistory,
     summary: &Summary,
 ) -> Result<(), OutputError> {
-    let columns = member_history_columns(system, history).into_iter();
-    let columns = columns.map(|(name, values)| (name.to_owned(), values));
-    write_table(path, summary, columns.collect())
+    let table = member_history_table(system, history);
+    let names = table.iter();
+    let names: Vec<_> = names
+        .map(|(name, kind, _)| ((*name).to_owned(), kind.clone()))
+        .collect();
+    let rows = history.len() * history.sections();
+    write_by_column(path, summary, &names, rows, |index| table[index].2())
 }
 
 /// Kind, level, line and end of a place.

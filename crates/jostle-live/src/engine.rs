@@ -9,7 +9,7 @@ use std::time::Instant;
 use jostle::stepping::Progress;
 use jostle::{GroundMotion, Model, Outcome, Pounding, RunEnd, Settings, Summary};
 use jostle_io::{Files, Format, InputError, ModelTree, TreeValue};
-use jostle_run::{CaseCache, CaseError, Prepared, Results};
+use jostle_run::{CaseCache, CaseError, Prepared, Results, STORAGE};
 use serde::Serialize;
 
 use crate::message::{Fault, Run, fault, faults};
@@ -233,9 +233,13 @@ impl Engine {
     ) -> Result<Solved, Trouble> {
         let clock = Clock::start();
         let compares = !prepared.system.contacts.is_empty();
+        let settings = Settings {
+            storage: STORAGE,
+            ..Settings::default()
+        };
         let apart = Settings {
             pounding: Pounding::Excluded,
-            ..Settings::default()
+            ..settings
         };
         let model = with_closed_gaps(&prepared.input.model);
         let known = {
@@ -245,7 +249,7 @@ impl Engine {
         };
         let wanted = compares && known.is_none();
         let (outcome, computed) = together(
-            || prepared.step(Settings::default(), watch),
+            || prepared.step(settings, watch),
             || wanted.then(|| prepared.step(apart, watch)),
         );
         let without = known.or(computed.map(Arc::new));

@@ -1,28 +1,23 @@
-//! The histories of a run: rows as recorded, transposed when a column is first accessed.
+//! The histories of a run, and the table that NumPy sees.
 
-use std::sync::{Mutex, MutexGuard, PoisonError};
-
-use jostle::{Column, History};
+use jostle::History;
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use pyo3::exceptions::PyOSError;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::IntoPyDict;
 
-/// Histories in one of two layouts: rows for reports, or columns owned by NumPy.
+/// Histories as they were recorded, and as a table once it was asked for.
 pub(crate) struct Histories {
-    pub(crate) columns: Vec<Column>,
-    /// `None` after `table` is set.
-    rows: Mutex<Option<History>>,
+    pub(crate) history: History,
     /// One row per column of the history.
     table: PyOnceLock<Py<PyArray2<f64>>>,
 }
 
 impl Histories {
     pub(crate) fn new(history: Option<History>) -> Self {
-        let history = history.unwrap_or_else(|| History::new(Vec::new()));
         Self {
-            columns: history.columns().to_vec(),
-            rows: Mutex::new(Some(history)),
+            history: history.unwrap_or_else(|| History::new(Vec::new())),
             table: PyOnceLock::new(),
         }
     }
@@ -30,45 +25,18 @@ impl Histories {
     /// The histories as a read-only NumPy table, one row per recorded quantity.
     pub(crate) fn table(&self, py: Python<'_>) -> PyResult<Py<PyArray2<f64>>> {
         let table = self.table.get_or_try_init(py, || {
-            let values = match &*self.rows() {
-                Some(history) => by_column(history),
-                // Another thread was quicker, and this one will find its table.
-                None => Vec::new(),
-            };
-            shared(py, self.columns.len(), values)
+            let columns = self.history.columns();
+            let mut values = Vec::with_capacity(columns.len() * self.history.len());
+            for column in columns {
+                values.extend(self.history.column(*column).unwrap_or_default());
+            }
+            match self.history.fault() {
+                Some(reason) => Err(PyOSError::new_err(reason.to_owned())),
+                None => shared(py, columns.len(), values),
+            }
         })?;
-        self.rows().take();
         Ok(table.clone_ref(py))
     }
-
-    /// The history as it was recorded.
-    pub(crate) fn history(&self, py: Python<'_>) -> PyResult<History> {
-        if let Some(history) = &*self.rows() {
-            return Ok(history.clone());
-        }
-        let table = self.table(py)?;
-        let table = table.bind(py).try_readonly()?;
-        let (table, columns) = (table.as_slice()?, self.columns.len());
-        let rows = table.len() / columns.max(1);
-        let values = (0..rows).flat_map(|row| (0..columns).map(move |c| table[c * rows + row]));
-        Ok(History::from_rows(self.columns.clone(), values.collect()))
-    }
-
-    fn rows(&self) -> MutexGuard<'_, Option<History>> {
-        self.rows.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
-
-/// The values of a history, column after column.
-fn by_column(history: &History) -> Vec<f64> {
-    let (rows, columns) = (history.len(), history.columns().len());
-    let mut values = vec![0.0; rows * columns];
-    for row in 0..rows {
-        for (column, value) in history.row(row).iter().enumerate() {
-            values[column * rows + row] = *value;
-        }
-    }
-    values
 }
 
 fn shared(py: Python<'_>, columns: usize, values: Vec<f64>) -> PyResult<Py<PyArray2<f64>>> {

@@ -11,7 +11,7 @@ use jostle_io::{
     impact_columns, member_columns, member_history_columns, summary_json, write_atomically,
 };
 use jostle_run::{
-    Content, FileKind, Paper, Ran, Results, RunError, Stage, earlier_files, find_chromium,
+    Content, FileKind, Paper, Ran, Results, RunError, STORAGE, Stage, earlier_files, find_chromium,
     may_write, print_pdf,
 };
 use numpy::PyArray2;
@@ -55,10 +55,11 @@ pub(crate) fn run(
             Pounding::Excluded
         },
         record_interval,
+        storage: STORAGE,
     };
     if !force {
         let remedy = Some("a longer record_interval needs less, and force=True runs it anyway");
-        let checked = prepared.check_memory(settings, false, remedy);
+        let checked = prepared.check_histories(settings, false, remedy);
         checked.map_err(|error| input_error(&error))?;
     }
     let mut stopped: Option<PyErr> = None;
@@ -134,25 +135,23 @@ impl Run {
         py: Python<'_>,
         without_contact: Option<&Self>,
         show: impl FnOnce(&Results<'_>) -> T + Send,
-    ) -> PyResult<T> {
-        let history = self.histories.history(py)?;
+    ) -> T {
+        let history = &self.histories.history;
         let without = without_contact
-            .filter(|run| {
-                run.ran.outcome.end == RunEnd::Completed && !run.histories.columns.is_empty()
-            })
-            .map(|run| run.histories.history(py))
-            .transpose()?;
+            .filter(|run| run.ran.outcome.end == RunEnd::Completed)
+            .map(|run| &run.histories.history)
+            .filter(|history| !history.columns().is_empty());
         let summary = self.summary(without_contact);
-        Ok(py.detach(|| {
+        py.detach(|| {
             show(&Results {
                 prepared: &self.ran.prepared,
                 outcome: &self.ran.outcome,
                 summary: &summary,
-                history: Some(&history),
-                without_contact: without.as_ref(),
+                history: Some(history),
+                without_contact: without,
                 methods: &[],
             })
-        }))
+        })
     }
 }
 
@@ -202,7 +201,7 @@ impl Run {
             let (recorded, [index, floor]) = (column.recorded(), column.place());
             (recorded.owner, recorded.name, index, floor)
         };
-        self.histories.columns.iter().map(row).collect()
+        self.histories.history.columns().iter().map(row).collect()
     }
 
     /// The text of summary.json.
@@ -225,7 +224,7 @@ impl Run {
     /// The report page.
     #[pyo3(signature = (without_contact=None))]
     fn report(&self, py: Python<'_>, without_contact: Option<&Self>) -> PyResult<String> {
-        let report = self.with_results(py, without_contact, |results| results.report())?;
+        let report = self.with_results(py, without_contact, |results| results.report());
         Ok(report.unwrap_or_default())
     }
 
@@ -278,7 +277,7 @@ impl Run {
         };
         self.with_results(py, without_contact, |results| {
             results.write(&folder, content)
-        })?
+        })
         .map_err(|error| output_error(&error))
     }
 
@@ -287,7 +286,7 @@ impl Run {
         let names = history_names(
             &self.ran.prepared.input.model,
             &self.summary(None),
-            &self.histories.columns,
+            self.histories.history.columns(),
         );
         Ok(Table::of_histories(names, self.histories.table(py)?))
     }

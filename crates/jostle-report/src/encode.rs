@@ -158,10 +158,16 @@ pub(crate) fn thin_rows(
     }
 }
 
-/// Rows of a force history worth keeping: every row of every impact with the zeros around it, as long as
-/// all fit into `budget`; otherwise the shape of each by its extremes, and only the strongest impacts.
-pub(crate) fn thin_impacts(force: &[Vec<f64>], budget: usize) -> Vec<Vec<usize>> {
-    let episodes: Vec<Vec<Episode>> = force.iter().map(|f| episodes_of(f)).collect();
+/// Rows of force histories worth keeping, with their forces: every row of every impact with the zeros around it, as long as
+/// all fit into `budget`; otherwise the shape of each by its extremes, and only the strongest impacts. `force` gives the history
+/// of a contact, which is in memory only while it is looked at.
+pub(crate) fn thin_impacts(
+    contacts: usize,
+    force: impl Fn(usize) -> Vec<f64>,
+    budget: usize,
+) -> Vec<Vec<(usize, f64)>> {
+    let episodes = (0..contacts).map(|contact| episodes_of(&force(contact)));
+    let episodes: Vec<Vec<Episode>> = episodes.collect();
     let rows: usize = episodes.iter().flatten().map(Episode::rows).sum();
     let count = episodes.iter().flatten().count();
     let per_episode = if rows <= budget {
@@ -177,18 +183,19 @@ pub(crate) fn thin_impacts(force: &[Vec<f64>], budget: usize) -> Vec<Vec<usize>>
     } else {
         0.0
     };
-    force
-        .iter()
-        .zip(&episodes)
-        .map(|(force, episodes)| {
-            let mut kept = Vec::new();
-            for episode in episodes.iter().filter(|e| e.peak >= weakest) {
-                episode.keep(force, per_episode, &mut kept);
-            }
-            kept.dedup();
-            kept
-        })
-        .collect()
+    let kept = episodes.iter().enumerate().map(|(contact, episodes)| {
+        if episodes.is_empty() {
+            return Vec::new();
+        }
+        let mut kept = Vec::new();
+        let force = force(contact);
+        for episode in episodes.iter().filter(|e| e.peak >= weakest) {
+            episode.keep(&force, per_episode, &mut kept);
+        }
+        kept.dedup();
+        kept.into_iter().map(|row| (row, force[row])).collect()
+    });
+    kept.collect()
 }
 
 /// Rows that still show the shape of an impact.
@@ -271,17 +278,16 @@ mod tests {
     #[test]
     fn every_row_of_an_impact_is_kept_while_there_is_room() {
         let force = hump(50, 30, 1e5);
-        assert_eq!(
-            thin_impacts(&[force], 1000),
-            vec![(49..=80).collect::<Vec<_>>()]
-        );
+        let kept = thin_impacts(1, |_| force.clone(), 1000);
+        let expected: Vec<_> = (49..=80).map(|row| (row, force[row])).collect();
+        assert_eq!(kept, vec![expected]);
     }
 
     #[test]
     fn crowded_impacts_keep_their_peaks() {
         let force: Vec<f64> = (1..=100).flat_map(|i| hump(3, 80, f64::from(i))).collect();
-        let kept = thin_impacts(std::slice::from_ref(&force), 2000);
-        let peak = kept[0].iter().map(|row| force[*row]).fold(0.0, f64::max);
+        let kept = thin_impacts(1, |_| force.clone(), 2000);
+        let peak = kept[0].iter().map(|(_, force)| *force).fold(0.0, f64::max);
         assert!(kept[0].len() <= 2100, "{} rows", kept[0].len());
         assert_eq!(peak, force.iter().copied().fold(0.0, f64::max));
     }

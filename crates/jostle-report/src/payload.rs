@@ -277,7 +277,7 @@ pub(crate) fn frame(page: &Page) -> (String, Vec<f32>) {
 
 fn text(page: &Page, budget: &Budget, pack: &mut Packer) -> String {
     let time = page.history.column(Column::TIME).unwrap_or_default();
-    let force = forces(page);
+    let closed = rows_in_contact(page);
     let places = hinges::places(page.model);
     let walls = walls::walls(page);
     let payload = Payload {
@@ -289,7 +289,7 @@ fn text(page: &Page, budget: &Budget, pack: &mut Packer) -> String {
         run: table(
             page,
             page.history,
-            &force,
+            &closed,
             [budget.run, budget.rows],
             true,
             pack,
@@ -304,7 +304,7 @@ fn text(page: &Page, budget: &Budget, pack: &mut Packer) -> String {
                 pack,
             )
         }),
-        forces: force_data(page, &time, &force, budget.forces, pack),
+        forces: force_data(page, &time, budget.forces, pack),
         impacts: impacts(page.summary),
         hysteretic: page.summary.energy.hysteretic_j != 0.0,
         hinges: hinge_data(page, &places),
@@ -603,33 +603,35 @@ fn extremes(points: usize, most: usize, value: impl Fn(usize) -> f64) -> Vec<usi
     rows
 }
 
-fn forces(page: &Page) -> Vec<Vec<f64>> {
-    (0..contacts(page.summary).count())
-        .map(|contact| {
-            page.history
-                .column(Column::contact_force(contact))
-                .unwrap_or_default()
-        })
-        .collect()
+/// Force of a contact in every row \[N\].
+fn force(page: &Page, contact: usize) -> Vec<f64> {
+    let column = Column::contact_force(contact);
+    page.history.column(column).unwrap_or_default()
 }
 
-fn force_data(
-    page: &Page,
-    time: &[f64],
-    force: &[Vec<f64>],
-    budget: usize,
-    pack: &mut Packer,
-) -> Vec<ForceData> {
-    let kept = thin_impacts(force, budget / 2);
+/// Whether any contact has a force in a row.
+fn rows_in_contact(page: &Page) -> Vec<bool> {
+    let mut closed = vec![false; page.history.len()];
+    for contact in 0..contacts(page.summary).count() {
+        for (closed, force) in closed.iter_mut().zip(force(page, contact)) {
+            *closed |= force != 0.0;
+        }
+    }
+    closed
+}
+
+fn force_data(page: &Page, time: &[f64], budget: usize, pack: &mut Packer) -> Vec<ForceData> {
+    let count = contacts(page.summary).count();
+    let kept = thin_impacts(count, |contact| force(page, contact), budget / 2);
     let closed = page.gaps().flat_map(|(summary, gap)| {
         let contacts = summary.contacts.iter();
         contacts.map(move |contact| (gap, contact))
     });
-    let all = force.iter().zip(kept).zip(closed).enumerate();
-    all.map(|(index, ((force, rows), (gap, contact)))| {
+    let all = kept.into_iter().zip(closed).enumerate();
+    all.map(|(index, (rows, (gap, contact)))| {
         let instants: Vec<f64> = rows
             .iter()
-            .filter_map(|row| time.get(*row).copied())
+            .filter_map(|(row, _)| time.get(*row).copied())
             .collect();
         let depths = if rows.is_empty() {
             None
@@ -639,10 +641,10 @@ fn force_data(
         ForceData {
             force: Series {
                 time: pack.instants(&instants),
-                values: pack.values(rows.iter().map(|row| force[*row])),
+                values: pack.values(rows.iter().map(|(_, force)| *force)),
             },
             indentation: depths
-                .map(|depths| pack.values(rows.iter().map(|row| depths[*row].max(0.0)))),
+                .map(|depths| pack.values(rows.iter().map(|(row, _)| depths[*row].max(0.0)))),
         }
     })
     .collect()
@@ -676,66 +678,79 @@ fn indentation(
     Some(depths)
 }
 
-/// Displacements, and energies if asked for, on thinned instants that hit every peak displacement.
+/// What a table shows of a history.
+enum Shown<'a> {
+    Recorded(Column),
+    /// Closing of a face: its greatest indentation and the least gap of its points together \[m\].
+    Face(&'a Gap, &'a ContactSummary),
+}
+
+impl Shown<'_> {
+    /// Its values in every row; `None` where the history has none.
+    fn values(&self, page: &Page, history: &History) -> Option<Vec<f64>> {
+        match *self {
+            Self::Recorded(column) => {
+                let mut values = history.column(column)?;
+                if column == Column::energy(EnergyTerm::Input)
+                    && let Some(of_grounds) = history.column(Column::energy(EnergyTerm::Ground))
+                {
+                    // What the other energies add up to.
+                    let both = values.iter_mut().zip(&of_grounds);
+                    both.for_each(|(input, ground)| *input += ground);
+                }
+                Some(values)
+            }
+            Self::Face(gap, contact) => {
+                let depths = face_indentation(page.model, history, gap, contact)?;
+                let closing = depths.into_iter().map(|depth| depth + contact.width_m);
+                Some(closing.collect())
+            }
+        }
+    }
+}
+
+/// Displacements, and energies if asked for, on thinned instants that hit every peak displacement. Columns of long rows are large: they are
+/// read twice, once for their peaks, and only one is in memory at a time.
 fn table(
     page: &Page,
     history: &History,
-    force: &[Vec<f64>],
+    closed: &[bool],
     [numbers, most_rows]: [usize; 2],
     energies: bool,
     pack: &mut Packer,
 ) -> Table {
     let time = history.column(Column::TIME).unwrap_or_default();
-    let mut columns: Vec<(String, Vec<f64>)> = wanted(page, history, energies)
-        .into_iter()
-        .filter_map(|(name, column)| Some((name, history.column(column)?)))
-        .collect();
-    columns.extend(face_closings(page, history));
-    if let Some(of_grounds) = history.column(Column::energy(EnergyTerm::Ground)) {
-        // What the other energies add up to.
-        for (_, input) in columns.iter_mut().filter(|(name, _)| name == "e:input") {
-            input
-                .iter_mut()
-                .zip(&of_grounds)
-                .for_each(|(input, ground)| *input += ground);
-        }
-    }
-    let mut closed = vec![false; time.len()];
-    for (row, closed) in closed.iter_mut().enumerate() {
-        *closed = force.iter().any(|f| f.get(row).is_some_and(|f| *f != 0.0));
-    }
-    let always: Vec<usize> = columns
-        .iter()
-        .filter(|(name, _)| name.starts_with(['u', 'v', 'r', 'c']))
-        .flat_map(|(_, values)| peaks(values))
-        .collect();
+    let recorded = wanted(page, history, energies).into_iter();
+    let recorded = recorded.map(|(name, column)| (name, Shown::Recorded(column)));
+    let faces = page.gaps().flat_map(|(summary, gap)| {
+        let contacts = summary.contacts.iter();
+        contacts.map(move |contact| Shown::Face(gap, contact))
+    });
+    let faces = faces.enumerate();
+    let faces = faces.map(|(index, face)| (format!("c:{index}"), face));
+    let mut columns: Vec<(String, Shown)> = recorded.chain(faces).collect();
+    let mut always: Vec<usize> = Vec::new();
+    columns.retain(|(name, shown)| {
+        let values = shown.values(page, history);
+        let peaked = values
+            .as_deref()
+            .filter(|_| name.starts_with(['u', 'v', 'r', 'c']));
+        always.extend(peaked.into_iter().flat_map(peaks));
+        values.is_some()
+    });
     // An instant takes as much as two values.
     let budget = (numbers / (columns.len() + 2)).min(most_rows);
-    let rows = thin_rows(&time, &closed, &always, budget);
+    let rows = thin_rows(&time, closed, &always, budget);
     let kept: Vec<f64> = rows.iter().map(|row| time[*row]).collect();
-    Table {
-        time: pack.instants(&kept),
-        columns: columns
-            .into_iter()
-            .map(|(name, values)| (name, pack.values(rows.iter().map(|row| values[*row]))))
-            .collect(),
-    }
-}
-
-/// Closing of every face: its greatest indentation and the least gap of its points together \[m\].
-fn face_closings<'a>(
-    page: &'a Page,
-    history: &'a History,
-) -> impl Iterator<Item = (String, Vec<f64>)> + 'a {
-    let all = page.gaps().flat_map(|(summary, gap)| {
-        let contacts = summary.contacts.iter();
-        contacts.map(move |contact| (gap, contact))
+    let time = pack.instants(&kept);
+    let packed = columns.into_iter().map(|(name, shown)| {
+        let values = shown.values(page, history).unwrap_or_default();
+        (name, pack.values(rows.iter().map(|row| values[*row])))
     });
-    all.enumerate().filter_map(|(index, (gap, contact))| {
-        let depths = face_indentation(page.model, history, gap, contact)?;
-        let closing = depths.into_iter().map(|depth| depth + contact.width_m);
-        Some((format!("c:{index}"), closing.collect()))
-    })
+    Table {
+        time,
+        columns: packed.collect(),
+    }
 }
 
 fn peaks(values: &[f64]) -> impl Iterator<Item = usize> {

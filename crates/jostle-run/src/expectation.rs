@@ -7,16 +7,19 @@ use jostle::stepping::Progress;
 use jostle::{RunEnd, Settings, Solver};
 use jostle_io::InputError;
 
+use crate::history_file::{IN_MEMORY, room_for_histories};
 use crate::numbers::counted_grouped;
 use crate::prepared::Prepared;
 
-/// Largest memory of the histories of a run \[bytes\].
-const MOST_MEMORY: f64 = 8e9;
+/// Largest table of histories without being asked for: beyond it, an interval is more likely a slip \[bytes\].
+const MOST_TABLE: f64 = 8e9;
 /// Memory of a run beside its histories \[bytes\].
 const BESIDE: f64 = 40e6;
-/// Memory of a run per memory of its histories: stepping and writing need some as well; with the run without contact, whose
-/// histories are kept beside them.
-const OF_RUN: [f64; 2] = [1.8, 3.0];
+/// Memory that a table and a page need for their columns, per byte of a row.
+const OF_COLUMNS: f64 = 700.0;
+/// Histories that are kept at a time: steps that are chosen by comparison keep those of two runs, and the run without contact comes
+/// beside that with contact.
+const KEPT: [[f64; 2]; 2] = [[1.0, 2.0], [2.0, 3.0]];
 /// Bytes of `history.parquet` per byte of histories.
 const IN_FILE: f64 = 0.9;
 /// Computing time of one displacement in one step on a usual machine \[s\].
@@ -36,6 +39,8 @@ pub struct Expectation {
     pub rows: u64,
     /// Memory of the whole run \[bytes\].
     pub memory: f64,
+    /// Greatest size of its temporary files, which hold the histories beyond what stays in memory \[bytes\].
+    pub temporary: f64,
     /// Size of `history.parquet` \[bytes\].
     pub history_file: f64,
 }
@@ -49,41 +54,69 @@ impl Prepared {
         let size = self
             .plan
             .history_size(&self.system, &self.motion, &settings);
-        let (rows, bytes) = size.map_or((0.0, 0.0), |size| (size.rows, size.bytes()));
         let both = both && !self.system.contacts.is_empty();
+        let repeats = !matches!(self.plan.solver, Solver::Modal | Solver::Series);
+        let kept = KEPT[usize::from(repeats)][usize::from(both)];
+        let rows = size.map_or(0.0, |size| size.rows);
+        let row = size.map_or([0.0; 2], |size| {
+            [size.table_bytes, size.row_bytes - size.table_bytes]
+        });
+        // The table, and loops of springs with forces of members.
+        let parts = row.map(|bytes| rows * bytes);
+        let in_memory: f64 = parts.map(|bytes| bytes.min(IN_MEMORY)).iter().sum();
         Expectation {
             steps: (self.motion.duration / self.plan.step).ceil() as u64,
             rows: rows as u64,
-            memory: BESIDE + bytes * OF_RUN[usize::from(both)],
-            history_file: IN_FILE * bytes,
+            memory: BESIDE + OF_COLUMNS * row[0] + kept * in_memory,
+            temporary: kept * (parts.iter().sum::<f64>() - in_memory),
+            history_file: IN_FILE * parts[0],
         }
     }
 
-    /// Refuses a run whose histories need more memory than 8 GB; `remedy` says how to run it all the same.
+    /// Refuses a run whose histories are a table of more than 8 GB, or need more room for temporary files than there is;
+    /// `remedy` says how to run it all the same.
     ///
     /// # Errors
     /// The refusal, with the interval of rows that fits.
-    pub fn check_memory(
+    pub fn check_histories(
         &self,
         settings: Settings,
         both: bool,
         remedy: Option<&str>,
     ) -> Result<(), InputError> {
         let expected = self.expect(settings, both);
-        if expected.memory <= MOST_MEMORY {
-            return Ok(());
-        }
+        let room = room_for_histories();
+        let (needed, most, problem) = match room {
+            _ if expected.history_file > MOST_TABLE => (
+                expected.history_file,
+                MOST_TABLE,
+                format!(
+                    "make a history.parquet of {}, more than {};",
+                    in_bytes(expected.history_file),
+                    in_bytes(MOST_TABLE)
+                ),
+            ),
+            Some((folder, free)) if expected.temporary > free => (
+                expected.temporary,
+                free,
+                format!(
+                    "need temporary files of {} in {}, where {} are free; set TMPDIR to a folder with more, or",
+                    in_bytes(expected.temporary),
+                    folder.display(),
+                    in_bytes(free)
+                ),
+            ),
+            _ => return Ok(()),
+        };
         let interval = settings.record_interval.unwrap_or_default();
         let least = self.motion.duration / expected.rows as f64;
-        let longer = 1e3 * interval.max(least) * expected.memory / MOST_MEMORY;
+        let longer = 1e3 * interval.max(least) * needed / most.max(1e6);
         let anyway = remedy.map_or_else(String::new, |remedy| format!("; {remedy}"));
         Err(self.input.fault(
             "output.interval",
             format!(
-                "{} of histories need {} of memory, more than {}; write interval = \"{:.0} ms\" under [output] for fewer rows{anyway}",
+                "{} of histories {problem} write interval = \"{:.0} ms\" under [output] for fewer rows{anyway}",
                 counted_grouped(expected.rows, "row"),
-                in_bytes(expected.memory),
-                in_bytes(MOST_MEMORY),
                 longer.ceil()
             ),
         ))
@@ -160,11 +193,17 @@ impl Expectation {
     pub fn text(&self, seconds: f64) -> String {
         let rows = match self.rows {
             0 => "no histories".to_owned(),
-            rows => format!(
-                "{} of histories (history.parquet about {})",
-                counted_grouped(rows, "row"),
-                in_bytes(self.history_file)
-            ),
+            rows => {
+                let beyond = match self.temporary {
+                    0.0 => String::new(),
+                    size => format!(", temporary files up to {}", in_bytes(size)),
+                };
+                format!(
+                    "{} of histories (history.parquet about {}{beyond})",
+                    counted_grouped(rows, "row"),
+                    in_bytes(self.history_file)
+                )
+            }
         };
         format!(
             "{} of computing on this machine, about {} of memory, {rows}",

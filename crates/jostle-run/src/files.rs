@@ -3,6 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use jostle::History;
 use jostle_io::{
     OutputError, write_atomically, write_buildings_parquet, write_capacity_parquet,
     write_floor_spectra_parquet, write_floors_parquet, write_hinges_parquet, write_history_parquet,
@@ -106,6 +107,15 @@ impl Results<'_> {
             staged.add(REPORT, |path| write_atomically(path, report.as_bytes()))?;
         }
         staged.add(SUMMARY, |path| write_summary_json(path, self.summary))?;
+        // What could not be read back is zero in the files.
+        let histories = self.history.into_iter().chain(self.without_contact);
+        let mut faults = histories.filter_map(History::fault);
+        if let Some(reason) = faults.next().or(self.outcome.history_fault()) {
+            return Err(OutputError::Encoding {
+                path: folder.join(HISTORY),
+                reason: reason.to_owned(),
+            });
+        }
         staged.put_in_place()
     }
 

@@ -118,6 +118,7 @@ impl<'a> GapRuns<'a> {
         let settings = Settings {
             pounding,
             record_interval: None,
+            ..Settings::default()
         };
         let observer = |reached| {
             watch(reached);

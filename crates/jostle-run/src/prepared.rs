@@ -10,6 +10,8 @@ use jostle::{
 };
 use jostle_io::{Input, InputError};
 
+use crate::history_file::STORAGE;
+
 /// A model, its ground motion and its steps.
 pub struct Prepared {
     /// The model file; its warnings include that of an unusual motion.
@@ -78,6 +80,7 @@ impl Prepared {
         let interval = self.input.model.analysis.row_interval;
         Settings {
             record_interval: recorded.then_some(interval),
+            storage: STORAGE,
             ..Settings::default()
         }
     }

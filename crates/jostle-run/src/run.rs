@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use jostle::results::contact_sensitivity::ContactSensitivity;
 use jostle::results::isolation_bounds::IsolationBounds;
-use jostle::{Outcome, Pounding, RunEnd, Settings, Summary};
+use jostle::{Outcome, Pounding, RunEnd, Settings, StepError, Summary};
 
 use crate::floor_spectra::{RunFloorSpectra, combine, filter_floors};
 use crate::observer::{Observer, Stage};
@@ -43,14 +43,14 @@ impl Prepared {
         let started = Instant::now();
         let mut outcome = self.step(settings, |progress| observer(stage, progress));
         let wall = started.elapsed().as_secs_f64();
-        filter_floors(self.input.floor_spectra.as_ref(), &mut outcome);
+        let floor_spectra = self.finish_histories(&mut outcome);
         if stage == Stage::Pounding {
             self.find_sensitivity(&mut outcome, |progress| {
                 observer(Stage::Sensitivity, progress)
             });
         }
         Ran {
-            floor_spectra: self.floor_spectra(&outcome),
+            floor_spectra,
             floor_spectra_without: None,
             prepared: self,
             outcome,
@@ -59,6 +59,18 @@ impl Prepared {
             contact_sensitivity: None,
             isolation_bounds: None,
         }
+    }
+
+    /// What follows from the histories of a run, which has failed if they cannot be read back: peaks of filtered accelerations, and
+    /// spectra of floors.
+    fn finish_histories(&self, outcome: &mut Outcome) -> Option<Result<RunFloorSpectra, String>> {
+        filter_floors(self.input.floor_spectra.as_ref(), outcome);
+        let spectra = self.floor_spectra(outcome);
+        if let Some(reason) = outcome.history_fault() {
+            let (time, reason) = (outcome.state.time, reason.to_owned());
+            outcome.end = RunEnd::Failed(StepError::HistoryNotKept { time, reason });
+        }
+        spectra
     }
 }
 
@@ -69,9 +81,9 @@ impl Ran {
             let settings = without_contact(self.prepared.with_rows_for_spectra(settings));
             let watch = |progress| observer(Stage::WithoutContact, progress);
             let mut outcome = self.prepared.step(settings, watch);
-            filter_floors(self.prepared.input.floor_spectra.as_ref(), &mut outcome);
+            let spectra = self.prepared.finish_histories(&mut outcome);
             if outcome.end == RunEnd::Completed {
-                self.floor_spectra_without = self.prepared.floor_spectra(&outcome);
+                self.floor_spectra_without = spectra;
             }
             self.without_contact = Some(outcome);
         }

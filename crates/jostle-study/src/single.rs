@@ -25,7 +25,7 @@ pub fn run_case(
         CaseError::Path(error) => StudyError::Column(error.to_string()),
     })?;
     let settings = prepared.settings(true);
-    prepared.check_memory(settings, true, None)?;
+    prepared.check_histories(settings, true, None)?;
     match run_until(prepared, settings, stop) {
         Some(ran) => write_run(ran, settings, folder, stop),
         None => Ok(false),

@@ -72,6 +72,7 @@ pub fn rows() -> Vec<Row> {
     let settings = Settings {
         pounding: Pounding::Included,
         record_interval: None,
+        ..Settings::default()
     };
     let mut rows = Vec::new();
     for (case, expected) in CASES.iter().zip(list(&expected, "")) {

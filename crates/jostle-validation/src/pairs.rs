@@ -142,6 +142,7 @@ pub(crate) fn run(system: &System, motion: &GroundMotion, plan: &Plan) -> Outcom
     let settings = Settings {
         pounding: Pounding::Included,
         record_interval: None,
+        ..Settings::default()
     };
     simulate(
         system,

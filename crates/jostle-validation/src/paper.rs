@@ -96,6 +96,7 @@ fn run(pga: f64, gap: f64, steps: Steps, pounding: Pounding) -> (System, Outcome
     let settings = Settings {
         pounding,
         record_interval: None,
+        ..Settings::default()
     };
     let outcome = simulate(&system, &motion, &plan, settings, |_| {
         ControlFlow::Continue(())

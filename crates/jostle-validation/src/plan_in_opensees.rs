@@ -49,6 +49,7 @@ fn compare(case: &str, mut input: Input, expected: &Value, error: f64) -> Vec<Ro
     let settings = Settings {
         pounding: Pounding::Included,
         record_interval: None,
+        ..Settings::default()
     };
     let (system, outcome) = run_model(&input, None, settings, duration);
     let tolerance = TOLERANCE + error;

@@ -24,6 +24,7 @@ pub fn rows() -> Vec<Row> {
         let settings = Settings {
             pounding,
             record_interval: None,
+            ..Settings::default()
         };
         run_model(&input, Some(step), settings, duration)
     };

@@ -167,6 +167,7 @@ pub(crate) fn run(
     let settings = Settings {
         pounding: Pounding::Included,
         record_interval: None,
+        ..Settings::default()
     };
     let state = state.unwrap_or_else(|| State::at_rest(system, 0.0));
     let outcome = simulate_from(system, motion, plan, settings, state, |_| {

@@ -102,6 +102,7 @@ fn settings(pounding: Pounding) -> Settings {
     Settings {
         pounding,
         record_interval: None,
+        ..Settings::default()
     }
 }
 

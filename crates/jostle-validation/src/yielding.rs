@@ -53,6 +53,7 @@ fn case(case: &str, mut input: Input, expected: &Value, error: f64) -> Vec<Row> 
     let settings = Settings {
         pounding: Pounding::Included,
         record_interval: None,
+        ..Settings::default()
     };
     let (system, outcome) = run_model(&input, None, settings, duration);
     let tolerance = TOLERANCE + error;

@@ -65,6 +65,7 @@ fn compare(case: &Case) -> Vec<Row> {
     let settings = Settings {
         pounding: Pounding::Included,
         record_interval: None,
+        ..Settings::default()
     };
     let (_, outcome) = run_model(&input, None, settings, case.duration);
     let floors = outcome.peaks.floors(0);

@@ -163,6 +163,7 @@ fn ten_seconds(bencher: Bencher, model: &Model, pounding: Pounding) {
     let settings = Settings {
         pounding,
         record_interval: None,
+        ..Settings::default()
     };
     bencher.bench_local(|| {
         simulate(&system, &motion, &plan, settings, |_| {

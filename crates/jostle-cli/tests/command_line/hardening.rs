@@ -120,6 +120,7 @@ fn long_paths_are_refused() {
         let shown = complained(&output);
         assert_eq!(output.status.code(), Some(2), "{shown:.300}");
         assert!(shown.contains("more than 64 parts"), "{shown:.300}");
+        assert!(shown.len() < 2000, "{} bytes", shown.len());
     }
 }
 
@@ -244,6 +245,11 @@ fn small_mistakes_are_told() {
             "[[0, 0], [10, 8], [10, 0], [0, 8]]".to_owned(),
             "crosses itself",
         ),
+        // Without area.
+        (
+            "[[0, 0], [10, 10], [10, 0], [0, 10]]".to_owned(),
+            "crosses itself",
+        ),
         ("[[0, 0], [10, 0]]".to_owned(), "at least three"),
         (format!("[{}]", many.join(", ")), "at most 300"),
     ] {
@@ -253,6 +259,7 @@ fn small_mistakes_are_told() {
         assert_eq!(output.status.code(), Some(2), "{shown:.400}");
         assert!(shown.contains(word), "{word}: {shown:.400}");
         assert!(!shown.contains("polar_mass"), "{shown:.400}");
+        assert!(shown.contains("1 fault in m.toml"), "{shown:.400}");
     }
     // Names of files that are no names of folders.
     write(folder, "...toml", SMALL);
@@ -319,7 +326,7 @@ stiffness = "150 MN/m"
             && refused.contains("long.toml:"),
         "{refused}"
     );
-    let rows = "[output]\ninterval = \"0.1 ms\"\n[[building]]\nname = \"A\"";
+    let rows = "[output]\ninterval = \"0.02 ms\"\n[[building]]\nname = \"A\"";
     let much = SMALL.replace("duration = \"0.8 s\"", "duration = \"3600 s\"");
     let much = much.replacen("[[building]]\nname = \"A\"", rows, 1);
     write(folder, "much.toml", &much);
@@ -327,7 +334,8 @@ stiffness = "150 MN/m"
         let refused = complained(&jostle(folder, &[command, "much.toml"]));
         for part in [
             "much.toml:",
-            "GB of memory, more than 8.0 GB",
+            "rows of histories make a history.parquet of ",
+            "GB, more than 8.0 GB; write interval",
             "under [output] for fewer rows",
         ] {
             assert!(refused.contains(part), "{part}: {refused}");
@@ -336,10 +344,41 @@ stiffness = "150 MN/m"
             .split("write interval = \"")
             .nth(1)
             .and_then(|rest| rest.split('"').next());
-        let fits = much.replace("0.1 ms", longer.expect("an interval"));
+        let fits = much.replace("0.02 ms", longer.expect("an interval"));
         write(folder, "fits.toml", &fits);
         printed(&jostle(folder, &["check", "fits.toml"]));
     }
+}
+
+/// Histories that are too long for the memory need a disk: without one the run ends with 1, and says what helps.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_run_without_room_for_its_histories_says_so() {
+    let held = folder();
+    let folder = held.path();
+    let rows = "[output]\ninterval = \"0.1 ms\"\n[[building]]\nname = \"A\"";
+    let long = SMALL.replace("duration = \"0.8 s\"", "duration = \"60 s\"");
+    write(
+        folder,
+        "m.toml",
+        &long.replacen("[[building]]\nname = \"A\"", rows, 1),
+    );
+    let told = printed(&jostle(folder, &["check", "m.toml"]));
+    assert!(told.contains("temporary files up to "), "{told}");
+    let mut run = program(folder, &["run", "m.toml", "--no-report", "--out", "r"]);
+    let output = run.env("TMPDIR", "missing").output().expect("it starts");
+    assert_eq!(output.status.code(), Some(1));
+    let told = complained(&output);
+    for part in [
+        "histories cannot be kept from t = ",
+        "a temporary file in missing cannot be written: No such file or directory",
+        "set TMPDIR to a folder with more, or write a longer interval under [output]",
+        "what was computed until then is in r",
+    ] {
+        assert!(told.contains(part), "{part}: {told}");
+    }
+    let until = summary(&folder.join("r"))["ended_early"].to_string();
+    assert!(until.contains("histories cannot be kept"), "{until}");
 }
 
 /// Names in a folder that begin with a dot: what is being written, and claims.

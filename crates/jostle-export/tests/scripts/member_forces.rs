@@ -37,7 +37,7 @@ fn opensees_finds_the_same_forces() {
     let (system, outcome) = run(&input.model, &motion, Some(0.0));
     let history = outcome.member_history.as_ref().expect("asked for");
     assert_eq!(history.members().len(), due.len());
-    let rows: Vec<_> = history.rows().collect();
+    let (rows, times): (Vec<_>, _) = (history.rows().collect(), history.times());
     let (mut first, mut worst, mut compared) = (0, 0.0_f64, 0);
     for [building, member] in history.members() {
         let building = &system.buildings[*building];
@@ -50,7 +50,7 @@ fn opensees_finds_the_same_forces() {
             // Local forces act on the member: the signs of its two ends differ.
             let sign = [1.0, -1.0, -1.0, 1.0][value];
             for row in due {
-                let mut times = history.times().iter();
+                let mut times = times.iter();
                 let at = times.position(|time| (time - row[0]).abs() < 1e-9);
                 let forces = rows[at.expect("recorded")][first + value / 2];
                 let found = forces[1 + value % 2];

@@ -15,6 +15,7 @@ use jostle_io::{
 };
 
 use crate::error::RunError;
+use crate::history_file::STORAGE;
 use crate::observer::Observer;
 use crate::opened::Opened;
 use crate::prepared::Prepared;
@@ -189,6 +190,7 @@ impl PreparedComparison<'_> {
         let usual = Settings::default().record_interval.unwrap_or(0.005);
         Settings {
             record_interval: Some(usual.min(ROWS * self.data.table.step)),
+            storage: STORAGE,
             ..Settings::default()
         }
     }

@@ -6,6 +6,7 @@ mod damage;
 mod given;
 mod indentation;
 mod isolation_bounds;
+mod long_histories;
 mod member_capacity;
 mod registry;
 mod shear_failure;

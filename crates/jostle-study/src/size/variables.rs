@@ -25,6 +25,7 @@ pub(super) struct Variable {
 /// Reads `NAME=LOW..HIGH`, or `NAME` with bounds around the value of the model.
 pub(super) fn read(tree: &ModelTree, text: &str) -> Result<Variable, String> {
     let wrong = |problem: String| {
+        let text = shown(text);
         format!("--vary \"{text}\": {problem}; write it like --vary \"gap.width=10 mm..200 mm\"")
     };
     let (name, bounds) = match text.split_once('=') {
@@ -116,6 +117,15 @@ pub(super) fn study_text(title: &str, variables: &[Variable]) -> String {
     text + "[design]\nsamples = 1\n"
 }
 
+/// What was typed, for a message: of bounded length.
+fn shown(typed: &str) -> String {
+    const LONGEST: usize = 120;
+    match typed.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{}…", &typed[..end]),
+        None => typed.to_owned(),
+    }
+}
+
 /// Faults of that text, at the options instead.
 pub(super) fn at_options(error: StudyError, variables: &[Variable]) -> StudyError {
     let StudyError::Input(errors) = error else {
@@ -142,7 +152,7 @@ pub(super) fn at_options(error: StudyError, variables: &[Variable]) -> StudyErro
                 let rest = rest.replace(".distribution", "");
                 let rest = rest.trim_start_matches([':', '.', ' ']);
                 let between = if rest.is_empty() { "" } else { ": " };
-                fault.path = format!("--vary {}{between}{rest}", variable.name);
+                fault.path = format!("--vary {}{between}{rest}", shown(&variable.name));
             }
             fault.place = None;
         }

@@ -214,7 +214,7 @@ impl Work<'_> {
             return Ok(Some(RecordResult::new(record, summary)));
         }
         let settings = prepared.settings(place.is_some() || self.options.report);
-        prepared.check_memory(settings, self.options.report, None)?;
+        prepared.check_histories(settings, self.options.report, None)?;
         let mut observer = |stage: Stage, progress: jostle::stepping::Progress| {
             let part = (progress.time / progress.duration).clamp(0.0, 1.0);
             let share = match stage {

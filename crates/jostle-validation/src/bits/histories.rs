@@ -60,14 +60,14 @@ pub(super) fn describe(outcome: &Outcome) -> Value {
         .columns()
         .iter()
         .position(|own| *own == Column::TIME);
-    let at = |row: usize| time.map_or(0.0, |time| history.row(row)[time]);
-    let end = at(history.len() - 1);
+    let at = |row: &[f64]| time.map_or(0.0, |time| row[time]);
+    let end = at(&history.row(history.len() - 1));
     let mut spans: [Bits; SPANS] = Default::default();
     let mut kept = vec![Kept::default(); sorted.len()];
-    for row in 0..history.len() {
-        let share = if end > 0.0 { at(row) / end } else { 0.0 };
+    for row in (0..history.len()).map(|row| history.row(row)) {
+        let share = if end > 0.0 { at(&row) / end } else { 0.0 };
         let span = ((share * SPANS as f64) as usize).min(SPANS - 1);
-        for (value, place) in history.row(row).iter().zip(&places) {
+        for (value, place) in row.iter().zip(&places) {
             spans[span].number(*value);
             kept[*place].add(span * PARTS / SPANS, *value);
         }
@@ -132,7 +132,7 @@ fn members(outcome: &Outcome) -> Option<Value> {
     let sections: Vec<&[Value]> = forces.chunks(SECTION_FORCES).collect();
     let mut times = Bits::default();
     for time in history.times() {
-        times.number(*time);
+        times.number(time);
     }
     Some(json!({"members": history.members(), "times": times.short(4), "sections": sections}))
 }

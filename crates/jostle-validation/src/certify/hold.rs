@@ -93,6 +93,7 @@ fn ran(
     let settings = Settings {
         pounding: Pounding::Included,
         record_interval: None,
+        ..Settings::default()
     };
     let mut outcome = simulate(system, motion, &plan, settings, |_| {
         ControlFlow::Continue(())

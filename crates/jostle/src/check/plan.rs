@@ -60,6 +60,7 @@ pub(super) fn check_tiers(faults: &mut Faults, path: &str, tiers: &Tiers, buildi
             format!("has {count} entries for {n} floors; give one per storey from the ground up")
         });
     }
+    let mut plans_are_sound = true;
     for (index, floor) in tiers.floors.iter().enumerate() {
         let of_floor = |field: &str| {
             if n > 1 {
@@ -72,6 +73,7 @@ pub(super) fn check_tiers(faults: &mut Faults, path: &str, tiers: &Tiers, buildi
         faults.positive(floor.polar_mass, of_floor("polar_mass"), "kg.m2");
         if let Some(problem) = polygon_fault(&floor.plan) {
             faults.add(of_floor("plan"), problem);
+            plans_are_sound = false;
             continue;
         }
         faults.require(
@@ -113,6 +115,8 @@ pub(super) fn check_tiers(faults: &mut Faults, path: &str, tiers: &Tiers, buildi
         );
     }
     let together = (0..n).filter_map(|index| Some((index, tiers.initial_storey(index)?)));
+    // What a plan with a fault leaves unknown is no other fault.
+    let known = |value: f64| plans_are_sound || !value.is_nan();
     for (index, storey) in together {
         let field = if n > 1 {
             format!("{path}.stiffness[{index}]")
@@ -125,6 +129,7 @@ pub(super) fn check_tiers(faults: &mut Faults, path: &str, tiers: &Tiers, buildi
             ("torsion", storey.stiffness[2], "N.m/rad"),
         ] {
             let usable = value.is_finite() && (value > 0.0 || has_frames && value == 0.0);
+            let usable = usable || !known(value);
             let remedy = match key {
                 "torsion" => "; with elements, put two of them at different points",
                 _ => "",
@@ -134,7 +139,7 @@ pub(super) fn check_tiers(faults: &mut Faults, path: &str, tiers: &Tiers, buildi
             });
         }
         faults.require(
-            storey.centre.iter().all(|value| value.is_finite()),
+            (storey.centre.iter()).all(|value| value.is_finite() || !known(*value)),
             at("eccentricity"),
             || "must be finite".into(),
         );

@@ -6,9 +6,12 @@ use crate::system::System;
 
 pub use column::{Column, EnergyTerm, Kind, Owner, Recorded};
 pub use peaks::{Peak, Peaks, PeaksOf};
+use rows::Rows;
+pub use rows::{BlockStore, Storage};
 
 mod column;
 mod peaks;
+mod rows;
 
 /// Time histories at the recorded instants: one row per instant, one column per quantity.
 ///
@@ -24,30 +27,38 @@ mod peaks;
 #[derive(Clone, Debug, PartialEq)]
 pub struct History {
     columns: Vec<Column>,
-    values: Vec<f64>,
+    rows: Rows,
 }
 
 impl History {
-    /// An empty history of the given columns.
+    /// An empty history of the given columns in memory.
     #[must_use]
     pub fn new(columns: Vec<Column>) -> Self {
-        Self {
-            columns,
-            values: Vec::new(),
-        }
+        Self::kept_in(Storage::MEMORY, columns)
     }
 
-    /// A history from given values, row after row.
+    /// An empty history.
+    pub(crate) fn kept_in(storage: Storage, columns: Vec<Column>) -> Self {
+        let rows = Rows::new(columns.len(), storage);
+        Self { columns, rows }
+    }
+
+    /// A history in memory from given values, row after row.
     ///
     /// # Panics
     /// If the number of values is not a multiple of the number of columns.
     #[must_use]
     pub fn from_rows(columns: Vec<Column>, values: Vec<f64>) -> Self {
+        let width = columns.len().max(1);
         assert!(
-            values.len().is_multiple_of(columns.len().max(1)),
+            values.len().is_multiple_of(width),
             "every row has one value per column"
         );
-        Self { columns, values }
+        let mut history = Self::new(columns);
+        for row in values.chunks(width) {
+            history.push_row().copy_from_slice(row);
+        }
+        history
     }
 
     /// The recorded quantities, in the order of the values of a row.
@@ -59,45 +70,48 @@ impl History {
     /// Number of recorded instants.
     #[must_use]
     pub fn len(&self) -> usize {
-        self.values.len() / self.columns.len().max(1)
+        self.rows.len()
     }
 
     /// Whether nothing was recorded.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.values.is_empty()
+        self.len() == 0
     }
 
-    /// The values of one column over time; `None` if it was not recorded.
+    /// The values of one column over time; `None` if it was not recorded. What cannot be read back is zero, and
+    /// [`Self::fault`] says so.
     #[must_use]
     pub fn column(&self, column: Column) -> Option<Vec<f64>> {
         let index = self.columns.iter().position(|c| *c == column)?;
-        Some(
-            self.values
-                .iter()
-                .skip(index)
-                .step_by(self.columns.len())
-                .copied()
-                .collect(),
-        )
+        Some(self.rows.column(index))
     }
 
-    /// The values of one instant, in the order of the columns.
+    /// The values of one instant, in the order of the columns. Of a long history, [`Self::column`] is quicker.
     #[must_use]
-    pub fn row(&self, index: usize) -> &[f64] {
-        &self.values[index * self.columns.len()..(index + 1) * self.columns.len()]
+    pub fn row(&self, index: usize) -> Vec<f64> {
+        self.rows.row(index)
+    }
+
+    /// Why values could not be read back, and the remedy, as the end of a sentence. Usually there is no such fault.
+    #[must_use]
+    pub fn fault(&self) -> Option<&str> {
+        self.rows.unread()
+    }
+
+    /// Why instants could not be stored, such as a full disk, and the remedy, as the end of a sentence.
+    pub(crate) fn unstored(&self) -> Option<&str> {
+        self.rows.unstored()
     }
 
     /// Appends a row for one more instant and returns it.
     pub(crate) fn push_row(&mut self) -> &mut [f64] {
-        let start = self.values.len();
-        self.values.resize(start + self.columns.len(), 0.0);
-        &mut self.values[start..]
+        self.rows.push()
     }
 
     /// Reserves memory for `rows` further instants.
     pub(crate) fn reserve(&mut self, rows: usize) {
-        self.values.reserve(rows * self.columns.len());
+        self.rows.reserve(rows);
     }
 }
 
@@ -313,50 +327,57 @@ pub struct Work {
     pub repeated_runs: u64,
 }
 
-/// Deformation and force of every spring that yields at the instants of a [`History`], in single precision.
-#[derive(Clone, Debug, Default, PartialEq)]
+/// Deformation and force of every spring that yields at the instants of a [`History`].
+#[derive(Clone, Debug, PartialEq)]
 pub struct SpringHistory {
-    springs: usize,
-    values: Vec<[f32; 2]>,
+    rows: Rows,
 }
 
 impl SpringHistory {
-    pub(crate) fn new(springs: usize) -> Self {
+    pub(crate) fn new(springs: usize, storage: Storage) -> Self {
         Self {
-            springs,
-            values: Vec::new(),
+            rows: Rows::new(2 * springs, storage),
         }
     }
 
     pub(crate) fn push(&mut self, memories: &[HysteresisMemory]) {
-        let row = memories.iter();
-        self.values
-            .extend(row.map(|memory| [memory.deformation() as f32, memory.force() as f32]));
+        let row = self.rows.push().chunks_mut(2);
+        for (values, memory) in row.zip(memories) {
+            values.copy_from_slice(&[memory.deformation(), memory.force()]);
+        }
     }
 
     pub(crate) fn reserve(&mut self, rows: usize) {
-        self.values.reserve(rows * self.springs);
+        self.rows.reserve(rows);
+    }
+
+    /// See [`History::fault`].
+    #[must_use]
+    pub fn fault(&self) -> Option<&str> {
+        self.rows.unread()
+    }
+
+    /// See [`History::unstored`].
+    pub(crate) fn unstored(&self) -> Option<&str> {
+        self.rows.unstored()
     }
 
     /// Deformation \[rad or m\] and force \[N·m or N\] of a spring, counted from the left building on, at every
-    /// instant.
-    pub fn of_spring(&self, spring: usize) -> impl Iterator<Item = [f32; 2]> + '_ {
-        self.values
-            .iter()
-            .skip(spring)
-            .step_by(self.springs.max(1))
-            .copied()
+    /// instant, in single precision.
+    pub fn of_spring(&self, spring: usize) -> impl Iterator<Item = [f32; 2]> + use<> {
+        let [deformations, forces] = [0, 1].map(|part| self.rows.column(2 * spring + part));
+        let pairs = deformations.into_iter().zip(forces);
+        pairs.map(|(deformation, force)| [deformation as f32, force as f32])
     }
 }
 
 /// Axial force, shear and moment of members over time, then shear and moment in the plane across and torque, which are zero beyond
 /// space frames, at the instants of a [`History`] \[N, N, N·m, N, N·m, N·m\].
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct MemberHistory {
     members: Vec<[usize; 2]>,
-    sections: usize,
-    times: Vec<f64>,
-    values: Vec<[f64; SECTION_FORCES]>,
+    /// Instants, then the forces of section after section.
+    rows: Rows,
 }
 
 /// Forces at a section of a member.
@@ -364,45 +385,56 @@ pub const SECTION_FORCES: usize = 6;
 
 impl MemberHistory {
     /// Of these members: building, and member of its forces; `None` if there are none.
-    pub(crate) fn new(system: &System) -> Option<Self> {
-        let members = system.members_followed.clone();
+    pub(crate) fn new(system: &System, storage: Storage) -> Option<Self> {
+        let width = Self::width(system);
+        (width > 0).then(|| Self {
+            members: system.members_followed.clone(),
+            rows: Rows::new(width, storage),
+        })
+    }
+
+    /// Numbers of a row; zero if no members are followed.
+    pub(crate) fn width(system: &System) -> usize {
+        let members = &system.members_followed;
         let sections = |[building, member]: &[usize; 2]| {
             let forces = &system.buildings[*building].members;
             forces.members[*member].sections.len()
         };
-        let sections = members.iter().map(sections).sum();
-        (!members.is_empty()).then(|| Self {
-            members,
-            sections,
-            times: Vec::new(),
-            values: Vec::new(),
-        })
-    }
-
-    /// Size of a row \[bytes\].
-    pub(crate) fn row_bytes(&self) -> usize {
-        8 * (1 + SECTION_FORCES * self.sections)
+        let sections: usize = members.iter().map(sections).sum();
+        usize::from(!members.is_empty()) + SECTION_FORCES * sections
     }
 
     /// Adds an instant \[s\]; `values`: those of all forms, building by building.
     pub(crate) fn push(&mut self, system: &System, time: f64, values: &[Vec<f64>]) {
-        self.times.push(time);
-        for [building, member] in &self.members {
+        let (instant, row) = self.rows.push().split_at_mut(1);
+        instant[0] = time;
+        let members = self.members.iter();
+        let sections = members.flat_map(|[building, member]| {
             let forces = &system.buildings[*building].members;
             let sections = forces.members[*member].sections.iter();
-            let own = &values[*building];
-            self.values.extend(sections.map(|section| {
-                let [axial, shear, moment] = section.forms.map(|form| own[form]);
-                let across = section.across.map(|forms| forms.map(|form| own[form]));
-                let [shear_across, moment_across, torque] = across.unwrap_or_default();
-                [axial, shear, moment, shear_across, moment_across, torque]
-            }));
+            sections.map(|section| (section, &values[*building]))
+        });
+        for (forces, (section, values)) in row.chunks_mut(SECTION_FORCES).zip(sections) {
+            let [axial, shear, moment] = section.forms.map(|form| values[form]);
+            let across = section.across.map(|forms| forms.map(|form| values[form]));
+            let [shear_across, moment_across, torque] = across.unwrap_or_default();
+            forces.copy_from_slice(&[axial, shear, moment, shear_across, moment_across, torque]);
         }
     }
 
     pub(crate) fn reserve(&mut self, rows: usize) {
-        self.times.reserve(rows);
-        self.values.reserve(rows * self.sections);
+        self.rows.reserve(rows);
+    }
+
+    /// See [`History::fault`].
+    #[must_use]
+    pub fn fault(&self) -> Option<&str> {
+        self.rows.unread()
+    }
+
+    /// See [`History::unstored`].
+    pub(crate) fn unstored(&self) -> Option<&str> {
+        self.rows.unstored()
     }
 
     /// Members that it follows: building, and member of its forces.
@@ -411,15 +443,44 @@ impl MemberHistory {
         &self.members
     }
 
-    /// Recorded instants \[s\].
+    /// Number of recorded instants.
     #[must_use]
-    pub fn times(&self) -> &[f64] {
-        &self.times
+    pub fn len(&self) -> usize {
+        self.rows.len()
     }
 
-    /// Forces of the sections of all members at every instant, in the order of the members.
-    pub fn rows(&self) -> impl Iterator<Item = &[[f64; SECTION_FORCES]]> {
-        self.values.chunks(self.sections.max(1))
+    /// Whether nothing was recorded.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Number of sections of all members.
+    #[must_use]
+    pub fn sections(&self) -> usize {
+        self.rows.width() / SECTION_FORCES
+    }
+
+    /// Recorded instants \[s\].
+    #[must_use]
+    pub fn times(&self) -> Vec<f64> {
+        self.rows.column(0)
+    }
+
+    /// One force of a section at every instant; sections count through all members in their order, forces up to
+    /// [`SECTION_FORCES`].
+    #[must_use]
+    pub fn force(&self, section: usize, force: usize) -> Vec<f64> {
+        self.rows.column(1 + SECTION_FORCES * section + force)
+    }
+
+    /// Forces of the sections of all members at every instant, in the order of the members. Of a long history,
+    /// [`Self::force`] is quicker.
+    pub fn rows(&self) -> impl Iterator<Item = Vec<[f64; SECTION_FORCES]>> + '_ {
+        (0..self.len()).map(|index| {
+            let row = self.rows.row(index);
+            row[1..].as_chunks().0.to_vec()
+        })
     }
 }
 

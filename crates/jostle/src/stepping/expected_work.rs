@@ -30,12 +30,14 @@ const TIME_OF_ONE: f64 = 2e-8;
 pub struct HistorySize {
     /// Expected rows, without those of closed contacts.
     pub rows: f64,
-    /// Memory of a row \[bytes\].
+    /// Size of a row of all histories \[bytes\].
     pub row_bytes: f64,
+    /// The part of [`History`](crate::History), without loops of springs and forces of members \[bytes\].
+    pub table_bytes: f64,
 }
 
 impl HistorySize {
-    /// Expected memory \[bytes\].
+    /// Expected size \[bytes\].
     #[must_use]
     pub fn bytes(&self) -> f64 {
         self.rows * self.row_bytes
@@ -65,12 +67,13 @@ impl Plan {
         let rows = steps.min(motion.duration / interval) + 1.0;
         let grounds = RunGrounds::new(system, motion);
         let springs = system.buildings.iter().map(|b| b.equations.springs.len());
-        // Of springs moment and rotation in single precision.
-        let numbers = columns(system, &grounds).len() + springs.sum::<usize>();
-        let members = MemberHistory::new(system).map_or(0, |members| members.row_bytes());
+        let columns = columns(system, &grounds).len();
+        // Of springs deformation and force.
+        let others = 2 * springs.sum::<usize>() + MemberHistory::width(system);
         Some(HistorySize {
             rows,
-            row_bytes: (8 * numbers + members) as f64,
+            row_bytes: (8 * (columns + others)) as f64,
+            table_bytes: (8 * columns) as f64,
         })
     }
 }

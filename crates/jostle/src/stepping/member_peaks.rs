@@ -1,5 +1,6 @@
 //! Forces of columns and beams: greatest and least values, and histories.
 
+use super::Settings;
 use super::member_ratios::MemberRatios;
 use crate::history::MemberHistory;
 use crate::state::State;
@@ -18,14 +19,16 @@ pub(crate) struct MemberPeaks {
 }
 
 impl MemberPeaks {
-    /// `records`: whether histories are recorded.
-    pub(crate) fn new(system: &System, records: bool) -> Self {
+    /// With histories if the settings of the run say so.
+    pub(crate) fn new(system: &System, settings: Settings) -> Self {
         let sizes = || system.buildings.iter().map(|b| b.members.forms.len());
         Self {
             extremes: sizes()
                 .map(|n| vec![[f64::NEG_INFINITY, f64::INFINITY]; n])
                 .collect(),
-            history: MemberHistory::new(system).filter(|_| records),
+            history: settings
+                .record_interval
+                .and_then(|_| MemberHistory::new(system, settings.storage)),
             ratios: MemberRatios::new(system),
             values: sizes().map(|n| vec![0.0; n]).collect(),
             asked: sizes().any(|n| n > 0),

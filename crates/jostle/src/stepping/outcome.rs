@@ -8,7 +8,7 @@ use super::plan::Plan;
 use super::refined::Refined;
 use crate::history::{
     Energy, FaceImpact, History, Impact, MemberHistory, Peaks, SectionRatio, SpringEvent,
-    SpringHistory, Work, WorstInstant,
+    SpringHistory, Storage, Work, WorstInstant,
 };
 use crate::linear::NotPositive;
 use crate::model::ROW_INTERVAL;
@@ -21,7 +21,7 @@ use crate::system::{BuildingSystem, System};
 /// use jostle::{Pounding, Settings};
 ///
 /// // Peaks and impacts only, buildings that pass through each other.
-/// let settings = Settings { pounding: Pounding::Excluded, record_interval: None };
+/// let settings = Settings { pounding: Pounding::Excluded, record_interval: None, ..Settings::default() };
 /// assert_ne!(settings, Settings::default());
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,6 +31,8 @@ pub struct Settings {
     /// Least time between recorded instants in free vibration, zero for every step; every step of a closed contact
     /// is recorded. `None` records no histories \[s\].
     pub record_interval: Option<f64>,
+    /// Where histories are kept.
+    pub storage: Storage,
 }
 
 impl Default for Settings {
@@ -38,6 +40,7 @@ impl Default for Settings {
         Self {
             pounding: Pounding::Included,
             record_interval: Some(ROW_INTERVAL),
+            storage: Storage::MEMORY,
         }
     }
 }
@@ -272,6 +275,14 @@ pub enum StepError {
         /// Time \[s\].
         time: f64,
     },
+    /// A row of the histories could not be kept.
+    #[error("histories cannot be kept from t = {time:.3} s on: {reason}")]
+    HistoryNotKept {
+        /// Time \[s\].
+        time: f64,
+        /// What the store says, with the remedy.
+        reason: String,
+    },
     /// Contacts close and open repeatedly without progress in time.
     #[error(
         "contacts close and open endlessly at t = {time:.6} s; a smaller contact_step or a softer contact may help"
@@ -283,6 +294,15 @@ pub enum StepError {
 }
 
 impl Outcome {
+    /// Why histories could not be read back, and the remedy, as the end of a sentence. Usually there is no such fault.
+    #[must_use]
+    pub fn history_fault(&self) -> Option<&str> {
+        let history = self.history.as_ref().and_then(History::fault);
+        let springs = self.spring_history.as_ref().and_then(SpringHistory::fault);
+        let members = self.member_history.as_ref().and_then(MemberHistory::fault);
+        history.or(springs).or(members)
+    }
+
     /// Results of a run that could not start.
     pub(crate) fn not_begun(system: &System, error: StepError) -> Self {
         let ratios = MemberRatios::new(system);

@@ -1,5 +1,6 @@
 //! Histories of runs over all displacements, row by row.
 
+use super::Settings;
 use super::energy::EnergyAudit;
 use crate::history::{Column, Energy, EnergyTerm, History, SpringHistory};
 use crate::state::{ContactPhase, State};
@@ -75,15 +76,16 @@ pub(crate) fn columns(system: &System, grounds: &RunGrounds<'_>) -> Vec<Column> 
 }
 
 impl Recorder {
-    /// Records histories at least `interval` apart, every step for zero; `None` records nothing.
-    pub(crate) fn new(system: &System, grounds: &RunGrounds<'_>, interval: Option<f64>) -> Self {
+    /// Records histories as the settings of the run say.
+    pub(crate) fn new(system: &System, grounds: &RunGrounds<'_>, settings: Settings) -> Self {
+        let (interval, storage) = (settings.record_interval, settings.storage);
         let springs = system.buildings.iter();
         let springs: usize = springs.map(|own| own.equations.springs.len()).sum();
         Self {
-            history: interval.map(|_| History::new(columns(system, grounds))),
+            history: interval.map(|_| History::kept_in(storage, columns(system, grounds))),
             springs: interval
                 .filter(|_| springs > 0)
-                .map(|_| SpringHistory::new(springs)),
+                .map(|_| SpringHistory::new(springs, storage)),
             interval: interval.unwrap_or(0.0),
             due: 0.0,
         }
@@ -97,6 +99,15 @@ impl Recorder {
         if let Some(springs) = &mut self.springs {
             springs.reserve(rows);
         }
+    }
+
+    /// Why a row could not be kept.
+    pub(crate) fn unstored(&self) -> Option<&str> {
+        let springs = self.springs.as_ref().and_then(SpringHistory::unstored);
+        self.history
+            .as_ref()
+            .and_then(History::unstored)
+            .or(springs)
     }
 
     pub(crate) fn into_history(self) -> Option<History> {

@@ -6,6 +6,7 @@ use super::direct::{run_directly, within_tolerance};
 use super::outcome::{OnProgress, Outcome, Progress, Settings, StepError};
 use super::plan::Plan;
 use super::{modal, series};
+use crate::history::Storage;
 use crate::model::Solver;
 use crate::motion::GroundMotion;
 use crate::state::State;
@@ -116,6 +117,7 @@ pub(super) fn simulate_like(
     let shorter = outcome.free_step.filter(|step| *step < plan.step);
     let settings = Settings {
         record_interval: shorter.filter(|_| plan.solver == Solver::Series),
+        storage: Storage::NOWHERE,
         ..Settings::default()
     };
     let rest = || State::at_rest_on(system, motion);

@@ -148,6 +148,7 @@ fn never_more_often(model: &Model) {
         let settings = Settings {
             pounding,
             record_interval: None,
+            ..Settings::default()
         };
         let mut impacts = 0;
         let taken = allocation_counter::measure(|| {

@@ -18,6 +18,7 @@ pub(super) use within_tolerance::within_tolerance;
 
 use std::ops::Range;
 
+use crate::history::MemberHistory;
 use crate::interface::PortPair;
 use crate::model::Integrator;
 use crate::motion::{Ground, GroundMotion};
@@ -113,8 +114,8 @@ impl Direct {
         let joints = Joints::new(system);
         let links = Links::starting_from(system, &state);
         let steps = motion.duration / plan.step;
-        let mut recorder = Recorder::new(system, &run.grounds, settings.record_interval);
-        let mut members = MemberPeaks::new(system, settings.record_interval.is_some());
+        let mut recorder = Recorder::new(system, &run.grounds, settings);
+        let mut members = MemberPeaks::new(system, settings);
         let rows = settings
             .record_interval
             .map_or(0.0, |interval| motion.duration / plan.step.max(interval));
@@ -342,6 +343,12 @@ impl Stepper for Direct {
     fn record_start(&mut self, run: &mut RunState<'_>) {
         self.follow_members(run);
         self.record(run, true);
+    }
+
+    fn history_fault(&self) -> Option<&str> {
+        let members = self.members.history.as_ref();
+        let members = members.and_then(MemberHistory::unstored);
+        self.recorder.unstored().or(members)
     }
 
     fn closing(&self, run: &RunState<'_>, contact: usize) -> f64 {

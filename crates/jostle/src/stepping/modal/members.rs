@@ -15,6 +15,7 @@ use crate::history::MemberHistory;
 use crate::linear::{Row, sort_by_key};
 use crate::simd;
 use crate::state::ContactPhase;
+use crate::stepping::Settings;
 use crate::stepping::member_ratios::MemberRatios;
 use crate::structure::MemberSection;
 use crate::system::{BuildingSystem, GroundsAt, System};
@@ -314,7 +315,7 @@ pub(super) struct MemberPeaks {
     is_linked: bool,
     kept: KeptSteps,
     time: f64,
-    history: Option<MemberHistory>,
+    pub(super) history: Option<MemberHistory>,
     /// Demand over capacity of those that are rated.
     ratios: Option<ModalRatios>,
     /// Values of all forms at a row of the history, and whether it is wanted.
@@ -340,7 +341,7 @@ pub(super) const fn tests_look_always() -> bool {
 
 impl MemberPeaks {
     /// `None` where no forces are asked for.
-    pub(super) fn new(system: &System, reduced: &Reduced, records: bool) -> Option<Self> {
+    pub(super) fn new(system: &System, reduced: &Reduced, settings: Settings) -> Option<Self> {
         let [own, passed] = reduced.buildings.last()?.members.ends();
         if own + passed == 0 {
             return None;
@@ -367,7 +368,9 @@ impl MemberPeaks {
             is_linked: !reduced.links.is_empty(),
             kept: KeptSteps::new(reduced, system.contacts.len()),
             time: 0.0,
-            history: MemberHistory::new(system).filter(|_| records),
+            history: settings
+                .record_interval
+                .and_then(|_| MemberHistory::new(system, settings.storage)),
             ratios: ModalRatios::new(system, reduced),
             row: sizes().map(|n| vec![0.0; n]).collect(),
             wanted,

@@ -11,6 +11,7 @@ use super::reduced::Reduced;
 use super::turning::{NEAR_GREATEST, StepMotion};
 use crate::history::{self, Column, Energy, Extreme, History, Kind, Owner, Peak};
 use crate::motion::Ground;
+use crate::stepping::Settings;
 use crate::stepping::events::Cubic;
 pub(super) use crate::stepping::extremes::BEYOND;
 use crate::stepping::extremes::greatest_in_step;
@@ -92,9 +93,10 @@ impl Peaks {
         system: &System,
         grounds: &RunGrounds<'_>,
         reduced: &Reduced,
-        interval: Option<f64>,
+        settings: Settings,
         tolerance: f64,
     ) -> Self {
+        let interval = settings.record_interval;
         let (watched, listed) = (reduced.watched(), reduced.listed());
         let mut spare = vec![0.0; listed];
         let driven = reduced.participations().map(|participations| {
@@ -106,7 +108,7 @@ impl Peaks {
             shown
         });
         Self {
-            history: interval.map(|_| History::new(columns(system, grounds))),
+            history: interval.map(|_| History::kept_in(settings.storage, columns(system, grounds))),
             interval: interval.unwrap_or(0.0),
             due: 0.0,
             floors: system
@@ -154,7 +156,7 @@ impl Peaks {
                 velocities: vec![0.0; reduced.modes()],
                 accelerations: vec![0.0; reduced.modes()],
             },
-            members: MemberPeaks::new(system, reduced, interval.is_some()),
+            members: MemberPeaks::new(system, reduced, settings),
             seen: vec![false; watched / ROWS],
         }
     }
@@ -186,6 +188,16 @@ impl Peaks {
         let closings = self.closing.iter().enumerate();
         all.extend(closings.map(|(contact, own)| (Column::closing(contact), (*own).into())));
         all.into_iter().collect()
+    }
+
+    /// Why a row of the histories could not be kept.
+    pub(super) fn history_fault(&self) -> Option<&str> {
+        let members = self.members.as_ref();
+        let members = members.and_then(|own| own.history.as_ref()?.unstored());
+        self.history
+            .as_ref()
+            .and_then(History::unstored)
+            .or(members)
     }
 
     pub(super) fn into_history(self) -> Option<History> {

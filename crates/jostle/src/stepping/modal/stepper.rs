@@ -126,13 +126,7 @@ impl<'a> ModalStepper<'a> {
         let rows = settings
             .record_interval
             .map_or(0.0, |interval| motion.duration / plan.step.max(interval));
-        let mut peaks = Peaks::new(
-            system,
-            &run.grounds,
-            reduced,
-            settings.record_interval,
-            plan.tolerance(),
-        );
+        let mut peaks = Peaks::new(system, &run.grounds, reduced, settings, plan.tolerance());
         peaks.reserve((1.2 * rows + 100.0).min(1e6) as usize);
         let mut acceleration = pair(watched);
         // At rest on moving ground buildings stay behind.
@@ -469,6 +463,10 @@ impl Stepper for ModalStepper<'_> {
             self.accelerations();
         }
         self.take_row(run, true, &energy);
+    }
+
+    fn history_fault(&self) -> Option<&str> {
+        self.peaks.history_fault()
     }
 
     fn take_free_steps(&mut self, run: &mut RunState<'_>) -> bool {

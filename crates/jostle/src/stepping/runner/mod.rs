@@ -49,14 +49,24 @@ impl<S: Stepper> Runner<'_, S> {
                     return RunEnd::Stopped;
                 }
             }
-            if self.stepper.take_free_steps(&mut self.run) {
-                continue;
-            }
-            if let Err(error) = self.step() {
+            let stepped = match self.stepper.take_free_steps(&mut self.run) {
+                true => Ok(()),
+                false => self.step(),
+            };
+            if let Err(error) = stepped.and_then(|()| self.check_histories()) {
                 return RunEnd::Failed(error);
             }
         }
         RunEnd::Completed
+    }
+
+    /// Ends a run whose histories cannot be kept.
+    fn check_histories(&self) -> Result<(), StepError> {
+        let time = self.run.time;
+        let fault = self.stepper.history_fault().map(str::to_owned);
+        fault.map_or(Ok(()), |reason| {
+            Err(StepError::HistoryNotKept { time, reason })
+        })
     }
 
     /// Steps between calls of the observer: fewer if steps take long.

@@ -30,6 +30,9 @@ pub(in crate::stepping) trait Stepper {
     /// Records the start of the run.
     fn record_start(&mut self, run: &mut RunState<'_>);
 
+    /// Why a row of the histories could not be kept.
+    fn history_fault(&self) -> Option<&str>;
+
     /// Takes several steps at once in which nothing touches; false where there are none.
     fn take_free_steps(&mut self, run: &mut RunState<'_>) -> bool {
         let _ = run;

@@ -97,7 +97,7 @@ impl SeriesStepper {
             work: spring.hysteresis.recoverable_energy(memory),
         });
         let contacts = system.contacts.iter().map(|contact| &contact.ports);
-        let mut recorder = Recorder::new(system, &run.grounds, settings.record_interval);
+        let mut recorder = Recorder::new(system, &run.grounds, settings);
         let rows = settings
             .record_interval
             .map_or(0.0, |interval| motion.duration / plan.step.max(interval));
@@ -360,6 +360,10 @@ impl Stepper for SeriesStepper {
 
     fn record_start(&mut self, run: &mut RunState<'_>) {
         self.record(run, true);
+    }
+
+    fn history_fault(&self) -> Option<&str> {
+        self.recorder.unstored()
     }
 
     fn closing(&self, run: &RunState<'_>, contact: usize) -> f64 {

@@ -51,7 +51,7 @@ impl Recorded {
         all.resize_with(history.members().len(), Self::default);
         for (time, row) in history.times().iter().zip(history.rows()) {
             for ((member, at), [axial, shear, moment, ..]) in sections.iter().zip(row) {
-                all[*member].0.push((*time, at, [*axial, *shear, *moment]));
+                all[*member].0.push((*time, at, [axial, shear, moment]));
             }
         }
         let names = history.members().iter().map(|[index, member]| {

@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
-use jostle::history::{Column, Kind};
+use jostle::history::{Column, Kind, Storage};
 use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule, Pinching};
 use jostle::stepping::simulate_from;
 use jostle::{
@@ -75,6 +75,7 @@ fn at_tolerance(tolerance: f64) -> Analysis {
 const PEAKS: Settings = Settings {
     pounding: jostle::Pounding::Included,
     record_interval: None,
+    storage: Storage::MEMORY,
 };
 
 fn go(system: &System, motion: &GroundMotion, plan: &Plan) -> Outcome {

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
-use jostle::history::{Kind, Owner};
+use jostle::history::{Kind, Owner, Storage};
 use jostle::interface::Contact;
 use jostle::stepping::{ContactSteps, simulate_from};
 use jostle::structure::{Discretization, Node, Spring, StickModel, Support};
@@ -211,6 +211,7 @@ pub(crate) fn steps(step: f64, division: u32) -> Plan {
 pub(crate) const EVERYTHING: Settings = Settings {
     pounding: Pounding::Included,
     record_interval: Some(0.0),
+    storage: Storage::MEMORY,
 };
 
 /// Runs from rest to the end.
