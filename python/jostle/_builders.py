@@ -350,10 +350,12 @@ class SpaceFrame(Part):
         lines_x: where the grid lines across stand along x, from the origin of the plan, rising.
         lines_y: where the grid lines along x stand, from the origin of the plan across, rising.
         column: columns at the crossings: ``{"size": ["500 mm", "500 mm"]}``, sizes along x and across, or a list of such tables, each
-            with ``"x"``, ``"y"`` and ``"storeys"`` for the places where it holds; later ones replace earlier ones.
+            with ``"x"``, ``"y"`` and ``"storeys"`` for the places where it holds; later ones replace earlier ones. Bars, for fibres:
+            ``"steel": "HRB400", "bars": "12 d20"``.
         beam_x: beams along x: ``{"width": "300 mm", "depth": "600 mm"}``, or a list likewise.
         beam_y: beams across, likewise.
         mass: floor masses from the ground up, or one for all, with beams and columns.
+        floor_load: weight that the columns carry beyond that of the masses: one, or a list from the ground up.
         storeys: number of storeys, 1 to 200; not needed with a list per storey.
         storey_height: one length, or a list from the ground up; 3 m by default.
         elastic_modulus: modulus of elasticity.
@@ -366,7 +368,9 @@ class SpaceFrame(Part):
             ``{"columns": …, "beams": …}``.
         poisson_ratio: for the shear modulus, 0.2 by default.
         hinges: plastic hinges at the ends of columns, about both axes, and of beams; without them the frame is elastic:
-            ``{"rule": "bilinear", "column": {"x": {"yield": "300 kN.m", "post_yield": 0.02}, "y": {…}}, "beam": {…}}``.
+            ``{"rule": "bilinear", "column": {"x": {"yield": "300 kN.m", "post_yield": 0.02}, "y": {…}}, "beam": {…}}``. With
+            ``{"rule": "fibre", "length": "0.4 m", "fibres": [20, 16]}`` the ends of columns with bars are fibres, whose strength follows
+            the axial force and the moment about the other axis.
         angle: angle from x of the site to the lines along x, counter-clockwise, 0 by default.
         plan: width along x and depth across, ``["20 m", "12 m"]``, corners counter-clockwise, or a list of ``{"size": …}`` or
             ``{"corners": …}`` from the ground up; the rectangle of the outer lines by default.
@@ -381,7 +385,8 @@ class SpaceFrame(Part):
             hinges.
         isolation: bearings and a mat under the building, such as ``{"kind": "lead-rubber", "mat_mass": "150 t", …}``; with
             ``"bounds": {"lower": 0.85, "upper": 1.3}`` a run also makes those at both bounds of the bearings.
-        p_delta: whether P-Delta from the weight above is included; ``False`` by default.
+        gravity: whether the run starts from the displacements under self weight; ``False`` by default. Fibres need it.
+        p_delta: whether P-Delta from the weight above is included; ``False`` by default, ``True`` with hinges.
         elevation: height of the base above a datum that all buildings share, 0 by default; neighbours face each other by it.
         position: place along the row, for ``apparent_velocity`` and ``coherency`` of the motion.
         motion: the ground under this building, if it differs: ``{"arrival": "30 ms"}``, ``{"record": …, "scale": …}``.
@@ -406,6 +411,7 @@ class SpaceFrame(Part):
         beam_x: Table | Sequence[Table] | None = None,
         beam_y: Table | Sequence[Table] | None = None,
         mass: Quantities | None = None,
+        floor_load: Quantities | None = None,
         storeys: int | None = None,
         storey_height: Quantities | None = None,
         elastic_modulus: Quantity | None = None,
@@ -426,6 +432,7 @@ class SpaceFrame(Part):
         element: Sequence[Any] | None = None,
         damping: Table | None = None,
         isolation: Table | None = None,
+        gravity: bool | None = None,
         p_delta: bool | None = None,
         elevation: Quantity | None = None,
         position: Quantity | None = None,
@@ -445,6 +452,7 @@ class SpaceFrame(Part):
                 "beam_x": _sections(beam_x),
                 "beam_y": _sections(beam_y),
                 "mass": mass,
+                "floor_load": floor_load,
                 "storeys": storeys,
                 "storey_height": storey_height,
                 "elastic_modulus": elastic_modulus,
@@ -465,6 +473,7 @@ class SpaceFrame(Part):
                 "element": element,
                 "damping": damping,
                 "isolation": isolation,
+                "gravity": gravity,
                 "p_delta": p_delta,
                 "elevation": elevation,
                 "position": position,

@@ -134,7 +134,17 @@ const FIBRES: &str = "FIBRES";
 /// Hinges of these.
 const HINGES_OF_FIBRES: &str = "hinges = { rule = \"fibre\", length = \"0.4 m\" }\n";
 
-/// All keys of these.
+/// All keys of these, where they are possible.
+fn of_fibres(kind: &str) -> Option<&'static str> {
+    match kind {
+        "frame" => Some(OF_FIBRES),
+        "space-frame" => Some(OF_FIBRES_IN_SPACE),
+        _ => None,
+    }
+}
+
+const OF_FIBRES_IN_SPACE: &str = "column = { size = [0.5, 0.5], steel = \"HRB400\", bars = \"12 d20\" }\ngravity = true\nhinges = { rule = \"fibre\", length = \"0.4 m\" }\n";
+
 const OF_FIBRES: &str = "column = { width = 0.5, depth = 0.5, concrete = \"C30\", steel = \"HRB400\", bars = \"12 d20\" }\naxial = \"flexible\"\ngravity = true\nhinges = { rule = \"fibre\", length = \"0.4 m\" }\n";
 
 #[rustfmt::skip]
@@ -280,7 +290,7 @@ fn model(kind: usize, feature: &Feature) -> String {
         };
         let columns = match feature.keys {
             COLUMNS => Some(BY_LINE[kind]),
-            FIBRES if kind == 0 => Some(OF_FIBRES),
+            FIBRES => of_fibres(own.name),
             _ => None,
         };
         let (keys, own_tables) = match columns {
@@ -299,12 +309,12 @@ fn model(kind: usize, feature: &Feature) -> String {
                     .replace("spans", &format!("{}spans", YIELDING[0])),
             ),
             OWN_WORDS => (YIELDING[kind], own.tables.to_owned()),
-            FIBRES if kind > 0 && YIELDING[kind].is_empty() => (
+            FIBRES if columns.is_none() && YIELDING[kind].is_empty() => (
                 "",
                 own.tables
                     .replace("spans", &format!("{HINGES_OF_FIBRES}spans")),
             ),
-            FIBRES if kind > 0 => (HINGES_OF_FIBRES, own.tables.to_owned()),
+            FIBRES if columns.is_none() => (HINGES_OF_FIBRES, own.tables.to_owned()),
             // Frames at lines of a plan have theirs in their tables.
             _ if columns.is_some() && own.tables.contains("column =") => ("", own_tables),
             _ if columns.is_some() => (columns.unwrap_or_default(), own_tables),

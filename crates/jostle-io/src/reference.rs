@@ -465,6 +465,7 @@ fn value(key: &Key) -> String {
         Kind::TablePerStorey(_) => "table; or a list from the ground up".into(),
         Kind::TablePerPlace(_) => "table; or a list for some places each".into(),
         Kind::FromTo => "number; or the first and the last".into(),
+        Kind::OneOrTwo => "whole number, or two".into(),
         Kind::TextOrTable(_) => "text, or a table".into(),
         Kind::Tables(_) => "tables".into(),
         Kind::Neighbours => "`[\"J1\", \"J2\"]`".into(),

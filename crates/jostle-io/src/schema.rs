@@ -176,7 +176,7 @@ fn kind(kind: Kind) -> Value {
             json!({ "anyOf": [{ "type": "string" }, table(&[section])] })
         }
         Kind::Word(words) => json!({ "anyOf": [{ "enum": words }, { "type": "number" }] }),
-        Kind::FromTo => json!({ "anyOf": [
+        Kind::FromTo | Kind::OneOrTwo => json!({ "anyOf": [
             { "type": "integer", "minimum": 1 },
             { "type": "array", "minItems": 2, "maxItems": 2, "items": { "type": "integer", "minimum": 1 } },
         ] }),

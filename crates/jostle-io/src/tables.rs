@@ -590,9 +590,14 @@ fn parts(place: Option<SpringPlace>) -> (&'static str, Option<usize>, Option<usi
         Some(SpringPlace::Shear { storey, line, end }) => {
             ("column shear", Some(storey), Some(line), end.of_column())
         }
-        Some(SpringPlace::Fibre {
-            storey, line, end, ..
-        }) => ("column fibre", Some(storey), Some(line), end.of_column()),
+        Some(SpringPlace::Fibre { member, end, .. }) => {
+            let (storey, line) = match member {
+                MemberPlace::Column { line, storey } => (storey, line),
+                MemberPlace::Beam { floor, span } => (floor, span),
+                MemberPlace::InSpace(place) => (place.storey() + 1, place.crossings()[0][0] + 1),
+            };
+            ("column fibre", Some(storey), Some(line), end.of_column())
+        }
         Some(SpringPlace::Sliding { member, .. }) => match member {
             MemberPlace::Column { line, storey } => ("wall shear", Some(storey), Some(line), ""),
             MemberPlace::Beam { floor, span } => ("beam shear", Some(floor), Some(span), ""),

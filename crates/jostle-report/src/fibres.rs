@@ -39,16 +39,23 @@ fn sentence(name: &str, all: &[FibreSummary]) -> String {
 }
 
 fn table(all: &[&FibreSummary]) -> Markup {
-    let columns = [
+    let in_space = all.iter().any(|own| own.across.is_some());
+    let mut columns = vec![
         (message::compression(), "kN"),
         (message::moment(), "kN·m"),
         (message::rotation(), "mrad"),
+    ];
+    if in_space {
+        columns.push((message::moment_across(), "kN·m"));
+        columns.push((message::rotation_across(), "mrad"));
+    }
+    columns.extend([
         (message::strain_of_bars(), "‰"),
         (message::yielded(), "s"),
         (message::strain_of_concrete(), "‰"),
         (message::past_its_strength(), "s"),
         (message::dissipated(), "kJ"),
-    ];
+    ]);
     html! {
         @if all.len() > MOST_ROWS {
             p.quiet { (message::the_first_of_in_order(MOST_ROWS, all.len())) }
@@ -65,7 +72,7 @@ fn table(all: &[&FibreSummary]) -> Markup {
                     @for own in all.iter().take(MOST_ROWS) {
                         tr {
                             th scope="row" { (own.name) }
-                            @for value in cells(own) { td.number { (value) } }
+                            @for value in cells(own, in_space) { td.number { (value) } }
                         }
                     }
                 }
@@ -74,23 +81,42 @@ fn table(all: &[&FibreSummary]) -> Markup {
     }
 }
 
-fn cells(own: &FibreSummary) -> [String; 8] {
+fn cells(own: &FibreSummary, in_space: bool) -> Vec<String> {
     let nothing = || format::NOTHING.to_owned();
     let strain =
         |strain: Option<f64>| strain.map_or_else(nothing, |own| format::significant(1e3 * own, 3));
     let instant = |at: Option<f64>| at.map_or_else(nothing, |at| format::fixed(at, 3));
     let greatest = |a: f64, b: f64, unit: f64| format::significant(a.max(-b) / unit, 4);
-    [
+    let mut cells = vec![
         message::least_to_greatest(
             format::significant(-own.axial_max_n / 1e3, 3),
             format::significant(-own.axial_min_n / 1e3, 3),
         ),
         greatest(own.moment_max_n_m, own.moment_min_n_m, 1e3),
         greatest(own.rotation_max_rad, own.rotation_min_rad, 1e-3),
+    ];
+    if in_space {
+        let across = own.across.as_ref();
+        cells.extend(across.map_or_else(
+            || [nothing(), nothing()],
+            |own| {
+                let [moment, turned] = [
+                    [own.moment_across_max_n_m, own.moment_across_min_n_m],
+                    [own.rotation_across_max_rad, own.rotation_across_min_rad],
+                ];
+                [
+                    greatest(moment[0], moment[1], 1e3),
+                    greatest(turned[0], turned[1], 1e-3),
+                ]
+            },
+        ));
+    }
+    cells.extend([
         strain(own.steel_strain),
         instant(own.yielded_s),
         strain(own.concrete_strain),
         instant(own.crushed_s),
         format::significant(own.dissipated_j / 1e3, 3),
-    ]
+    ]);
+    cells
 }

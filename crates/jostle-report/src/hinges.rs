@@ -179,9 +179,11 @@ pub(crate) fn coordinates(at: SpringPlace) -> (char, usize, usize, usize) {
         SpringPlace::Column { storey, line, end } => ('c', storey, line, last(end)),
         SpringPlace::Beam { floor, bay, end } => ('b', floor, bay, last(end)),
         SpringPlace::Shear { storey, line, end } => ('v', storey, line, last(end)),
-        SpringPlace::Fibre {
-            storey, line, end, ..
-        } => ('c', storey, line, last(end)),
+        SpringPlace::Fibre { member, end, .. } => match member {
+            MemberPlace::Column { line, storey } => ('c', storey, line, last(end)),
+            MemberPlace::InSpace(place) => ('s', place.storey() + 1, 0, last(end)),
+            MemberPlace::Beam { floor, span } => ('b', floor, span, last(end)),
+        },
         SpringPlace::Storey { storey }
         | SpringPlace::PlanStorey { storey, .. }
         | SpringPlace::Element { storey, .. }

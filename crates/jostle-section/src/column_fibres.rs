@@ -15,6 +15,8 @@ use crate::section::Section;
 pub struct FibreOptions {
     /// Layers of concrete over the depth, ≥ 2.
     pub layers: usize,
+    /// Parts of every layer over the width, of a column that bends about both axes; `None`: a layer is one, as are the bars of a row.
+    pub across: Option<usize>,
     /// Length over which strains are constant, > 0 \[m\].
     pub length: f64,
     /// Strain of concrete at its strength; `None`: that of the concrete, by Mander, Priestley and Park where ties confine it \[–\].
@@ -28,11 +30,12 @@ pub struct FibreOptions {
 }
 
 impl FibreOptions {
-    /// 20 layers, materials of the section; a fifth of the strength stays (Scott, Park and Priestley, 1982).
+    /// 20 layers of one part, materials of the section; a fifth of the strength stays (Scott, Park and Priestley, 1982).
     #[must_use]
     pub fn over(length: f64) -> Self {
         Self {
             layers: 20,
+            across: None,
             length,
             peak_strain: None,
             residual: 0.2,
@@ -77,55 +80,88 @@ impl Section {
     /// Its fibres as springs side by side, from left to right: the left face of the column is the top of the section. Layers of
     /// concrete, those of the core confined where there are ties, then rows of bars. Bars displace no concrete.
     ///
+    /// Over parts of layers, the left face of the section is the nearer one, and every bar is a fibre. A part that the edge of the
+    /// core crosses is two fibres.
+    ///
     /// # Errors
     /// Numbers of the options out of range.
     pub fn fibres(&self, options: &FibreOptions) -> Result<Arc<[Fibre]>, Vec<SpringFault>> {
         let plain = ConcreteLaw::unconfined(&self.concrete);
         let core = law::confined(self);
         let (inset, (core_width, _)) = (law::core_inset(self), law::core(self));
-        let (half, layer) = (0.5 * self.depth, self.depth / options.layers as f64);
+        let layer = self.depth / options.layers as f64;
         let mut fibres = Vec::new();
         for number in 0..options.layers {
             let from_top = (number as f64 + 0.5) * layer;
-            let at = from_top - half;
-            let mut add = |law: &ConcreteLaw, width: f64| {
-                let spring = options.concrete(law, width * layer)?;
-                fibres.push(Fibre { at, spring });
-                Ok::<(), Vec<SpringFault>>(())
+            let strips = match options.across {
+                Some(count) => {
+                    let strip = self.width / count as f64;
+                    let layers = in_core(from_top, layer, self.depth, inset);
+                    let strips = (0..count).map(|number| {
+                        let from_left = (number as f64 + 0.5) * strip;
+                        let share = layers * in_core(from_left, strip, self.width, inset);
+                        (from_left - 0.5 * self.width, strip, share * strip)
+                    });
+                    strips.collect()
+                }
+                None if from_top > inset && from_top < self.depth - inset => {
+                    vec![(0.0, self.width, core_width)]
+                }
+                None => vec![(0.0, self.width, 0.0)],
             };
-            match &core {
-                Some(core) if from_top > inset && from_top < self.depth - inset => {
-                    add(core, core_width)?;
-                    if inset > 0.0 {
-                        add(&plain, self.width - core_width)?;
+            for (across, width, confined) in strips {
+                let (core, confined) = match &core {
+                    Some(core) => (core, confined),
+                    None => (&plain, 0.0),
+                };
+                for (law, width) in [(core, confined), (&plain, width - confined)] {
+                    if width > 1e-9 * self.width {
+                        let spring = options.concrete(law, width * layer)?;
+                        let at = [from_top - 0.5 * self.depth, across];
+                        fibres.push(Fibre { at, spring });
                     }
                 }
-                _ => add(&plain, self.width)?,
             }
         }
-        // One fibre for the bars of a row.
-        let mut rows: Vec<(f64, f64)> = Vec::new();
-        for bar in &self.bars {
-            match rows
-                .iter_mut()
-                .find(|(depth, _)| (*depth - bar.depth).abs() < 1e-9)
-            {
-                Some((_, area)) => *area += bar.area(),
-                None => rows.push((bar.depth, bar.area())),
-            }
-        }
-        rows.sort_by(|a, b| a.0.total_cmp(&b.0));
         let steel = &self.steel;
-        for (depth, area) in rows {
+        for ([depth, across], area) in self.bar_fibres(options.across.is_some()) {
             let post_yield = options.hardening.unwrap_or(steel.hardening);
             let corners = Corners::bilinear(steel.yield_strength * area, post_yield);
             let stiffness = steel.modulus * area / options.length;
             let backbone = Backbone::from_forces(stiffness, corners, corners)?;
             fibres.push(Fibre {
-                at: depth - half,
+                at: [depth - 0.5 * self.depth, across],
                 spring: Hysteresis::new(HysteresisRule::Bilinear, backbone)?,
             });
         }
         Ok(fibres.into())
     }
+
+    /// Depths below the top of bars, their places across from the axis, and their areas: each by itself, or all of a row on the axis.
+    fn bar_fibres(&self, each: bool) -> Vec<([f64; 2], f64)> {
+        if each {
+            let middle = 0.5 * self.width;
+            let bars = self.bars.iter();
+            return bars
+                .map(|bar| ([bar.depth, bar.x - middle], bar.area()))
+                .collect();
+        }
+        let mut rows: Vec<([f64; 2], f64)> = Vec::new();
+        for bar in &self.bars {
+            let same = |depth: f64| (depth - bar.depth).abs() < 1e-9;
+            match rows.iter_mut().find(|([depth, _], _)| same(*depth)) {
+                Some((_, area)) => *area += bar.area(),
+                None => rows.push(([bar.depth, 0.0], bar.area())),
+            }
+        }
+        rows.sort_by(|([a, _], _), ([b, _], _)| a.total_cmp(b));
+        rows
+    }
+}
+
+/// Share of a strip about `middle` that lies within the core of a side, `inset` from both of its faces \[–\].
+fn in_core(middle: f64, strip: f64, side: f64, inset: f64) -> f64 {
+    let from = (middle - 0.5 * strip).max(inset);
+    let to = (middle + 0.5 * strip).min(side - inset);
+    ((to - from) / strip).clamp(0.0, 1.0)
 }

@@ -1,6 +1,7 @@
 //! Plane frames as they are drawn, with braces, infill struts and walls, beside neighbours, against an integrator of eighth order.
 
 mod fibres;
+mod fibres_in_space;
 pub(crate) mod files;
 mod pendulums;
 mod rocking;
@@ -74,6 +75,7 @@ pub fn rows() -> Vec<Row> {
         }
     }
     rows.extend(fibres::rows());
+    rows.extend(fibres_in_space::rows());
     rows.extend(rocking::rows());
     rows.extend(pendulums::rows());
     rows

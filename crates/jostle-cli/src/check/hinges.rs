@@ -4,14 +4,16 @@ use std::fmt::Write as _;
 
 use jostle::hysteresis::{Hysteresis, HysteresisRule, Side};
 use jostle::model::{Hinges, PlanAxis, PlanSpring, Tiers};
-use jostle::{ColumnFibres, FrameHinges, SpaceFrame, SpaceMember, SpacePlace};
+use jostle::{ColumnFibres, SpaceFrame, SpaceMember, SpacePlace};
 use jostle_run::counted;
 
 pub(super) fn describe_hinges(text: &mut String, hinges: &Hinges) -> std::fmt::Result {
     match hinges {
         Hinges::Frame(hinges) => {
-            if let Some(line) = fibres(hinges) {
-                writeln!(text, "  {line}")?;
+            if let Some(([storey, line], first)) = hinges.fibres.first_key_value() {
+                let first_of = format!("column {} of storey {}", line + 1, storey + 1);
+                let all = hinges.fibres.values();
+                writeln!(text, "  {}", fibres(all, &first_of, first))?;
             }
             for (name, rows) in [("columns", &hinges.columns), ("beams", &hinges.beams)] {
                 let springs: Vec<&Hysteresis> = rows.iter().flatten().collect();
@@ -53,10 +55,13 @@ pub(super) fn describe_hinges(text: &mut String, hinges: &Hinges) -> std::fmt::R
 }
 
 /// Columns whose ends are made of fibres: how many, and how strong the first of them is.
-fn fibres(hinges: &FrameHinges) -> Option<String> {
+fn fibres<'a>(
+    all: impl Iterator<Item = &'a ColumnFibres>,
+    first_of: &str,
+    first: &ColumnFibres,
+) -> String {
     let ends = |own: &ColumnFibres| own.at_ends.into_iter().filter(|stands| *stands).count();
-    let count: usize = hinges.fibres.values().map(ends).sum();
-    let ([storey, line], first) = hinges.fibres.first_key_value()?;
+    let count: usize = all.map(ends).sum();
     let ([concrete, steel], layers) =
         first
             .fibres
@@ -68,16 +73,14 @@ fn fibres(hinges: &FrameHinges) -> Option<String> {
                     _ => ([sums[0], sums[1] + force], layers),
                 }
             });
-    Some(format!(
-        "fibres at {} of columns; column {} of storey {}: {} over {}, {} kN of concrete and {} kN of bars",
+    format!(
+        "fibres at {} of columns; {first_of}: {} over {}, {} kN of concrete and {} kN of bars",
         counted(count, "end"),
-        line + 1,
-        storey + 1,
         counted(layers, "concrete fibre"),
         format_args!("{:.3} m", first.length),
         (concrete / 1e3).round(),
         (steel / 1e3).round(),
-    ))
+    )
 }
 
 /// What yields of a building in plan: frames, whole storeys, and every column or wall, by direction.
@@ -127,8 +130,12 @@ pub(super) fn describe_yielding_in_plan(text: &mut String, tiers: &Tiers) -> std
     Ok(())
 }
 
-/// Hinges of a space frame: how many, and at which moments, of columns along x and across, and of beams.
+/// Fibres and hinges of a space frame: how many, and at which moments, of columns along x and across, and of beams.
 fn describe_space_hinges(text: &mut String, frame: &SpaceFrame) -> std::fmt::Result {
+    if let Some((place, first)) = frame.fibres.first_key_value() {
+        let all = frame.fibres.values();
+        writeln!(text, "  {}", fibres(all, &place.to_string(), first))?;
+    }
     let is_column = |own: &SpaceMember| matches!(own.place, SpacePlace::Column { .. });
     let sorts = [
         ("columns, x,", true, 0),

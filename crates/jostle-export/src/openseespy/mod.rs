@@ -126,6 +126,13 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
                 "\"all\" cannot be exported: OpenSees has one list of modal ratios for all buildings together; give two modes, such as modes = [1, 2], to compare".into(),
             );
         }
+        if structure.is_some_and(|own| !own.structure.discretization.sections.is_empty()) {
+            refuse(
+                format!("building[{index}].hinges"),
+                "of fibres are not exported yet; give columns hinges with moments to compare"
+                    .into(),
+            );
+        }
         if let jostle::Structure::Frame(frame) = &building.structure {
             let crushed = |own: &jostle::Diagonal| {
                 let law = own.hysteresis.as_ref();

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use jostle::{ColumnFibres, Frame, FramePlace};
-use jostle_section::FibreOptions;
 use jostle_section::formula::Member;
+use jostle_section::{FibreOptions, Section};
 
 use super::reinforced::ReinforcedMember;
 use crate::keys::FIBRE_ENDS;
@@ -13,6 +13,12 @@ use crate::reader::{Field, Reader, View};
 
 /// Most layers of concrete that a section may be cut into.
 const MOST_LAYERS: usize = 400;
+
+/// Most parts over a side of a section in space.
+const MOST_IN_SPACE: usize = 100;
+
+/// Parts over the greater side of a section in space where nothing is said.
+const USUAL_IN_SPACE: usize = 12;
 
 /// Keys that belong to fibres alone.
 pub(super) const KEYS: [&str; 8] = [
@@ -42,6 +48,155 @@ pub(super) fn refuse(reader: &mut Reader<'_>, view: &View<'_>) {
     }
 }
 
+/// How ends of columns are cut into fibres.
+pub(super) struct AskedFibres {
+    /// `None`: that of Paulay and Priestley.
+    length: Option<f64>,
+    /// Parts over the depth, and in space over the width; `None`: as many as usual.
+    parts: Option<Parts>,
+    only_base: bool,
+    peak_strain: Option<f64>,
+    residual: Option<f64>,
+    ultimate_strain: Option<f64>,
+    hardening: Option<f64>,
+}
+
+/// Into how many parts a section is cut.
+#[derive(Clone, Copy)]
+enum Parts {
+    /// Over its greater side.
+    Greater(usize),
+    /// Over its depth and its width.
+    Each([usize; 2]),
+}
+
+impl AskedFibres {
+    /// Reads how a table asks for fibres; `None` after faults.
+    pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, in_space: bool) -> Option<Self> {
+        let parts = match reader.get(view, "fibres") {
+            Some(field) => Some(read_parts(reader, &field, in_space)?),
+            None => None,
+        };
+        let length = match reader.get(view, "length") {
+            Some(field) if field.as_text() == Some("paulay-priestley") => None,
+            Some(field) => Some(reader.positive(&field, Dimension::Length)?),
+            None => {
+                reader.missing(view, "length", "add length = \"paulay-priestley\" (0.08 L + 0.022 d f), or a length such as \"0.4 m\"");
+                return None;
+            }
+        };
+        let only_base = match reader.get(view, "ends") {
+            Some(field) => reader.choice(&field, FIBRE_ENDS, &[])? == "base",
+            None => false,
+        };
+        let mut number =
+            |key: &'static str, needs: fn(f64) -> bool, range: &str| match reader.get(view, key) {
+                Some(field) => {
+                    let value = reader.quantity(&field, Dimension::Dimensionless)?;
+                    if needs(value) {
+                        return Some(Some(value));
+                    }
+                    reader.bad(&field, format!("must {range}, found {value}"));
+                    None
+                }
+                None => Some(None),
+            };
+        let below_one = |value: f64| (0.0..1.0).contains(&value);
+        let peak_strain = number("peak_strain", |v| v > 0.0, "be greater than 0");
+        let residual = number("residual", below_one, "be at least 0 and less than 1");
+        let ultimate_strain = number("ultimate_strain", |v| v > 0.0, "be greater than 0");
+        let hardening = number("hardening", below_one, "be at least 0 and less than 1");
+        Some(Self {
+            length,
+            parts,
+            only_base,
+            peak_strain: peak_strain?,
+            residual: residual?,
+            ultimate_strain: ultimate_strain?,
+            hardening: hardening?,
+        })
+    }
+
+    /// Whether a column of a storey, counted from 0, has fibres.
+    pub(super) fn stand_in(&self, storey: usize) -> bool {
+        !self.only_base || storey == 0
+    }
+
+    /// Fibres of a column between the axes of its joints.
+    ///
+    /// # Errors
+    /// The first fault of the numbers, in words.
+    pub(super) fn of_column(
+        &self,
+        section: &Section,
+        height: f64,
+        in_space: bool,
+    ) -> Result<ColumnFibres, String> {
+        let length = self
+            .length
+            .unwrap_or_else(|| FibreOptions::hinge_length(0.5 * height, section));
+        let options = FibreOptions::over(length);
+        let (layers, across) = match (self.parts, in_space) {
+            (None, false) => (options.layers, None),
+            (Some(Parts::Greater(count)), false) => (count, None),
+            (Some(Parts::Each([layers, across])), _) => (layers, Some(across)),
+            (parts, true) => {
+                let count = match parts {
+                    Some(Parts::Greater(count)) => count,
+                    _ => USUAL_IN_SPACE,
+                };
+                let greater = section.depth.max(section.width);
+                let parts = |side: f64| ((count as f64 * side / greater).round() as usize).max(2);
+                (parts(section.depth), Some(parts(section.width)))
+            }
+        };
+        let options = FibreOptions {
+            layers,
+            across,
+            peak_strain: self.peak_strain,
+            residual: self.residual.unwrap_or(options.residual),
+            ultimate_strain: self.ultimate_strain,
+            hardening: self.hardening,
+            ..options
+        };
+        let fibres = section.fibres(&options).map_err(|faults| {
+            let first = faults.into_iter().next();
+            first.map_or_else(String::new, |fault| fault.problem)
+        })?;
+        Ok(ColumnFibres {
+            length,
+            at_ends: [true, !self.only_base],
+            fibres,
+        })
+    }
+}
+
+fn read_parts(reader: &mut Reader<'_>, field: &Field<'_>, in_space: bool) -> Option<Parts> {
+    let most = if in_space { MOST_IN_SPACE } else { MOST_LAYERS };
+    let mut count = |field: &Field<'_>| {
+        let count = reader.count(field)?;
+        if !(2..=most).contains(&count) {
+            reader.bad(
+                field,
+                format!("must lie between 2 and {most}, found {count}"),
+            );
+            return None;
+        }
+        Some(count)
+    };
+    match field.entries().filter(|_| in_space) {
+        None => count(field).map(Parts::Greater),
+        Some(entries) => match &entries[..] {
+            [along, across] => Some(Parts::Each([count(along)?, count(across)?])),
+            _ => {
+                *reader.bad(field, "expected a number, or two: along x and across") =
+                    Some("write fibres = 12, or fibres = [20, 10]".into());
+                None
+            }
+        },
+    }
+}
+
 /// Fibres of all columns; `None` after faults. `members`: the reinforced members, `None` after faults elsewhere.
 pub(super) fn read(
     reader: &mut Reader<'_>,
@@ -68,96 +223,25 @@ fn read_all(
             "needs columns that change their length: without it their axial force is not known",
         ) = Some("add axial = \"flexible\" to the building".into());
     }
-    let layers = match reader.get(view, "fibres") {
-        Some(field) => {
-            let count = reader.count(&field)?;
-            if !(2..=MOST_LAYERS).contains(&count) {
-                reader.bad(
-                    &field,
-                    format!("must lie between 2 and {MOST_LAYERS}, found {count}"),
-                );
-                return None;
-            }
-            Some(count)
-        }
-        None => None,
-    };
-    let length = match reader.get(view, "length") {
-        Some(field) if field.as_text() == Some("paulay-priestley") => None,
-        Some(field) => Some(reader.positive(&field, Dimension::Length)?),
-        None => {
-            reader.missing(view, "length", "add length = \"paulay-priestley\" (0.08 L + 0.022 d f), or a length such as \"0.4 m\"");
-            return None;
-        }
-    };
-    let only_base = match reader.get(view, "ends") {
-        Some(field) => reader.choice(&field, FIBRE_ENDS, &[])? == "base",
-        None => false,
-    };
-    let mut number =
-        |key: &'static str, needs: fn(f64) -> bool, range: &str| match reader.get(view, key) {
-            Some(field) => {
-                let value = reader.quantity(&field, Dimension::Dimensionless)?;
-                if needs(value) {
-                    return Some(Some(value));
-                }
-                reader.bad(&field, format!("must {range}, found {value}"));
-                None
-            }
-            None => Some(None),
-        };
-    let below_one = |value: f64| (0.0..1.0).contains(&value);
-    let peak_strain = number("peak_strain", |v| v > 0.0, "be greater than 0");
-    let residual = number("residual", below_one, "be at least 0 and less than 1");
-    let ultimate_strain = number("ultimate_strain", |v| v > 0.0, "be greater than 0");
-    let hardening = number("hardening", below_one, "be at least 0 and less than 1");
-    let (peak_strain, ultimate_strain) = (peak_strain?, ultimate_strain?);
-    let (residual, hardening) = (residual?, hardening?);
+    let asked = AskedFibres::read(reader, view, false)?;
     let columns: Vec<_> = members?
         .iter()
         .filter(|own| own.member == Member::Column)
         .collect();
     if columns.len() != frame.bare_members()[0] {
-        let some = if columns.is_empty() {
-            "no"
-        } else {
-            "not every"
-        };
-        *reader.bad(field, format!("takes fibres from the sections, but {some} column has bars")) = Some(
-            "add concrete = \"C30\", steel = \"HRB400\", bars = \"12 d20\", cover = \"35 mm\" to column".into(),
-        );
+        say_without_bars(reader, field, columns.is_empty());
         return None;
     }
     let mut all = BTreeMap::new();
     for own in columns {
-        let foot = !only_base || own.floor == 1;
-        if !foot {
+        if !asked.stand_in(own.floor - 1) {
             continue;
         }
-        let length =
-            length.unwrap_or_else(|| FibreOptions::hinge_length(0.5 * own.length, &own.section));
-        let options = FibreOptions::over(length);
-        let options = FibreOptions {
-            layers: layers.unwrap_or(options.layers),
-            peak_strain,
-            residual: residual.unwrap_or(options.residual),
-            ultimate_strain,
-            hardening,
-            ..options
-        };
-        match own.section.fibres(&options) {
-            Ok(fibres) => {
-                let column = ColumnFibres {
-                    length,
-                    at_ends: [true, !only_base],
-                    fibres,
-                };
+        match asked.of_column(&own.section, own.length, false) {
+            Ok(column) => {
                 all.insert([own.floor - 1, own.place - 1], column);
             }
-            Err(faults) => {
-                let problem = faults
-                    .first()
-                    .map_or_else(String::new, |fault| fault.problem.clone());
+            Err(problem) => {
                 reader.bad(
                     field,
                     format!("column {} of storey {}: {problem}", own.place, own.floor),
@@ -167,4 +251,18 @@ fn read_all(
         }
     }
     Some(all)
+}
+
+/// Notes columns without bars.
+pub(super) fn say_without_bars(reader: &mut Reader<'_>, field: &Field<'_>, none_has: bool) {
+    let some = if none_has { "no" } else { "not every" };
+    *reader.bad(field, format!("takes fibres from the sections, but {some} column has bars")) = Some(
+        "add concrete = \"C30\", steel = \"HRB400\", bars = \"12 d20\", cover = \"35 mm\" to column".into(),
+    );
+}
+
+/// Notes moments of columns beside fibres.
+pub(super) fn say_either(reader: &mut Reader<'_>, field: &Field<'_>) {
+    *reader.bad(field, "cannot be combined with rule = \"fibre\"") =
+        Some("remove it: fibres follow from the bars of the columns".into());
 }

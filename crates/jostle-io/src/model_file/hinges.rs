@@ -29,7 +29,7 @@ pub(super) fn read_rule(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Hyst
 }
 
 /// The same from another key.
-fn read_rule_at(
+pub(super) fn read_rule_at(
     reader: &mut Reader<'_>,
     view: &View<'_>,
     key: &'static str,
@@ -217,8 +217,7 @@ pub(super) fn read_frame(
         return with_fibres(hinges, fibres);
     }
     if let (Some(_), Some(field)) = (&fibres, reader.get(&view, "column")) {
-        *reader.bad(&field, "cannot be combined with rule = \"fibre\"") =
-            Some("remove it: fibres follow from the bars of the columns".into());
+        fibre_hinges::say_either(reader, &field);
     }
     let (columns, beams) = (
         read_members(reader, &view, "column", frame, rule, initial),

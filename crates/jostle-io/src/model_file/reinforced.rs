@@ -122,34 +122,6 @@ fn read_one(
 ) -> Option<Laid> {
     // Its keys were checked where the size was read.
     let view = reader.reopen(field, sections(member))?;
-    let level = match reader.get(&view, "strength") {
-        Some(field) => StrengthLevel::named(reader.choice(&field, STRENGTHS, &[])?)?,
-        None => StrengthLevel::default(),
-    };
-    let grade = reader.get(&view, "concrete").map(|field| {
-        let grade = reader.concrete(&field, SECTION_CONCRETES)?;
-        grade.at(level)
-    });
-    let mut home_rule = None;
-    let steel = reader.get(&view, "steel").map(|field| {
-        let grade = reader.grade(&field, STEELS, "\"400 MPa\"")?;
-        match grade {
-            Grade::Named(name) => {
-                home_rule = ShearRule::of_steel(name);
-                Steel::grade(name, level)
-            }
-            Grade::Strength(strength) => Some(Steel::of_strength(strength)),
-        }
-    });
-    let cover = reader
-        .get(&view, "cover")
-        .map_or(Some(DEFAULT_COVER), |field| {
-            reader.quantity(&field, Dimension::Length)
-        });
-    let ties = reader.get(&view, "ties").map(|field| {
-        let text = reader.text(&field)?;
-        understood(reader, &field, Ties::parse(&text))
-    });
     let axial = if member == Member::Column {
         match reader.get(&view, "axial_load") {
             Some(field) if field.as_text() != Some("from gravity") => {
@@ -160,30 +132,86 @@ fn read_one(
     } else {
         Some(Axial::Given(0.0))
     };
-    let bars_field = reader.get(&view, "bars")?;
-    let bars = read_bars(reader, &bars_field);
-    let by_size = |reader: &mut Reader<'_>, key: &'static str| {
-        let field = reader.get(&view, key)?;
-        reader.quietly(|reader| reader.positive(&field, Dimension::Length))
+    let size = |reader: &mut Reader<'_>| {
+        if !view.has("width")
+            && !view.has("depth")
+            && let Some(bars) = reader.get(&view, "bars")
+        {
+            *reader.bad(&bars, "needs the size of the section") =
+                Some("give width and depth instead of EI".into());
+        }
+        ["width", "depth"].map(|key| {
+            let field = reader.get(&view, key)?;
+            reader.quietly(|reader| reader.positive(&field, Dimension::Length))
+        })
     };
-    let (width, depth) = (by_size(reader, "width"), by_size(reader, "depth"));
-    if !view.has("width") && !view.has("depth") {
-        *reader.bad(&bars_field, "needs the size of the section") =
-            Some("give width and depth instead of EI".into());
-    }
+    let read = read_section(reader, &view, size, of_building)?;
+    Some(Laid {
+        section: read.section,
+        axial: axial?,
+        level: read.level,
+        home_rule: read.home_rule,
+    })
+}
+
+/// A section with its bars, and what its strengths are.
+pub(super) struct ReadSection {
+    pub(super) section: Section,
+    level: StrengthLevel,
+    home_rule: Option<ShearRule>,
+}
+
+/// Reads bars and materials of a table; `None` without bars, or after faults. `size`: width and depth, whose faults are noted elsewhere.
+pub(super) fn read_section(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    size: impl FnOnce(&mut Reader<'_>) -> [Option<f64>; 2],
+    of_building: Option<ConcreteGrade>,
+) -> Option<ReadSection> {
+    let level = match reader.get(view, "strength") {
+        Some(field) => StrengthLevel::named(reader.choice(&field, STRENGTHS, &[])?)?,
+        None => StrengthLevel::default(),
+    };
+    let grade = reader.get(view, "concrete").map(|field| {
+        let grade = reader.concrete(&field, SECTION_CONCRETES)?;
+        grade.at(level)
+    });
+    let mut home_rule = None;
+    let steel = reader.get(view, "steel").map(|field| {
+        let grade = reader.grade(&field, STEELS, "\"400 MPa\"")?;
+        match grade {
+            Grade::Named(name) => {
+                home_rule = ShearRule::of_steel(name);
+                Steel::grade(name, level)
+            }
+            Grade::Strength(strength) => Some(Steel::of_strength(strength)),
+        }
+    });
+    let cover = reader
+        .get(view, "cover")
+        .map_or(Some(DEFAULT_COVER), |field| {
+            reader.quantity(&field, Dimension::Length)
+        });
+    let ties = reader.get(view, "ties").map(|field| {
+        let text = reader.text(&field)?;
+        understood(reader, &field, Ties::parse(&text))
+    });
+    let bars_field = reader.get(view, "bars")?;
+    let bars = read_bars(reader, &bars_field);
+    let [width, depth] = size(reader);
     let concrete = match grade {
         Some(concrete) => concrete,
         None => {
             let concrete = of_building.and_then(|grade| grade.at(level));
             if concrete.is_none() {
-                reader.missing(&view, "concrete", "add concrete = \"C30\" (C20 to C60, \"C30/37\", \"f'c = 4 ksi\", or a strength such as \"30 MPa\") beside the bars");
+                reader.missing(view, "concrete", "add concrete = \"C30\" (C20 to C60, \"C30/37\", \"f'c = 4 ksi\", or a strength such as \"30 MPa\") beside the bars");
             }
             concrete
         }
     };
     if steel.is_none() {
         reader.missing(
-            &view,
+            view,
             "steel",
             "add steel = \"HRB400\" (or \"B500\", \"Grade 60\", or a yield strength such as \"400 MPa\") beside the bars",
         );
@@ -192,18 +220,17 @@ fn read_one(
         Some(ties) => Some(ties?),
         None => None,
     };
-    let axial = axial?;
     let laid = Section::new(width?, depth?, concrete?, steel??, &bars?, cover?, ties);
     match laid {
-        Ok(section) => Some(Laid {
+        Ok(section) => Some(ReadSection {
             section,
-            axial,
             level,
             home_rule,
         }),
         Err(faults) => {
             for fault in faults {
-                let field = reader.get(&view, fault.field);
+                let field = view.has(fault.field).then(|| reader.get(view, fault.field));
+                let field = field.flatten();
                 reader.bad(field.as_ref().unwrap_or(&bars_field), fault.problem);
             }
             None

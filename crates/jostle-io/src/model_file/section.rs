@@ -64,6 +64,24 @@ pub(super) fn read_modulus(reader: &mut Reader<'_>, view: &View<'_>) -> (Option<
     (value, stated && value.is_none())
 }
 
+/// The same beside bars, whose concrete `concrete` names: `elastic_modulus` decides where both are stated. Faults of the concrete are
+/// noted where the bars are read.
+pub(super) fn read_modulus_beside_bars(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+) -> (Option<f64>, bool) {
+    if let Some(field) = reader.get(view, "elastic_modulus") {
+        let modulus = reader.positive(&field, Dimension::Modulus);
+        return (modulus, modulus.is_none());
+    }
+    let Some(field) = reader.get(view, "concrete") else {
+        return (None, false);
+    };
+    let grade = reader.quietly(|reader| reader.concrete(&field, SECTION_CONCRETES));
+    let modulus = grade.and_then(modulus_of_grade);
+    (modulus, modulus.is_none())
+}
+
 /// E of a grade: of GB 50010 up to C80, of EN 1992-1-1 or of ACI 318 \[Pa\].
 fn modulus_of_grade(grade: ConcreteGrade) -> Option<f64> {
     if let ConcreteGrade::Named(name) = grade {

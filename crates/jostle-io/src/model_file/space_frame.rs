@@ -3,13 +3,17 @@
 use std::collections::BTreeMap;
 
 use jostle::{PlanPoint, SpaceFrame, SpaceMember, SpacePlace, SpaceSection};
+use jostle_section::Section as ReinforcedSection;
 
+use super::building::per_storey;
+use super::fibre_hinges;
 use super::frame::{flexible_members, read_poisson_ratio, stiffness_factors};
 use super::places::{range, read_omit};
 use super::plan::pair;
-use super::section::read_modulus;
+use super::reinforced;
+use super::section::{read_modulus, read_modulus_beside_bars};
 use super::space_hinges::{Moments, SpaceHinges};
-use crate::keys::{AXIAL, Section};
+use crate::keys::{AXIAL, SECTION_CONCRETES, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Reader, View};
 
@@ -163,6 +167,7 @@ pub(super) fn read(
     let hinges = SpaceHinges::read(reader, view, plans.len());
     let mut members = Vec::new();
     let mut own_moments = Vec::new();
+    let mut sections = BTreeMap::new();
     for sort in Sort::ALL {
         let is_column = sort == Sort::Column;
         let material = Material {
@@ -187,15 +192,20 @@ pub(super) fn read(
             }
             members.push(SpaceMember::elastic(place, section));
             own_moments.push(own.moments);
+            sections.extend(own.reinforced.map(|own| (place, own)));
         }
     }
     let [lines_x, lines_y] = grid.lines;
+    let floor_load = reader
+        .get(view, "floor_load")
+        .and_then(|field| per_storey(reader, &field, Dimension::Force, Some(plans.len())));
     let mut frame = SpaceFrame {
-        at: [0.0, 0.0],
         direction: grid.direction,
         lines_x,
         lines_y,
         members,
+        floor_load: floor_load.unwrap_or_default(),
+        ..SpaceFrame::default()
     };
     if let Some(hinges) = hinges {
         add_hinges(
@@ -206,8 +216,45 @@ pub(super) fn read(
             &mut frame,
             storey_heights,
         );
+        add_fibres(reader, view, &hinges, &sections, &mut frame, storey_heights);
     }
     frame
+}
+
+/// Gives columns the fibres of their sections.
+fn add_fibres(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    hinges: &SpaceHinges<'_>,
+    sections: &BTreeMap<SpacePlace, ReinforcedSection>,
+    frame: &mut SpaceFrame,
+    storey_heights: &[f64],
+) {
+    let (Some(asked), Some(field)) = (&hinges.fibres, reader.get(view, "hinges")) else {
+        return;
+    };
+    let places = frame.members.iter().map(|own| own.place);
+    let columns = places.filter(|place| matches!(place, SpacePlace::Column { .. }));
+    let columns: Vec<SpacePlace> = columns.collect();
+    if columns.iter().any(|place| !sections.contains_key(place)) {
+        fibre_hinges::say_without_bars(reader, &field, sections.is_empty());
+        return;
+    }
+    for place in columns
+        .into_iter()
+        .filter(|own| asked.stand_in(own.storey()))
+    {
+        let height = frame.length(place, storey_heights);
+        match asked.of_column(&sections[&place], height, true) {
+            Ok(own) => {
+                frame.fibres.insert(place, own);
+            }
+            Err(problem) => {
+                reader.bad(&field, format!("{place}: {problem}"));
+                return;
+            }
+        }
+    }
 }
 
 /// Gives members the hinges of their moments: their own, or those of all columns or beams of their storey.
@@ -221,6 +268,7 @@ fn add_hinges(
 ) {
     let none_of_its_own = own_moments.iter().all(Option::is_none);
     if hinges.is_empty()
+        && hinges.fibres.is_none()
         && none_of_its_own
         && let Some(field) = reader.get(view, "hinges")
     {
@@ -247,6 +295,8 @@ fn add_hinges(
 #[derive(Clone)]
 struct Member<'n> {
     section: SpaceSection,
+    /// Bars and materials of a column, if it has bars.
+    reinforced: Option<ReinforcedSection>,
     /// Moments of its own.
     moments: Option<Moments<'n>>,
 }
@@ -297,8 +347,16 @@ fn read_sort<'n>(
         let member = if omit {
             None
         } else {
-            match read_section(reader, &own, sort, material) {
-                Some(section) => Some(Member { section, moments }),
+            let section = read_section(reader, &own, sort, material);
+            let reinforced = (sort == Sort::Column)
+                .then(|| read_bars(reader, view, &own))
+                .flatten();
+            match section {
+                Some(section) => Some(Member {
+                    section,
+                    reinforced,
+                    moments,
+                }),
                 None => continue,
             }
         };
@@ -329,6 +387,25 @@ fn read_sort<'n>(
         }
     }
     found
+}
+
+/// The section of a column with bars: its depth is along x, its width across.
+fn read_bars(
+    reader: &mut Reader<'_>,
+    building: &View<'_>,
+    own: &View<'_>,
+) -> Option<ReinforcedSection> {
+    // Faults are noted where the modulus is read.
+    let concrete = reader
+        .get(building, "concrete")
+        .and_then(|field| reader.quietly(|reader| reader.concrete_name(&field, SECTION_CONCRETES)));
+    let size = |reader: &mut Reader<'_>| {
+        let field = reader.get(own, "size");
+        let size = field.and_then(|field| reader.quietly(|reader| pair(reader, &field)));
+        [size.map(|size| size[1]), size.map(|size| size[0])]
+    };
+    let read = reinforced::read_section(reader, own, size, concrete)?;
+    Some(read.section)
 }
 
 /// Moments of the hinges of some members.
@@ -422,7 +499,10 @@ fn read_section(
         });
         width.zip(depth).map(|(width, depth)| [width, depth])
     };
-    let (own, own_is_bad) = read_modulus(reader, view);
+    let (own, own_is_bad) = match view.has("bars") {
+        true => read_modulus_beside_bars(reader, view),
+        false => read_modulus(reader, view),
+    };
     let Some(modulus) = own.or(material.modulus) else {
         if !material.modulus_is_bad && !own_is_bad {
             let place = view.span.clone();

@@ -4,7 +4,8 @@ use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
 use jostle::{PlanAxis, SpaceSection};
 
 use super::building::has_length;
-use super::hinges::{Initial, note, read_initial, read_moments, read_rule};
+use super::fibre_hinges::{self, AskedFibres};
+use super::hinges::{Initial, note, read_initial, read_moments, read_rule, read_rule_at};
 use crate::keys::Section;
 use crate::reader::{Field, Reader, View};
 
@@ -18,6 +19,8 @@ pub(super) struct SpaceHinges<'n> {
     /// One for all storeys, or one per storey; none stay elastic.
     columns: Vec<Moments<'n>>,
     beams: Vec<Moments<'n>>,
+    /// How columns are cut into fibres, if they are.
+    pub(super) fibres: Option<AskedFibres>,
 }
 
 /// Keys that hinges of frames in one plane have, and those of a space frame have not.
@@ -41,7 +44,26 @@ impl<'n> SpaceHinges<'n> {
                 return None;
             }
         }
-        let rule = read_rule(reader, &view);
+        let of_fibres = fibre_hinges::asked(reader, &view);
+        let (rule, fibres) = match of_fibres {
+            true => {
+                if let Some(field) = reader.get(&view, "column") {
+                    fibre_hinges::say_either(reader, &field);
+                }
+                let rule = match view.has("beam_rule") {
+                    true => read_rule_at(reader, &view, "beam_rule"),
+                    false => Some(HysteresisRule::PeakOriented),
+                };
+                (rule, AskedFibres::read(reader, &view, true))
+            }
+            false => {
+                fibre_hinges::refuse(reader, &view);
+                (read_rule(reader, &view), None)
+            }
+        };
+        if of_fibres && fibres.is_none() {
+            return None;
+        }
         let initial = read_initial(reader, &view);
         let [columns, beams] = ["column", "beam"].map(|key| {
             let Some(field) = reader.get(&view, key) else {
@@ -64,6 +86,7 @@ impl<'n> SpaceHinges<'n> {
             initial: initial?,
             columns: columns?,
             beams: beams?,
+            fibres,
         })
     }
 
@@ -79,6 +102,10 @@ impl<'n> SpaceHinges<'n> {
         field: &Field<'n>,
         is_column: bool,
     ) -> Option<Moments<'n>> {
+        if is_column && self.fibres.is_some() {
+            fibre_hinges::say_either(reader, field);
+            return None;
+        }
         let rigid = self.initial == Initial::Rigid;
         moments(reader, field, is_column, Some(self.rule), rigid)
     }

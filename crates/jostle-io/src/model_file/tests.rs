@@ -160,6 +160,18 @@ hinge = { yield = 1, positive = { yield = 1 } }
 width = 1
 depth = 1
 [[building]]
+kind = "space-frame"
+storeys = 1
+mass = 1
+floor_load = 1
+elastic_modulus = 3e10
+lines_x = [0, 6]
+lines_y = [0]
+plan = [6, 5]
+column = { size = [1, 1], concrete = "C30", steel = "HRB400", bars = "4 d20" }
+beam_x = { width = 1, depth = 1 }
+hinges = { rule = "fibre", length = 1, beam_rule = "takeda", beam = { yield = 1 } }
+[[building]]
 kind = "frame"
 shear_failure = { strength = 1 }
 brace = [{ EA = 1 }, { stiffness = 1, hinge = { rule = "bilinear", yield = 1 } }]

@@ -511,7 +511,7 @@ fn columns_with_bars_become_fibres() {
                 // Characteristic strength of C30 by GB 50010.
                 HysteresisRule::Concrete(_) => {
                     let force = backbone.side(Side::Negative).yielding.force;
-                    [area + force / 20.1e6, first + force * fibre.at, steel]
+                    [area + force / 20.1e6, first + force * fibre.at[0], steel]
                 }
                 _ => [area, first, steel + backbone.yield_force() / 400e6],
             }

@@ -29,6 +29,7 @@ mod scan;
 mod shear_failure;
 mod shipped_files;
 mod soil;
+mod space_fibres;
 mod space_frames;
 mod study_files;
 mod tables;

@@ -1060,6 +1060,8 @@ messages! {
     ends_that_yielded_and_crushed(name, yielded, crushed, total) = "{name}: bars yielded at {yielded} of {total} ends of columns, and concrete passed its strength at {crushed}.";
     compression = "compression";
     least_to_greatest(least, greatest) = "{least} to {greatest}";
+    moment_across = "moment across";
+    rotation_across = "rotation across";
     strain_of_bars = "bars stretched";
     strain_of_concrete = "concrete compressed";
     past_its_strength = "past strength";

@@ -219,6 +219,24 @@ gravity = true
 hinges = { rule = "fibre", length = "0.3 m", fibres = 8, ends = "base" }
 "#;
 
+/// The same of a space frame.
+const FIBRED_IN_SPACE: &str = r#"
+motion = { record = "el-centro-1940-ns", pga = "0.5 g", duration = "3 s" }
+[[building]]
+name = "S"
+kind = "space-frame"
+storeys = 1
+lines_x = [0, 5]
+lines_y = [0]
+plan = [[-1, -2], [6, -2], [6, 2], [-1, 2]]
+column = { size = [0.4, 0.4], concrete = "C30", steel = "HRB400", bars = "8 d20" }
+beam_x = { width = 0.3, depth = 0.5 }
+concrete = "C30"
+mass = "60 t"
+gravity = true
+hinges = { rule = "fibre", length = "0.3 m", fibres = 5, ends = "base" }
+"#;
+
 fn summary() -> Summary {
     summary_of(MODEL)
 }
@@ -290,6 +308,8 @@ fn every_number_of_the_summary_is_in_the_registry_and_the_other_way_round() {
     let failing = failing.expect("a summary is JSON");
     let space_frame = format!("{SPACE_FRAME}\n[output]\nmembers = true\n");
     let space_frame = serde_json::to_value(summary_of(&space_frame)).expect("a summary is JSON");
+    let fibred_in_space = serde_json::to_value(summary_of(FIBRED_IN_SPACE));
+    let fibred_in_space = fibred_in_space.expect("a summary is JSON");
     let parts = [BRACED, WALLED, LIFTING, FIBRED];
     let parts =
         parts.map(|text| serde_json::to_value(summary_of(text)).expect("a summary is JSON"));
@@ -320,6 +340,10 @@ fn every_number_of_the_summary_is_in_the_registry_and_the_other_way_round() {
             // The same objects have the numbers of the other plane as well.
             let same_key = all.iter().filter(|other| other.key == owner.key);
             compare(&space_frame, &same_key.collect::<Vec<_>>());
+        } else if owner.title == "Ends of columns of space frames made of fibres" {
+            // The same objects have the numbers of the plane along as well.
+            let same_key = all.iter().filter(|other| other.key == owner.key);
+            compare(&fibred_in_space, &same_key.collect::<Vec<_>>());
         } else if matches!(owner.key, "buildings[].parts[]" | "buildings[].sections[]") {
             compare_together(&parts, owner);
         } else if owner.title == "Ground under a building" {

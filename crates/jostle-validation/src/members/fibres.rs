@@ -20,7 +20,7 @@ const PORTAL: (&str, &str) = (
 );
 
 /// The parabola of concrete is a polygon here.
-const POLYGON: f64 = 2e-4;
+pub(super) const POLYGON: f64 = 2e-4;
 
 /// The references change by this when their steps of 0.5 ms are halved.
 const STEPS: f64 = 1.5e-3;
@@ -48,68 +48,120 @@ fn fibres_of(file: &str) -> Vec<Fibre> {
     hinges.fibres[&[0, 0]].fibres.to_vec()
 }
 
-/// A cantilever on its section of fibres under a constant axial force, whose top is led to and fro: two equations for the elongation and
-/// the rotation of the section, solved by Newton's method.
+/// A cantilever on its section of fibres under a constant axial force, whose top is led.
+pub(super) struct Led {
+    pub(super) height: f64,
+    /// Positive in tension \[N\].
+    pub(super) axial: f64,
+    /// EI along and across.
+    pub(super) rigidity: [f64; 2],
+}
+
+/// What its section does when the top is there: positive in tension and where the side further along, or across, is stretched.
+pub(super) struct Borne {
+    /// Axial force and moments along and across.
+    pub(super) forces: [f64; 3],
+    /// Elongation and rotations.
+    pub(super) moved: [f64; 3],
+}
+
+impl Led {
+    /// Three equations for the elongation and the rotations of the section at every place of the top, by Newton's method.
+    pub(super) fn along(
+        &self,
+        fibres: &[Fibre],
+        path: impl IntoIterator<Item = [f64; 2]>,
+    ) -> Vec<Borne> {
+        let bends = self
+            .rigidity
+            .map(|own| self.height * self.height / (3.0 * own));
+        let mut memories = vec![HysteresisMemory::default(); fibres.len()];
+        let mut moved = [0.0; 3];
+        let mut all = Vec::new();
+        let arms = |fibre: &Fibre| [1.0, fibre.at[0], fibre.at[1]];
+        let stretch = |fibre: &Fibre, moved: &[f64; 3]| {
+            moved[0] + fibre.at[0] * moved[1] + fibre.at[1] * moved[2]
+        };
+        // It comes to rest under its axial force first.
+        for top in std::iter::once([0.0; 2]).chain(path) {
+            let mut forces = [0.0; 3];
+            for _ in 0..60 {
+                let mut tangent = [[0.0; 3]; 3];
+                forces = [0.0; 3];
+                for (fibre, memory) in fibres.iter().zip(&memories) {
+                    let own = fibre.spring.respond(memory, stretch(fibre, &moved));
+                    // Where it does not move, its slope is that of the crack that is still closed.
+                    let slope = if own.force == 0.0 && memory.deformation() == 0.0 {
+                        fibre.spring.initial_tangent()
+                    } else {
+                        own.tangent
+                    };
+                    let arms = arms(fibre);
+                    for (row, arm) in arms.into_iter().enumerate() {
+                        forces[row] += own.force * arm;
+                        for (column, other) in arms.into_iter().enumerate() {
+                            tangent[row][column] += slope * arm * other;
+                        }
+                    }
+                }
+                // u = −ρ h − M h²/3EI in both directions.
+                let mut left = [forces[0] - self.axial, 0.0, 0.0];
+                for axis in [0, 1] {
+                    let turned = -moved[1 + axis] * self.height - forces[1 + axis] * bends[axis];
+                    left[1 + axis] = turned - top[axis];
+                    tangent[1 + axis] = tangent[1 + axis].map(|own| -own * bends[axis]);
+                    tangent[1 + axis][1 + axis] -= self.height;
+                }
+                let small = left[1].abs().max(left[2].abs()) < 1e-12;
+                if left[0].abs() < 1e-6 * self.axial.abs() && small {
+                    break;
+                }
+                for (own, step) in moved.iter_mut().zip(solved(tangent, left)) {
+                    *own -= step;
+                }
+            }
+            for (fibre, memory) in fibres.iter().zip(&mut memories) {
+                *memory = fibre.spring.respond(memory, stretch(fibre, &moved)).memory;
+            }
+            all.push(Borne { forces, moved });
+        }
+        all.remove(0);
+        all
+    }
+}
+
+/// Cramer's rule for three equations.
+fn solved(matrix: [[f64; 3]; 3], right: [f64; 3]) -> [f64; 3] {
+    let determinant = |[a, b, c]: [[f64; 3]; 3]| {
+        a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0])
+            + a[2] * (b[0] * c[1] - b[1] * c[0])
+    };
+    [0, 1, 2].map(|column| {
+        let mut own = matrix;
+        for row in 0..3 {
+            own[row][column] = right[row];
+        }
+        determinant(own) / determinant(matrix)
+    })
+}
+
+/// The first case, led to and fro.
 fn pushed_to_and_fro(name: &str, case: &Value, fibres: &[Fibre]) -> Vec<Row> {
     let input = &case["input"];
     let of = |key: &str| number(input, &format!("/{key}"));
-    let (height, axial) = (of("height_m"), -of("N"));
-    let bends = height * height / (3.0 * of("EI"));
-    let mut memories = vec![HysteresisMemory::default(); fibres.len()];
-    let mut moved = [0.0; 2];
+    let led = Led {
+        height: of("height_m"),
+        axial: -of("N"),
+        rigidity: [of("EI"); 2],
+    };
+    let path = path(&numbers(input, "/cycles_m"));
     let mut got: [Vec<f64>; 5] = Default::default();
-    for (step, top) in std::iter::once(0.0)
-        .chain(path(&numbers(input, "/cycles_m")))
-        .enumerate()
-    {
-        let mut forces = [0.0; 2];
-        for _ in 0..60 {
-            let mut tangent = [0.0; 3];
-            forces = [0.0; 2];
-            for (fibre, memory) in fibres.iter().zip(&memories) {
-                let own = fibre.spring.respond(memory, moved[0] + fibre.at * moved[1]);
-                forces[0] += own.force;
-                forces[1] += own.force * fibre.at;
-                // Where it does not move, its slope is that of the crack that is still closed.
-                let slope = if own.force == 0.0 && memory.deformation() == 0.0 {
-                    fibre.spring.initial_tangent()
-                } else {
-                    own.tangent
-                };
-                for (power, sum) in tangent.iter_mut().enumerate() {
-                    *sum += slope * fibre.at.powi(power as i32);
-                }
-            }
-            let left = [
-                forces[0] - axial,
-                -moved[1] * height - forces[1] * bends - top,
-            ];
-            if left[0].abs() < 1e-6 * axial.abs() && left[1].abs() < 1e-12 {
-                break;
-            }
-            let [a, b] = [tangent[0], tangent[1]];
-            let [c, d] = [-tangent[1] * bends, -height - tangent[2] * bends];
-            let determinant = a * d - b * c;
-            moved[0] -= (d * left[0] - b * left[1]) / determinant;
-            moved[1] -= (a * left[1] - c * left[0]) / determinant;
-        }
-        for (fibre, memory) in fibres.iter().zip(&mut memories) {
-            *memory = fibre
-                .spring
-                .respond(memory, moved[0] + fibre.at * moved[1])
-                .memory;
-        }
-        if step > 0 && step % 10 == 0 {
-            let values = [
-                -forces[1] / height,
-                forces[0],
-                forces[1],
-                moved[0],
-                moved[1],
-            ];
-            for (list, value) in got.iter_mut().zip(values) {
-                list.push(value);
-            }
+    let all = led.along(fibres, path.into_iter().map(|top| [top, 0.0]));
+    for Borne { forces, moved } in all.iter().skip(9).step_by(10) {
+        let shear = -forces[1] / led.height;
+        let values = [shear, forces[0], forces[1], moved[0], moved[1]];
+        for (list, value) in got.iter_mut().zip(values) {
+            list.push(value);
         }
     }
     let keys = [

@@ -1,5 +1,7 @@
 //! Collects all faults of a model at once.
 
+mod fibres;
+mod floor_loads;
 mod frame_places;
 mod frame_walls;
 mod given;
@@ -11,12 +13,13 @@ mod plan_frames;
 mod soil;
 mod space_frame;
 
+use floor_loads::check_floor_loads;
 use members::check_members;
 use neighbours::check_neighbours;
 
 use crate::model::{
-    Base, Building, Damping, Frame, FrameHinges, Hinges, Model, ModelFault, STANDARD_GRAVITY,
-    Shear, ShearSpring, Structure, WALL,
+    Base, Building, Damping, Frame, FrameHinges, Hinges, Model, ModelFault, Shear, ShearSpring,
+    Structure, WALL,
 };
 
 /// Collects faults under the path of the part being checked.
@@ -143,12 +146,9 @@ fn check_building(faults: &mut Faults, path: &str, building: &Building) {
             hinges,
             &building.structure,
         );
-        let of_fibres = matches!(hinges, Hinges::Frame(hinges) if !hinges.fibres.is_empty());
-        faults.require(
-            !of_fibres || building.gravity.preload,
-            format!("{path}.hinges"),
-            || "needs the weight of the building, because what fibres bear follows the axial force: add gravity = true".into(),
-        );
+        if matches!(hinges, Hinges::Frame(hinges) if !hinges.fibres.is_empty()) {
+            fibres::check_weight(faults, &format!("{path}.hinges"), building);
+        }
     }
     match &building.damping {
         Damping::Ratio { ratio, modes } => {
@@ -294,12 +294,7 @@ fn check_frame_hinges(faults: &mut Faults, path: &str, hinges: &FrameHinges, fra
                 line + 1
             )
         });
-        faults.positive(own.length, format!("{path}.length"), "m");
-        faults.require(own.fibres.len() >= 2, &path, || {
-            "need at least two: one cannot bend".into()
-        });
-        let sound = own.fibres.iter().all(|fibre| fibre.at.is_finite());
-        faults.require(sound, &path, || "must stand at finite distances".into());
+        fibres::check_fibres(faults, &path, own, false);
     }
     faults.require(
         hinges.fibres.is_empty() || frame.axial.columns_flexible,
@@ -347,21 +342,11 @@ fn check_members_of(faults: &mut Faults, path: &str, frame: &Frame) {
     for (field, span) in each(&frame.spans, &format!("{path}.spans")) {
         faults.positive(*span, field, "m");
     }
-    let loads = frame.floor_load.len();
-    faults.require(
-        loads == 0 || loads == storeys,
-        format!("{path}.floor_load"),
-        || format!("has {loads} entries for {storeys} storeys; give one value, or one per storey from the ground up"),
-    );
-    for (floor, (field, load)) in each(&frame.floor_load, &format!("{path}.floor_load")).enumerate()
-    {
+    check_floor_loads(faults, path, &frame.floor_load, storeys, |floor| {
         let line = frame.beam_mass.get(floor).copied().unwrap_or(0.0);
         let mass = frame.floor_mass.get(floor).copied().unwrap_or(0.0);
-        let weight = STANDARD_GRAVITY * (line * frame.beam_length(floor) + mass);
-        faults.require(load.is_finite() && *load >= -weight, field, || {
-            format!("takes away more than the weight of the floor: {load} N of {weight:.0} N")
-        });
-    }
+        line * frame.beam_length(floor) + mass
+    });
     let per_storey = [
         ("column", frame.columns.len()),
         ("beam", frame.beams.len()),

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use super::Faults;
-use crate::model::{Building, SpaceFrame, SpacePlace, Tiers};
+use super::{Faults, check_floor_loads, fibres};
+use crate::model::{Building, ColumnFibres, SpaceFrame, SpacePlace, Tiers};
 
 /// Least distance of two lines \[m\].
 const APART: f64 = 0.01;
@@ -27,9 +27,16 @@ pub(super) fn check_space_frame(
         matches!(own.place, SpacePlace::Column { .. }) && own.section.axial_rigidity.is_none()
     });
     faults.require(
-        !building.gravity.preload || !columns_are_rigid,
+        !building.gravity.preload || !columns_are_rigid || !frame.fibres.is_empty(),
         format!("{path}.gravity"),
         || "needs columns that shorten under the weight that they carry: take axial = \"flexible\", or leave gravity out".into(),
+    );
+    check_floor_loads(
+        faults,
+        path,
+        &frame.floor_load,
+        tiers.floors.len(),
+        |floor| tiers.floors.get(floor).map_or(0.0, |own| own.mass),
     );
     for member in &frame.members {
         let section = &member.section;
@@ -66,6 +73,12 @@ pub(super) fn check_space_frame(
         format!("{path}.hinges"),
         || "cannot lose their strength in a space frame; take another rule".into(),
     );
+    if !frame.fibres.is_empty() {
+        fibres::check_weight(faults, &format!("{path}.hinges"), building);
+    }
+    for (place, own) in &frame.fibres {
+        check_fibres(faults, &format!("{path}.hinges"), frame, *place, own);
+    }
     if faults.0.len() > before {
         return;
     }
@@ -73,6 +86,33 @@ pub(super) fn check_space_frame(
     if faults.0.len() == before {
         check_standing(faults, path, frame, tiers.floors.len());
     }
+}
+
+/// Fibres at the ends of a column.
+fn check_fibres(
+    faults: &mut Faults,
+    path: &str,
+    frame: &SpaceFrame,
+    place: SpacePlace,
+    own: &ColumnFibres,
+) {
+    let mut members = frame.members.iter();
+    let column = members.find(|member| member.place == place);
+    let column = column.filter(|_| matches!(place, SpacePlace::Column { .. }));
+    let Some(column) = column else {
+        faults.add(
+            path,
+            format!("has fibres where there is no column: at {}", name(place)),
+        );
+        return;
+    };
+    faults.require(column.section.axial_rigidity.is_some(), path, || {
+        "needs columns that change their length: without it their axial force is not known; take axial = \"flexible\"".into()
+    });
+    faults.require(!column.may_yield(), path, || {
+        format!("has both hinges and fibres at {}; keep either", name(place))
+    });
+    fibres::check_fibres(faults, path, own, true);
 }
 
 /// The key of a member in a model file.

@@ -56,7 +56,7 @@ pub enum Owner {
         /// Bearing, from 0.
         bearing: usize,
     },
-    /// An end of a column that is made of fibres: it stretches (up) and turns.
+    /// An end of a column that is made of fibres: it stretches (up) and turns, in space in the plane across as well (across).
     Section {
         /// Building index.
         building: usize,

@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
+use super::PlanPoint;
 use crate::hysteresis::Hysteresis;
 
-/// Lengths at the ends of a column in which fibres stretch and bend together, so that what a section can bear follows its axial force:
-/// a plane hinge without length that also stretches.
+/// Lengths at the ends of a column in which fibres stretch and bend together, so that what a section can bear follows its axial force
+/// and, in space, its moment about the other axis: a hinge without length that also stretches.
 ///
 /// The column keeps its full elastic length beside them. It must be able to change its length, or its axial force is not known.
 ///
@@ -18,7 +19,7 @@ use crate::hysteresis::Hysteresis;
 /// let (length, layer) = (0.4, 0.4 * 0.05);
 /// let fall = ConcreteFall { residual: 0.2, ultimate: 6.0 };
 /// let spring = Hysteresis::concrete(30e6 * layer, 0.002 * length, fall).expect("sound");
-/// let fibre = |number: usize| Fibre { at: -0.225 + 0.05 * number as f64, spring };
+/// let fibre = |number: usize| Fibre { at: [-0.225 + 0.05 * number as f64, 0.0], spring };
 /// let own = ColumnFibres { length, at_ends: [true, false], fibres: (0..10).map(fibre).collect::<Arc<[Fibre]>>() };
 /// assert_eq!(own.fibres.len(), 10);
 /// ```
@@ -32,11 +33,12 @@ pub struct ColumnFibres {
     pub fibres: Arc<[Fibre]>,
 }
 
-/// A layer of concrete or a row of bars.
+/// A part of the concrete, or bars.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fibre {
-    /// Distance from the axis of the column, to the right \[m\].
-    pub at: f64,
+    /// Distances from the axis of the column: to the right, or along x of a space frame, and across. A plane frame does not bend
+    /// across and leaves the second without effect \[m\].
+    pub at: PlanPoint,
     /// Its force over its elongation, positive in tension \[N, m\].
     pub spring: Hysteresis,
 }

@@ -1,6 +1,8 @@
 //! Space frames: columns at the crossings of a grid of lines, beams along the lines, rigid floors.
 
-use super::PlanPoint;
+use std::collections::BTreeMap;
+
+use super::{ColumnFibres, PlanPoint};
 use crate::hysteresis::Hysteresis;
 
 /// Columns and beams in space, tied together by rigid floors.
@@ -26,9 +28,12 @@ use crate::hysteresis::Hysteresis;
 ///     lines_x: vec![0.0, 6.0],
 ///     lines_y: vec![0.0, 5.0],
 ///     members: all.map(|(place, section)| SpaceMember::elastic(place, section)).collect(),
+///     ..SpaceFrame::default()
 /// };
 /// assert_eq!(frame.point([1, 1]), [6.0, 5.0]);
 /// ```
+///
+/// The default has no lines and no members, so that the check refuses it; its axes are those of the site.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpaceFrame {
     /// Where the origin of the lines stands on the site \[m\].
@@ -41,6 +46,25 @@ pub struct SpaceFrame {
     pub lines_y: Vec<f64>,
     /// Columns and beams, each place at most once.
     pub members: Vec<SpaceMember>,
+    /// Columns whose ends are made of fibres; they have no hinges.
+    pub fibres: BTreeMap<SpacePlace, ColumnFibres>,
+    /// Weight of every floor that its columns carry in equal shares beyond that of its mass, and that does not sway; negative where
+    /// others carry part of that. Empty for none \[N\].
+    pub floor_load: Vec<f64>,
+}
+
+impl Default for SpaceFrame {
+    fn default() -> Self {
+        Self {
+            at: [0.0, 0.0],
+            direction: [1.0, 0.0],
+            lines_x: Vec::new(),
+            lines_y: Vec::new(),
+            members: Vec::new(),
+            fibres: BTreeMap::new(),
+            floor_load: Vec::new(),
+        }
+    }
 }
 
 /// A column or a beam of a space frame.
@@ -53,7 +77,7 @@ pub struct SpaceMember {
     /// Hinges at both of its ends, in rotation \[rad\] and moment \[N·m\], by plane of bending: in the vertical planes along x and
     /// across of a column, in the vertical plane of a beam; `None` stays elastic. A beam has no second one. Positive is tension at
     /// the bottom of a beam, and on the face of a column to greater x, or further across, at either end. The two planes of a column
-    /// yield independently of each other and of its axial force.
+    /// yield independently of each other and of its axial force, unlike [fibres](SpaceFrame::fibres).
     pub hinges: [Option<Hysteresis>; 2],
 }
 
@@ -198,10 +222,10 @@ impl SpaceSection {
 }
 
 impl SpaceFrame {
-    /// Whether any member has a hinge.
+    /// Whether any member has a hinge or fibres.
     #[must_use]
     pub fn may_yield(&self) -> bool {
-        self.members.iter().any(SpaceMember::may_yield)
+        !self.fibres.is_empty() || self.members.iter().any(SpaceMember::may_yield)
     }
 
     /// Where the crossing of two lines stands on the site \[m\].

@@ -198,19 +198,38 @@ impl Tiers {
         Some(together)
     }
 
+    /// Weight of a floor, counted from 0, that the columns of its space frame carry beyond that of its mass \[N\].
+    pub(crate) fn floor_load(&self, floor: usize) -> f64 {
+        let loads = self.space_frame.as_ref().map(|own| &own.floor_load);
+        loads.and_then(|own| own.get(floor)).copied().unwrap_or(0.0)
+    }
+
     /// What the weight above a storey, counted from 0, takes from its stiffness where P-Delta is included: (P/h) diag(1, 1, ρ²) at
     /// the centroid of what it carries, ρ² = (I_xx + I_yy)/A of its upper floor. `lumped` are the floors with all that moves with
     /// them \[N/m, N/m, N·m/rad\].
     #[must_use]
     pub fn softening(&self, lumped: &[LumpedFloor], storey: usize) -> TierStorey {
-        let above: Vec<&Tier> = lumped[storey..].iter().map(|floor| &floor.tier).collect();
-        let mass: f64 = above.iter().map(|floor| floor.mass).sum();
-        let moment = |axis: usize| above.iter().map(|f| f.mass * f.centre[axis]).sum::<f64>();
+        let above: Vec<(f64, PlanPoint)> = lumped[storey..]
+            .iter()
+            .enumerate()
+            .map(|(floor, LumpedFloor { tier, .. })| {
+                let load = self.floor_load(storey + floor) / STANDARD_GRAVITY;
+                (tier.mass + load, tier.centre)
+            })
+            .collect();
+        let mass: f64 = above.iter().map(|(mass, _)| mass).sum();
+        let moment = |axis: usize| {
+            let moments = above.iter().map(|(mass, centre)| mass * centre[axis]);
+            moments.sum::<f64>()
+        };
         let push = mass * STANDARD_GRAVITY / self.storey_heights[storey];
         let gyration = PlanArea::new(&self.floors[storey].plan).gyration();
         TierStorey {
             stiffness: [push, push, push * gyration],
-            centre: [moment(0) / mass, moment(1) / mass],
+            centre: match mass > 0.0 {
+                true => [moment(0) / mass, moment(1) / mass],
+                false => lumped[storey].tier.centre,
+            },
         }
     }
 

@@ -9,12 +9,12 @@ use super::in_plan::{BuildingInPlan, FloorInPlan};
 use super::response::{BuildingResponse, FloorResponse};
 use super::summary::{
     AcceptanceSummary, AcrossSummary, AxialFailureSummary, BuildingSummary, CapacitySummary,
-    ContactSummary, EnergySummary, ExceededSummary, FibreSummary, FloorSummary, ForcesSummary,
-    FoundationSummary, GapSummary, HingeSummary, ImpactSummary, IsolationInPlan, IsolationSummary,
-    JointRatio, JointSummary, LinkFloorSummary, LinkSummary, MemberComparison, MotionSummary,
-    PartSummary, PromiseSummary, RatioPlace, RatioSummary, SectionSummary, ShearFailure,
-    ShearFailureSummary, SpringSummary, StageSummary, StruckSummary, Summary, WallSummary,
-    WorkSummary,
+    ContactSummary, EnergySummary, ExceededSummary, FibreAcrossSummary, FibreSummary, FloorSummary,
+    ForcesSummary, FoundationSummary, GapSummary, HingeSummary, ImpactSummary, IsolationInPlan,
+    IsolationSummary, JointRatio, JointSummary, LinkFloorSummary, LinkSummary, MemberComparison,
+    MotionSummary, PartSummary, PromiseSummary, RatioPlace, RatioSummary, SectionSummary,
+    ShearFailure, ShearFailureSummary, SpringSummary, StageSummary, StruckSummary, Summary,
+    WallSummary, WorkSummary,
 };
 use crate::quantity::{Places, Quantity};
 
@@ -105,6 +105,7 @@ const OWNERS: &[Row] = &[
     ("Failures in shear", "buildings[].shear_failures.list[]", None, "", &[entries!(ShearFailure::QUANTITIES)]),
     ("Braces, struts, walls, coupling beams and foundations that lift off", "buildings[].parts[]", None, "", &[entries!(PartSummary::QUANTITIES)]),
     ("Ends of columns made of fibres", "buildings[].sections[]", None, "", &[entries!(FibreSummary::QUANTITIES)]),
+    ("Ends of columns of space frames made of fibres", "buildings[].sections[]", None, "", &[entries!(FibreAcrossSummary::QUANTITIES)]),
     ("Sections of columns and beams", "buildings[].members[].ends[]", None, "", &[entries!(SectionSummary::QUANTITIES)]),
     ("Sections of space frames", "buildings[].members[].ends[]", None, "", &[entries!(AcrossSummary::QUANTITIES)]),
     ("Columns and beams with contact and without", "buildings[].members[].compared", None, "", &[entries!(MemberComparison::QUANTITIES)]),

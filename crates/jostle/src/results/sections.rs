@@ -1,7 +1,7 @@
 //! Peaks of ends of columns that are made of fibres.
 
 use super::summarise::springs_of;
-use super::summary::{FibreSummary, SpringSummary};
+use super::summary::{FibreAcrossSummary, FibreSummary, SpringSummary};
 use crate::history::{Kind, Owner};
 use crate::hysteresis::HysteresisRule;
 use crate::stepping::Outcome;
@@ -22,7 +22,8 @@ pub(super) fn sections_of(
     let all = sections.iter().zip(&building.members.sections).enumerate();
     all.map(|(number, (section, forms))| {
         let fibres = &springs[building.discretization.springs_of_section(section)];
-        let [axial, moment] = forms.map(|form| outcome.members[index][form]);
+        let force = |form: &usize| outcome.members[index][*form];
+        let (axial, moment) = (force(&forms[0]), force(&forms[1]));
         let moved = |direction| {
             let owner = Owner::Section {
                 building: index,
@@ -34,6 +35,16 @@ pub(super) fn sections_of(
         };
         let ([elongation_max_m, elongation_min_m], [rotation_max_rad, rotation_min_rad]) =
             (moved(Direction::Up), moved(Direction::Turning));
+        let across = forms.get(2).map(|form| {
+            let [moment_across_max_n_m, moment_across_min_n_m] = force(form);
+            let [rotation_across_max_rad, rotation_across_min_rad] = moved(Direction::Across);
+            FibreAcrossSummary {
+                moment_across_max_n_m,
+                moment_across_min_n_m,
+                rotation_across_max_rad,
+                rotation_across_min_rad,
+            }
+        });
         let strains = Strains::of(building, section, fibres);
         FibreSummary {
             name: format!("{}.{section}", building.name),
@@ -43,6 +54,7 @@ pub(super) fn sections_of(
             moment_min_n_m: moment[1],
             rotation_max_rad,
             rotation_min_rad,
+            across,
             elongation_max_m,
             elongation_min_m,
             concrete_strain: strains.concrete,

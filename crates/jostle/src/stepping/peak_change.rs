@@ -41,8 +41,9 @@ pub(super) fn change_of_peaks(system: &System, [a, b]: [&Outcome; 2]) -> f64 {
             worst = worst.max(IN_PARTS * change / greatest);
         }
         floors_before += building.tracks.len();
-        for force in 0..2 {
-            let forms = building.members.sections.iter().map(|own| own[force]);
+        for force in 0..3 {
+            let sections = building.members.sections.iter();
+            let forms = sections.filter_map(|own| own.get(force).copied());
             worst = worst.max(change_of_forms(index, forms, [a, b]).relative_to(0.0));
         }
         for kind in 0..MEMBER_FORCES {

@@ -1,41 +1,40 @@
-//! Ends of columns that are made of fibres: rows of springs side by side between a joint and the end of a column.
+//! Ends of columns that are made of fibres: springs side by side between a joint and the end of a column.
 
 use std::ops::Range;
 
 use super::discretization::Discretization;
 use super::element::{THETA, Y, over_nodes};
+use super::member_forces::MemberPlace;
 use super::spring_place::{MemberEnd, SpringPlace};
 use super::stick_model::{Hinge, StickModel, YieldingElement};
 use crate::linear::Row;
-use crate::model::{ColumnFibres, ProportionalDamping};
+use crate::model::{ColumnFibres, PlanPoint, ProportionalDamping};
 
 /// An end of a column that is made of fibres.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FibreSection {
-    /// Storey, from 1.
-    pub storey: usize,
-    /// Column line, from 1.
-    pub line: usize,
+    /// Its column.
+    pub member: MemberPlace,
     /// Which end.
     pub end: MemberEnd,
     /// Length over which the fibres share a deformation \[m\].
     pub length: f64,
-    /// Distance of every fibre from the axis, to the right \[m\].
-    pub at: Vec<f64>,
+    /// Distances of every fibre from the axis, to the right and across \[m\].
+    pub at: Vec<PlanPoint>,
     /// Its fibres among [`StickModel::yielding`]; see [`Discretization::springs_of_section`].
     pub elements: Range<usize>,
     /// Elongation of its axis over displacements of nodes.
     pub elongation: Row,
-    /// Rotation over displacements of nodes, positive where it stretches the right side.
-    pub rotation: Row,
+    /// Rotations over displacements of nodes: positive where it stretches the right side, and, of a space frame, the side further
+    /// across.
+    pub rotations: Vec<Row>,
 }
 
 impl FibreSection {
     /// Places of its fibres.
     pub(super) fn places(&self) -> impl Iterator<Item = SpringPlace> + '_ {
         (0..self.at.len()).map(|fibre| SpringPlace::Fibre {
-            storey: self.storey,
-            line: self.line,
+            member: self.member,
             end: self.end,
             fibre: fibre + 1,
         })
@@ -43,10 +42,9 @@ impl FibreSection {
 }
 
 impl std::fmt::Display for FibreSection {
-    /// Its name within the building, such as `column.1.2.foot`.
+    /// Its name within the building, such as `column.1.2.foot`, or `column.1.1.2.foot` in a space frame.
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let end = self.end.of_column();
-        write!(formatter, "column.{}.{}.{end}", self.line, self.storey)
+        write!(formatter, "{}.{}", self.member, self.end.of_column())
     }
 }
 
@@ -57,7 +55,7 @@ impl StickModel {
         &mut self,
         joint: usize,
         own: &ColumnFibres,
-        [storey, line]: [usize; 2],
+        member: MemberPlace,
         end: MemberEnd,
     ) -> (usize, FibreSection) {
         let node = self.add_node(self.nodes[joint].x, self.nodes[joint].y);
@@ -75,25 +73,41 @@ impl StickModel {
             MemberEnd::Last => [node, joint],
         };
         let between =
-            |component, share: f64| [((upper, component), share), ((lower, component), -share)];
+            |component| over_nodes([((upper, component), 1.0), ((lower, component), -1.0)]);
+        let section = self.add_section(own, member, end, between(Y), vec![between(THETA)]);
+        (node, section)
+    }
+
+    /// Adds fibres over an elongation and the rotations beside it: each is a spring over v + Σ x θ.
+    pub(super) fn add_section(
+        &mut self,
+        own: &ColumnFibres,
+        member: MemberPlace,
+        end: MemberEnd,
+        elongation: Row,
+        rotations: Vec<Row>,
+    ) -> FibreSection {
         let first = self.yielding.len();
-        self.yielding
-            .extend(own.fibres.iter().map(|fibre| YieldingElement {
-                row: over_nodes(between(Y, 1.0).into_iter().chain(between(THETA, fibre.at))),
+        self.yielding.extend(own.fibres.iter().map(|fibre| {
+            let mut row = elongation.clone();
+            for (rotation, at) in rotations.iter().zip(fibre.at) {
+                row.add_times(at, rotation);
+            }
+            YieldingElement {
+                row,
                 hysteresis: fibre.spring,
                 proportional_damping: ProportionalDamping::None,
-            }));
-        let section = FibreSection {
-            storey,
-            line,
+            }
+        }));
+        FibreSection {
+            member,
             end,
             length: own.length,
             at: own.fibres.iter().map(|fibre| fibre.at).collect(),
             elements: first..self.yielding.len(),
-            elongation: over_nodes(between(Y, 1.0)),
-            rotation: over_nodes(between(THETA, 1.0)),
-        };
-        (node, section)
+            elongation,
+            rotations,
+        }
     }
 }
 

@@ -96,13 +96,6 @@ impl Equations {
                 continue;
             }
             total_mass += node.mass;
-            if node.load != 0.0 {
-                for (place, share) in element::places(&stick_model.carried((index, Y))) {
-                    if let Some(dof) = path.dof(place.0, place.1) {
-                        loads[dof] += node.load * share / STANDARD_GRAVITY;
-                    }
-                }
-            }
             for (component, inertia) in node.inertia.into_iter().enumerate() {
                 let carried = stick_model.carried((index, component));
                 let moved = node.influence[component];
@@ -116,6 +109,9 @@ impl Equations {
                     mass[dof] += inertia * (share * share);
                     driven_mass[dof] += inertia * share * moved.along;
                     vertical_mass[dof] += inertia * share * moved.up;
+                    if moved.up != 0.0 {
+                        loads[dof] += node.load * moved.up * share / STANDARD_GRAVITY;
+                    }
                     if across > 0 {
                         driven_across[dof] += inertia * share * moved.across;
                         driven_turning[dof] += inertia * share * moved.turning;

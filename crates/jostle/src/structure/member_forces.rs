@@ -163,9 +163,10 @@ pub struct MemberForces {
     pub joints: Vec<JointCore>,
     /// Braces and struts of frames, which are always followed.
     pub diagonals: Vec<DiagonalForce>,
-    /// Ends of columns that are made of fibres, in the order of [`crate::structure::Discretization::sections`]: axial force, positive in tension, and
-    /// moment, positive where it stretches the right side; indices into [`MemberForces::forms`]. They are always followed.
-    pub sections: Vec<[usize; 2]>,
+    /// Ends of columns that are made of fibres, in the order of [`crate::structure::Discretization::sections`]: axial force, positive in tension, then
+    /// moments, positive where they stretch the right side, and, in space, the side further across; indices into
+    /// [`MemberForces::forms`]. They are always followed.
+    pub sections: Vec<Vec<usize>>,
     /// Walls of frames, which are always followed.
     pub walls: Vec<WallForce>,
     /// Coupling beams of frames, which are always followed.
@@ -267,16 +268,16 @@ impl MemberForces {
     fn add_sections(&mut self, discretization: &Discretization) {
         for section in &discretization.sections {
             let springs = discretization.springs_of_section(section);
-            let sum = |share: &dyn Fn(f64) -> f64| LinearForm {
-                springs: springs
-                    .clone()
-                    .zip(&section.at)
-                    .map(|(spring, at)| (spring, share(*at)))
-                    .collect(),
-                ..LinearForm::default()
+            let mut sum = |share: &dyn Fn([f64; 2]) -> f64| {
+                let fibres = springs.clone().zip(&section.at);
+                self.index_of(LinearForm {
+                    springs: fibres.map(|(spring, at)| (spring, share(*at))).collect(),
+                    ..LinearForm::default()
+                })
             };
-            let forms = [sum(&|_| 1.0), sum(&|at| at)];
-            let forms = forms.map(|form| self.index_of(form));
+            let mut forms = vec![sum(&|_| 1.0)];
+            let axes = 0..section.rotations.len();
+            forms.extend(axes.map(|axis| sum(&|at| at[axis])));
             self.sections.push(forms);
         }
     }

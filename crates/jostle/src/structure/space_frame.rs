@@ -66,7 +66,7 @@ pub(super) type LowerTriangle = Vec<Vec<f64>>;
 pub(super) enum Unknown {
     Joint(usize),
     Floor(usize),
-    /// Rotation of an end of a member beyond a hinge, about an axis of the lines.
+    /// Rise or rotation of an end of a member beyond a hinge or fibres, about an axis of the lines.
     End(usize),
 }
 
@@ -84,6 +84,22 @@ struct End {
 
 /// Numbers of the displacements that a joint has by itself: rise and two rotations.
 type JointUnknowns = [Option<usize>; 3];
+
+/// The same that an end of a member has beyond hinges or fibres; `None` moves with its joint.
+pub(super) type EndUnknowns = [Option<usize>; 3];
+
+impl End {
+    /// The end beyond hinges or fibres.
+    fn beyond(mut self, own: EndUnknowns) -> Self {
+        let [about_x, about_y, _] = &mut self.turned;
+        for (to, own) in [&mut self.moved[2], about_x, about_y].into_iter().zip(own) {
+            if let Some(number) = own {
+                *to = vec![(Unknown::End(number), 1.0)];
+            }
+        }
+        self
+    }
+}
 
 /// The unknowns of all joints.
 pub(super) struct Joints {
@@ -289,12 +305,12 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    /// A member as springs. `hinged`: numbers of the rotations of its first and last end beyond hinges, by plane of bending.
+    /// A member as springs. `own`: what its first and last end have beyond hinges or fibres.
     pub(super) fn springs(
         &self,
         place: SpacePlace,
         section: &SpaceSection,
-        hinged: [Option<[usize; 2]>; 2],
+        own: [EndUnknowns; 2],
     ) -> SpringMember {
         let storey = place.storey();
         let [first, last] = place.crossings();
@@ -306,16 +322,13 @@ impl<'a> Assembly<'a> {
             SpacePlace::BeamY { .. } => (Some(storey), 1),
         };
         let ends = [self.end(below, first), self.end(Some(storey), last)];
-        let [a, b] = &ends;
+        let [first, last] = own;
+        let [a, b] = ends;
+        let [a, b] = &[a.beyond(first), b.beyond(last)];
         let bend = |plane: usize| {
             let (towards, about, slope) = planes[plane];
             let chord = difference(1.0 / length, &b.moved[towards], &a.moved[towards]);
-            let rotations = match hinged[plane] {
-                None => [a, b].map(|end| chord_rotation(slope, &end.turned[about], &chord)),
-                Some(ends) => {
-                    ends.map(|end| chord_rotation(slope, &vec![(Unknown::End(end), 1.0)], &chord))
-                }
-            };
+            let rotations = [a, b].map(|end| chord_rotation(slope, &end.turned[about], &chord));
             (bending_stiffness(section, plane, length), rotations)
         };
         let is_column = planes.len() == 2;
@@ -410,7 +423,7 @@ pub(super) fn condense(
     let springs: Vec<SpringMember> = frame
         .members
         .iter()
-        .map(|member| assembly.springs(member.place, &member.section, [None; 2]))
+        .map(|member| assembly.springs(member.place, &member.section, [[None; 3]; 2]))
         .collect();
     let motions = assembly.joint_motions(&springs)?;
     let order = 3 * assembly.centres.len();

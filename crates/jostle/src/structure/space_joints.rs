@@ -1,15 +1,18 @@
-//! Space frames with hinges: joints and ends of members keep displacements of their own.
+//! Space frames with hinges or fibres: joints and ends of members keep displacements of their own.
 //!
 //! Where a hinge yields, the motion of joints no longer follows from that of the floors by constant shares. So the rise and both
 //! rotations of every joint are unknowns of the equations, and so are the rotations of member ends beyond their hinges. Each is a node of
 //! the stick model without mass that only turns; a hinge joins the rotation of a joint with that of a member end about the same axis.
+//! Ends of columns beyond fibres rise as well; a fibre is a spring over the rise and both rotations of an end against its joint.
 //! Members are the same springs over deformations as in a frame without hinges.
 
 use std::ops::Range;
 
+use super::column_ends::FibreSection;
 use super::element::{Element, Part, Place, THETA, X, Y, over_nodes};
+use super::member_forces::MemberPlace;
 use super::order::{Stage, Turn};
-use super::space_frame::{Assembly, Deformation, SpringMember, Unknown, planes};
+use super::space_frame::{Assembly, Deformation, EndUnknowns, SpringMember, Unknown, planes};
 use super::spring_place::{MemberEnd, SpringPlace};
 use super::stick_model::{Hinge, Influence, Node, StickModel, Support};
 use crate::linear::Row;
@@ -52,16 +55,23 @@ pub struct JointedFrame {
     pub joints: Vec<JointNodes>,
 }
 
-/// Adds a frame to a stick model in which the `ground` and all that moves, the mat and the floors, are nodes already; returns it with the
-/// places of its hinges. `carried`: masses of the floors that its columns carry in equal shares; none unless it stands under its weight
-/// \[kg\].
+/// A space frame in a stick model, with the places of its hinges and fibres.
+#[derive(Default)]
+pub(super) struct AddedJoints {
+    pub(super) frame: JointedFrame,
+    pub(super) places: Vec<SpringPlace>,
+    pub(super) sections: Vec<FibreSection>,
+}
+
+/// Adds a frame to a stick model in which the `ground` and all that moves, the mat and the floors, are nodes already. `carried`: masses
+/// of the floors that its columns carry in equal shares, and their loads; none unless it stands under its weight \[kg, N\].
 pub(super) fn add_space_joints(
     assembly: Assembly<'_>,
     sticks: &mut StickModel,
     ground: usize,
     moving: &[usize],
-    carried: &[f64],
-) -> (JointedFrame, Vec<SpringPlace>) {
+    carried: &[[f64; 2]],
+) -> AddedJoints {
     let (frame, storey_heights) = (assembly.frame, assembly.heights);
     let floors = &moving[moving.len() - storey_heights.len()..];
     let joint_nodes = add_joints(&assembly, sticks, floors);
@@ -75,6 +85,7 @@ pub(super) fn add_space_joints(
         joints: joint_nodes,
         ends: Vec::new(),
         places: Vec::new(),
+        sections: Vec::new(),
     };
     let first_end = builder.sticks.nodes.len();
     let members = frame
@@ -95,9 +106,15 @@ pub(super) fn add_space_joints(
         };
     }
     let joints = builder.joint_list(frame);
-    let places = builder.places;
+    let (mut places, sections) = (builder.places, builder.sections);
+    // Hinges come before all else that yields.
+    places.extend(sections.iter().flat_map(FibreSection::places));
     sticks.space_ends = first_end..sticks.nodes.len();
-    (JointedFrame { members, joints }, places)
+    AddedJoints {
+        frame: JointedFrame { members, joints },
+        places,
+        sections,
+    }
 }
 
 /// Adds a node for every unknown of a joint; returns them.
@@ -118,9 +135,14 @@ fn add_joints(assembly: &Assembly<'_>, sticks: &mut StickModel, floors: &[usize]
     first..sticks.nodes.len()
 }
 
-/// Lets joints on columns carry the masses of floors, in equal shares.
-fn carry_floors(assembly: &Assembly<'_>, sticks: &mut StickModel, first: usize, carried: &[f64]) {
-    for (floor, mass) in carried.iter().enumerate() {
+/// Lets joints on columns carry the masses and loads of floors, in equal shares.
+fn carry_floors(
+    assembly: &Assembly<'_>,
+    sticks: &mut StickModel,
+    first: usize,
+    carried: &[[f64; 2]],
+) {
+    for (floor, [mass, load]) in carried.iter().enumerate() {
         let places = assembly.frame.members.iter().map(|member| member.place);
         let columns = places.filter_map(|place| match place {
             SpacePlace::Column { line, storey } if storey == floor => Some(line),
@@ -131,6 +153,7 @@ fn carry_floors(assembly: &Assembly<'_>, sticks: &mut StickModel, first: usize, 
             if let [Some(rise), ..] = assembly.joints.at(floor, *line) {
                 let node = &mut sticks.nodes[first + rise];
                 node.inertia[THETA] += mass / columns.len() as f64;
+                node.load += load / columns.len() as f64;
                 node.influence[THETA] = Influence::UP;
             }
         }
@@ -168,12 +191,17 @@ struct Builder<'a> {
     /// Nodes of member ends, by their numbers.
     ends: Vec<usize>,
     places: Vec<SpringPlace>,
+    sections: Vec<FibreSection>,
 }
 
 impl Builder<'_> {
     fn add_member(&mut self, member: &SpaceMember, direction: [f64; 2]) -> JointedMember {
-        let hinged = [0, 1].map(|plane| self.add_hinges(member, plane));
-        let own = self.assembly.springs(member.place, &member.section, hinged);
+        let mut ends = [EndUnknowns::default(); 2];
+        for plane in [0, 1] {
+            self.add_hinges(member, plane, &mut ends);
+        }
+        self.add_fibres(member.place, &mut ends);
+        let own = self.assembly.springs(member.place, &member.section, ends);
         let SpringMember {
             length,
             axial,
@@ -208,37 +236,27 @@ impl Builder<'_> {
         }
     }
 
-    /// Adds the ends of a member in a plane of bending, and the hinges between them and its joints; returns the numbers of the ends.
+    /// Adds the ends of a member in a plane of bending, and the hinges between them and its joints.
     ///
     /// A hinge is positive where a moment stretches the bottom of a beam, or the face of a column on the side of the plane: at the
     /// first end of a column, and the last of a beam, where the joint is turned further along the slope than the member.
-    fn add_hinges(&mut self, member: &SpaceMember, plane: usize) -> Option<[usize; 2]> {
-        let hysteresis = member.hinges[plane]?;
-        let &(_, axis, slope) = planes(member.place).get(plane)?;
-        let level = member.place.storey();
+    fn add_hinges(&mut self, member: &SpaceMember, plane: usize, ends: &mut [EndUnknowns; 2]) {
+        let Some((hysteresis, &(_, axis, slope))) =
+            member.hinges[plane].zip(planes(member.place).get(plane))
+        else {
+            return;
+        };
         let is_column = matches!(member.place, SpacePlace::Column { .. });
-        let numbers = [MemberEnd::First, MemberEnd::Last].map(|end| {
-            let floor = match (is_column, end) {
-                (true, MemberEnd::First) => level.checked_sub(1),
-                _ => Some(level),
-            };
-            let crossing = member.place.crossings()[end as usize];
+        for end in [MemberEnd::First, MemberEnd::Last] {
             // Rotations about x and across stand after the rise.
-            let joint = floor.and_then(|floor| self.assembly.joints.at(floor, crossing)[1 + axis]);
-            let joint = joint.map_or(self.ground, |unknown| self.joints.start + unknown);
-            let node = {
-                let moving = self.assembly.moving(floor);
-                let at = self.sticks.nodes[moving.map_or(self.ground, |own| self.moving[own])];
-                let number = self.ends.len();
-                self.sticks.add_turning(Stage::Beams, number, at.y)
-            };
+            let (joint, node) = self.add_end(member.place, end, 1 + axis, ends);
             let joint_leads = (is_column == (end == MemberEnd::First)) == (slope > 0.0);
-            let ends = if joint_leads {
+            let both = if joint_leads {
                 [joint, node]
             } else {
                 [node, joint]
             };
-            self.sticks.hinges.push(Hinge::yielding(ends, hysteresis));
+            self.sticks.hinges.push(Hinge::yielding(both, hysteresis));
             self.places.push(SpringPlace::InSpace {
                 place: member.place,
                 end,
@@ -247,10 +265,58 @@ impl Builder<'_> {
                     _ => PlanAxis::X,
                 },
             });
-            self.ends.push(node);
-            self.ends.len() - 1
-        });
-        Some(numbers)
+        }
+    }
+
+    /// Adds the ends of a column beyond its fibres, and these.
+    fn add_fibres(&mut self, place: SpacePlace, ends: &mut [EndUnknowns; 2]) {
+        let Some(own) = self.assembly.frame.fibres.get(&place) else {
+            return;
+        };
+        for end in [MemberEnd::First, MemberEnd::Last] {
+            if !own.at_ends[end as usize] {
+                continue;
+            }
+            // What is above moves away from what is below.
+            let [rise, about_x, about_y] = [0, 1, 2].map(|motion| {
+                let (joint, node) = self.add_end(place, end, motion, ends);
+                let [lower, upper] = match end {
+                    MemberEnd::First => [joint, node],
+                    MemberEnd::Last => [node, joint],
+                };
+                over_nodes([((upper, THETA), 1.0), ((lower, THETA), -1.0)])
+            });
+            // A turn about x lifts what lies further across, one about y lowers what lies further along.
+            let rotations = vec![about_y.times(-1.0), about_x];
+            let member = MemberPlace::InSpace(place);
+            let section = self.sticks.add_section(own, member, end, rise, rotations);
+            self.sections.push(section);
+        }
+    }
+
+    /// Adds a displacement of an end of a member beside that of its joint: rise, rotation about x, about y. Returns the nodes of both.
+    fn add_end(
+        &mut self,
+        place: SpacePlace,
+        end: MemberEnd,
+        motion: usize,
+        ends: &mut [EndUnknowns; 2],
+    ) -> (usize, usize) {
+        let level = place.storey();
+        let floor = match (place, end) {
+            (SpacePlace::Column { .. }, MemberEnd::First) => level.checked_sub(1),
+            _ => Some(level),
+        };
+        let crossing = place.crossings()[end as usize];
+        let joint = floor.and_then(|floor| self.assembly.joints.at(floor, crossing)[motion]);
+        let joint = joint.map_or(self.ground, |unknown| self.joints.start + unknown);
+        let moving = self.assembly.moving(floor);
+        let at = self.sticks.nodes[moving.map_or(self.ground, |own| self.moving[own])];
+        let number = self.ends.len();
+        let node = self.sticks.add_turning(Stage::Beams, number, at.y);
+        self.ends.push(node);
+        ends[end as usize][motion] = Some(number);
+        (joint, node)
     }
 
     /// A deformation over displacements of nodes; those of floors are along the axes of the site.

@@ -112,10 +112,8 @@ pub enum SpringPlace {
     },
     /// In a section of fibres at an end of a column.
     Fibre {
-        /// Storey.
-        storey: usize,
-        /// Column line.
-        line: usize,
+        /// Its column.
+        member: MemberPlace,
         /// Which end.
         end: MemberEnd,
         /// Its number in the section.
@@ -412,16 +410,16 @@ impl std::fmt::Display for SpringPlace {
                     SpacePlace::BeamX { .. } | SpacePlace::BeamY { .. } => Ok(()),
                 }
             }
-            Self::Fibre {
-                storey,
-                line,
-                end,
-                fibre,
-            } => write!(
-                formatter,
-                "{}, fibre {fibre}",
-                Self::Column { storey, line, end }
-            ),
+            Self::Fibre { member, end, fibre } => {
+                let end = end.of_column();
+                match member {
+                    MemberPlace::Column { line, storey } => {
+                        write!(formatter, "column {line}, storey {storey}, {end}")?;
+                    }
+                    other => write!(formatter, "{other}, {end}")?,
+                }
+                write!(formatter, ", fibre {fibre}")
+            }
             Self::Sliding { member, .. } => formatter.write_str(&sliding_in_words(member)),
             Self::Diagonal { place, .. } => formatter.write_str(&in_words(place)),
             Self::Storey { storey } => write!(formatter, "storey {storey}"),

@@ -78,16 +78,16 @@ pub(super) fn discretize_tiers(
         .collect();
     stick_model.elements = matrix.elements(ground, &nodes);
     let jointed = tiers.space_frame.as_ref().filter(|own| !follows(own));
-    let (jointed, mut spring_places) = match jointed {
-        Some(frame) => {
-            let assembly = Assembly::new(frame, &tiers.storey_heights, mat.as_ref(), &lumped);
-            let masses = tiers.floors.iter().map(|floor| floor.mass);
-            let carried: Vec<f64> = masses.filter(|_| gravity.preload).collect();
-            let (own, places) =
-                add_space_joints(assembly, &mut stick_model, ground, &nodes, &carried);
-            (Some(Arc::new(own)), places)
-        }
-        None => (None, Vec::new()),
+    let jointed = jointed.map(|frame| {
+        let assembly = Assembly::new(frame, &tiers.storey_heights, mat.as_ref(), &lumped);
+        let floors = tiers.floors.iter().enumerate();
+        let weights = floors.map(|(floor, own)| [own.mass, tiers.floor_load(floor)]);
+        let carried: Vec<[f64; 2]> = weights.filter(|_| gravity.preload).collect();
+        add_space_joints(assembly, &mut stick_model, ground, &nodes, &carried)
+    });
+    let (jointed, mut spring_places, sections) = match jointed {
+        Some(own) => (Some(Arc::new(own.frame)), own.places, own.sections),
+        None => (None, Vec::new(), Vec::new()),
     };
     for own in &tiers.yielding {
         let (storey, axis) = (own.storey, own.axis);
@@ -123,6 +123,7 @@ pub(super) fn discretize_tiers(
         centres: lumped.iter().map(|floor| floor.tier.centre).collect(),
         floors,
         spring_places,
+        sections,
         element_names: tiers.element_names.clone(),
         space_frame: condensed,
         jointed_frame: jointed,

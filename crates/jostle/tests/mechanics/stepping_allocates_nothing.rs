@@ -2,11 +2,12 @@
 
 use std::ops::ControlFlow;
 
-use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
+use jostle::hysteresis::{Backbone, ConcreteFall, Corners, Hysteresis, HysteresisRule};
 use jostle::{
-    Building, Damping, FloorPairs, Gap, GroundMotion, Isolation, Isolator, LawKind, Level, Link,
-    LinkLaw, Model, Plan, Pounding, Settings, Solver, SpeedFriction, Stop, Structure, System, Wall,
-    simulate,
+    Building, ColumnFibres, Damping, Fibre, FloorPairs, Gap, Gravity, GroundMotion, Isolation,
+    Isolator, LawKind, Level, Link, LinkLaw, Model, Plan, Pounding, Settings, Solver, SpaceFrame,
+    SpaceMember, SpacePlace, SpaceSection, SpeedFriction, Stop, Structure, System, Tier, Tiers,
+    Wall, simulate,
 };
 use jostle_testkit::models::{CONCRETE, equal_storeys};
 
@@ -132,6 +133,97 @@ fn links_that_are_not_linear_bearings_and_walls_allocate_nothing_either() {
     never_more_often(&model);
 }
 
+/// A column made of fibres that bends about both axes; their rows have more terms than a row holds by itself.
+#[test]
+fn fibres_in_space_allocate_nothing_either() {
+    let length = 0.3;
+    let fall = ConcreteFall {
+        residual: 0.2,
+        ultimate: 3.0,
+    };
+    let concrete = Hysteresis::concrete(25e6 * 0.16 / 9.0, 0.002 * length, fall).expect("sound");
+    let corners = Corners::bilinear(200e3, 0.01);
+    let backbone = Backbone::from_forces(3e8, corners, corners).expect("sound");
+    let bar = Hysteresis::new(HysteresisRule::Bilinear, backbone).expect("it fits");
+    let places = [-0.13, 0.0, 0.13];
+    let parts = places.iter().flat_map(|x| places.map(|y| [*x, y]));
+    let parts = parts.map(|at| Fibre {
+        at,
+        spring: concrete,
+    });
+    let corners = [-0.16, 0.16];
+    let bars = corners.iter().flat_map(|x| corners.map(|y| [*x, y]));
+    let bars = bars.map(|at| Fibre { at, spring: bar });
+    let own = ColumnFibres {
+        length,
+        at_ends: [true, true],
+        fibres: parts.chain(bars).collect(),
+    };
+    let column = SpaceSection::rectangle([0.4, 0.4], 30e9, 0.2, false).expect("a section");
+    let beam = SpaceSection::beam([0.3, 0.5], 30e9, 0.2, false).expect("a section");
+    let columns = [0, 1].map(|x| SpacePlace::Column {
+        line: [x, 0],
+        storey: 0,
+    });
+    let between = SpacePlace::BeamX {
+        span: 0,
+        line: 0,
+        floor: 0,
+    };
+    let members = columns.map(|place| SpaceMember::elastic(place, column));
+    let members = members
+        .into_iter()
+        .chain([SpaceMember::elastic(between, beam)]);
+    let plan = vec![[-1.0, -2.0], [6.0, -2.0], [6.0, 2.0], [-1.0, 2.0]];
+    let tiers = Tiers {
+        floors: vec![Tier::uniform(60e3, plan).expect("an area")],
+        storey_heights: vec![3.0],
+        space_frame: Some(SpaceFrame {
+            lines_x: vec![0.0, 5.0],
+            lines_y: vec![0.0],
+            members: members.collect(),
+            fibres: columns.map(|place| (place, own.clone())).into(),
+            ..SpaceFrame::default()
+        }),
+        ..Tiers::default()
+    };
+    let mut model = Model {
+        buildings: vec![Building {
+            name: "A".into(),
+            structure: Structure::Tiers(tiers),
+            gravity: Gravity {
+                preload: true,
+                p_delta: false,
+            },
+            ..Building::default()
+        }],
+        ..Model::default()
+    };
+    model.analysis.step = Some(0.004);
+    let system = System::assemble(&model).expect("a valid model");
+    let count = |duration| allocations(&model, &system, duration, Pounding::Included).0;
+    assert_eq!(count(2.0), count(10.0), "five times the steps");
+}
+
+/// How often a run takes memory, and its impacts.
+fn allocations(model: &Model, system: &System, duration: f64, pounding: Pounding) -> (u64, usize) {
+    let motion = shaking(duration);
+    let plan = Plan::choose(system, &motion, &model.analysis).expect("sensible steps");
+    let settings = Settings {
+        pounding,
+        record_interval: None,
+        ..Settings::default()
+    };
+    let mut impacts = 0;
+    let taken = allocation_counter::measure(|| {
+        let outcome = simulate(system, &motion, &plan, settings, |_| {
+            ControlFlow::Continue(())
+        });
+        impacts = outcome.impacts.len();
+    });
+    (taken.count_total, impacts)
+}
+
 fn never_more_often(model: &Model) {
     let mut model = model.clone();
     // However far it drifts: steps are counted.
@@ -140,25 +232,9 @@ fn never_more_often(model: &Model) {
         // Automatic steps would be refined by further runs, more of them in a longer motion.
         model.analysis.step = Some(0.004);
     }
-    let model = &model;
-    let system = System::assemble(model).expect("a valid model");
-    let count = |duration: f64, pounding: Pounding| {
-        let motion = shaking(duration);
-        let plan = Plan::choose(&system, &motion, &model.analysis).expect("sensible steps");
-        let settings = Settings {
-            pounding,
-            record_interval: None,
-            ..Settings::default()
-        };
-        let mut impacts = 0;
-        let taken = allocation_counter::measure(|| {
-            let outcome = simulate(&system, &motion, &plan, settings, |_| {
-                ControlFlow::Continue(())
-            });
-            impacts = outcome.impacts.len();
-        });
-        (taken.count_total, impacts)
-    };
+    let system = System::assemble(&model).expect("a valid model");
+    let count =
+        |duration: f64, pounding: Pounding| allocations(&model, &system, duration, pounding);
     let (short, _) = count(5.0, Pounding::Excluded);
     let (long, _) = count(50.0, Pounding::Excluded);
     assert_eq!(short, long, "ten times the steps in free vibration");

@@ -4,11 +4,11 @@ use serde::Serialize;
 
 use crate::quantity::{Quantity, Unit};
 
-/// An end of a column that is made of fibres. Forces are positive in tension, moments and rotations where they stretch the right side,
-/// strains in tension.
+/// An end of a column that is made of fibres. Forces are positive in tension, moments and rotations where they stretch the right side
+/// (in a space frame, that to greater x), strains in tension.
 #[derive(Clone, Debug, Serialize, PartialEq)]
 pub struct FibreSummary {
-    /// Name: `BUILDING.column.LINE.STOREY.foot` or `head`.
+    /// Name: `BUILDING.column.LINE.STOREY.foot` or `head`; `BUILDING.column.X.Y.STOREY.foot` in a space frame.
     pub name: String,
     /// Greatest axial force \[N\].
     pub axial_max_n: f64,
@@ -22,6 +22,9 @@ pub struct FibreSummary {
     pub rotation_max_rad: f64,
     /// Least rotation \[rad\].
     pub rotation_min_rad: f64,
+    /// The same in the plane across, of a column of a space frame.
+    #[serde(flatten)]
+    pub across: Option<FibreAcrossSummary>,
     /// Greatest elongation of its axis \[m\].
     pub elongation_max_m: f64,
     /// Least elongation: greatest shortening as a negative length \[m\].
@@ -42,6 +45,31 @@ pub struct FibreSummary {
     pub yielded_s: Option<f64>,
     /// Energy dissipated \[J\].
     pub dissipated_j: f64,
+}
+
+/// Moments and rotations of an end of a column of a space frame in the plane across, positive where they stretch the side further
+/// across.
+#[derive(Clone, Copy, Debug, Serialize, PartialEq)]
+pub struct FibreAcrossSummary {
+    /// Greatest moment \[N·m\].
+    pub moment_across_max_n_m: f64,
+    /// Least moment \[N·m\].
+    pub moment_across_min_n_m: f64,
+    /// Greatest rotation \[rad\].
+    pub rotation_across_max_rad: f64,
+    /// Least rotation \[rad\].
+    pub rotation_across_min_rad: f64,
+}
+
+#[rustfmt::skip]
+impl FibreAcrossSummary {
+    /// Its numbers.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::real("moment_across_max_n_m", Unit::NM, "greatest moment in the plane across, positive where it stretches the side further across", |s| s.moment_across_max_n_m),
+        Quantity::<Self>::real("moment_across_min_n_m", Unit::NM, "least moment in the plane across", |s| s.moment_across_min_n_m),
+        Quantity::<Self>::real("rotation_across_max_rad", Unit::RAD, "greatest rotation in the plane across, positive where it stretches the side further across", |s| s.rotation_across_max_rad),
+        Quantity::<Self>::real("rotation_across_min_rad", Unit::RAD, "least rotation in the plane across", |s| s.rotation_across_min_rad),
+    ];
 }
 
 #[rustfmt::skip]

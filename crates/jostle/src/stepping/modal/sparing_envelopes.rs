@@ -231,6 +231,7 @@ fn frame_in_space(at: f64, storeys: usize, axial: bool) -> Tiers {
             lines_x,
             lines_y,
             members,
+            ..SpaceFrame::default()
         }),
         ..tiers(at, storeys)
     }

@@ -182,10 +182,9 @@ fn of_sections(index: usize, building: &BuildingSystem, all: &mut Vec<Watch>) {
             section,
         };
         let moved = Column::along(owner, Kind::Displacement);
-        for (column, row) in [
-            (moved.up(), &own.elongation),
-            (moved.turning(), &own.rotation),
-        ] {
+        let turned = [moved.turning(), moved.across()];
+        let turned = turned.into_iter().zip(&own.rotations);
+        for (column, row) in [(moved.up(), &own.elongation)].into_iter().chain(turned) {
             let row = building.equations.row(&stick_model.carried_row(row));
             let row = row.moved_up(building.offset);
             all.push(Watch::new(column, Statistic::Extremes(row)));

@@ -23,7 +23,7 @@ fn fibres(leans: bool) -> ColumnFibres {
     };
     let concrete = Hysteresis::concrete(25e6 * width * layer, 0.002 * length, fall).expect("sound");
     let layers = (0..12).map(|number| Fibre {
-        at: (f64::from(number) + 0.5) * layer - 0.5 * depth,
+        at: [(f64::from(number) + 0.5) * layer - 0.5 * depth, 0.0],
         spring: concrete,
     });
     let bars = |at: f64, area: f64| {
@@ -31,7 +31,7 @@ fn fibres(leans: bool) -> ColumnFibres {
         let backbone = Backbone::from_forces(200e9 * area / length, corners, corners);
         let spring = Hysteresis::new(HysteresisRule::Bilinear, backbone.expect("sound"));
         Fibre {
-            at,
+            at: [at, 0.0],
             spring: spring.expect("sound"),
         }
     };
@@ -47,7 +47,7 @@ fn fibres(leans: bool) -> ColumnFibres {
 /// The same, seen from the other side.
 fn mirrored(own: &ColumnFibres) -> ColumnFibres {
     let fibres = own.fibres.iter().rev().map(|fibre| Fibre {
-        at: -fibre.at,
+        at: fibre.at.map(|at| -at),
         ..*fibre
     });
     ColumnFibres {
@@ -221,7 +221,13 @@ fn elastic_fibres_at_the_feet_are_springs_of_a_base() {
     let own = ColumnFibres {
         length: 0.3,
         at_ends: [true, false],
-        fibres: places.iter().map(|at| Fibre { at: *at, spring }).collect(),
+        fibres: places
+            .iter()
+            .map(|at| Fibre {
+                at: [*at, 0.0],
+                spring,
+            })
+            .collect(),
     };
     let mut on_fibres = model(frame(1, &[5.0]), &own);
     on_fibres.buildings[0].damping = Damping::Rayleigh {

@@ -709,6 +709,7 @@ fn in_space(axial: bool, hinge: Option<f64>) -> Tiers {
         lines_x: LINES[0].to_vec(),
         lines_y: LINES[1].to_vec(),
         members: Vec::new(),
+        ..SpaceFrame::default()
     };
     let members = places.into_iter().map(|place| {
         let mut section = match place {
@@ -883,6 +884,7 @@ fn a_space_frame_on_a_mat_is_two_isolated_plane_frames() {
             lines_x: lines[0].clone(),
             lines_y: lines[1].clone(),
             members,
+            ..SpaceFrame::default()
         });
         let plane = Frame {
             columns: vec![of_plane(&column); storeys],

@@ -44,6 +44,7 @@ mod same_input_same_bits;
 mod series_stepping;
 mod shear_failure;
 mod space;
+mod space_fibres;
 mod space_frames;
 mod storey_forces;
 mod support;

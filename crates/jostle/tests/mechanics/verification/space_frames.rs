@@ -84,6 +84,7 @@ fn grid(lines_x: &[f64], lines_y: &[f64], storeys: usize, flexible: Flexible) ->
         lines_x: lines_x.to_vec(),
         lines_y: lines_y.to_vec(),
         members,
+        ..SpaceFrame::default()
     }
 }
 

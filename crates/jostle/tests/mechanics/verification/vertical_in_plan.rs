@@ -286,6 +286,7 @@ fn a_space_frame_rises_as_plane_frames() {
             lines_x: vec![0.0, 6.0, 12.0],
             lines_y: vec![0.0, 12.0],
             members,
+            ..SpaceFrame::default()
         }),
         ..Tiers::default()
     };

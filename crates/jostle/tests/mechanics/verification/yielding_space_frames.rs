@@ -103,6 +103,7 @@ impl Grid<'_> {
             lines_x: self.lines[0].to_vec(),
             lines_y: self.lines[1].to_vec(),
             members: Vec::new(),
+            ..SpaceFrame::default()
         };
         let own = members.into_iter().map(|place| self.member(&frame, place));
         frame.members = own.collect();

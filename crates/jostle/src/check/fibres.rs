@@ -1,0 +1,42 @@
+//! Faults of ends of columns that are made of fibres.
+
+use super::Faults;
+use crate::model::{Building, ColumnFibres};
+
+/// Whether the weight of a building presses its fibres.
+pub(super) fn check_weight(faults: &mut Faults, path: &str, building: &Building) {
+    faults.require(
+        building.gravity.preload,
+        path,
+        || "needs the weight of the building, because what fibres bear follows the axial force: add gravity = true".into(),
+    );
+}
+
+/// The fibres of one column.
+pub(super) fn check_fibres(faults: &mut Faults, path: &str, own: &ColumnFibres, in_space: bool) {
+    faults.positive(own.length, format!("{path}.length"), "m");
+    let finite = own.fibres.iter().flat_map(|fibre| fibre.at);
+    let finite = finite.into_iter().all(f64::is_finite);
+    faults.require(finite, path, || "must stand at finite distances".into());
+    faults.require(own.fibres.len() >= 2, path, || {
+        "need at least two: one cannot bend".into()
+    });
+    faults.require(
+        !in_space || !finite || !stand_on_a_line(own),
+        path,
+        || "stand on one line, about which they cannot bend: a column in space needs three at least".into(),
+    );
+}
+
+/// Whether all fibres stand on one line.
+fn stand_on_a_line(own: &ColumnFibres) -> bool {
+    let points = own.fibres.iter().map(|fibre| fibre.at);
+    let Some(first) = points.clone().next() else {
+        return true;
+    };
+    let mut arms = points.map(|[x, y]| [x - first[0], y - first[1]]);
+    let Some([x, y]) = arms.find(|arm| *arm != [0.0; 2]) else {
+        return true;
+    };
+    arms.all(|arm| (x * arm[1] - y * arm[0]).abs() <= 1e-9 * (x * x + y * y))
+}
