@@ -43,7 +43,7 @@ record = "el-centro"
 read = { skip = 0 }
 match = { spectrum = { code = "gb50011" } }
 [[building]]
-column = { profile = { depth = 1 }, axis = "weak", EI = 1, mass = 1 }
+column = { EI = 1, mass = 1 }
 beam = { width = 1, depth = 1, profile = "IPE300", axis = "weak", slab = { depth = 0.1, width = 1, spacing = 1, sides = 1 } }
 stiffness_factor = { column = 1 }
 axial = { columns = "rigid" }
@@ -174,6 +174,7 @@ hinges = { rule = "fibre", length = 1, beam_rule = "takeda", beam = { yield = 1 
 [[building]]
 kind = "frame"
 shear_failure = { strength = 1 }
+column = { profile = { depth = 1 }, axis = "weak" }
 brace = [{ EA = 1 }, { stiffness = 1, hinge = { rule = "bilinear", yield = 1 } }]
 infill = [{ modulus = 1, thickness = 1, width = "mainstone", opening = { length = 0.1 }, strength = { rule = "bertoldi" }, backbone = { rule = "panagiotakos-fardis" } }, { force = 1 }, { stiffness = 1, hinge = { rule = "pinched", residual = 1 } }]
 wall = [{ at = 1, length = 1, thickness = 1, hinge = { rule = "takeda", length = 1 } }, { line = 1, length = 1, EI = 1, shear_hinge = { rule = "bilinear", yield = 1, stiffness = 1 } }]
