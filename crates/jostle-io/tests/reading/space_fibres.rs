@@ -134,7 +134,7 @@ fn ties_confine_the_core_on_all_sides() {
     let middle = |own: &&&Fibre| own.at.iter().all(|at| (at - 0.025).abs() < 1e-12);
     let inner = concrete.iter().find(middle);
     let inner = *inner.expect("in the middle");
-    let confined = |own: &&&Fibre| strain(own) > 1.2 * 0.4 * 0.0015 && strain(own) == strain(inner);
+    let confined = |own: &&&Fibre| (strain(own) / strain(inner) - 1.0).abs() < 1e-9;
     let core: f64 = concrete
         .iter()
         .filter(confined)
