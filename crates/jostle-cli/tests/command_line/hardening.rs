@@ -259,7 +259,7 @@ fn small_mistakes_are_told() {
         assert_eq!(output.status.code(), Some(2), "{shown:.400}");
         assert!(shown.contains(word), "{word}: {shown:.400}");
         assert!(!shown.contains("polar_mass"), "{shown:.400}");
-        assert!(shown.contains("1 fault in m.toml"), "{shown:.400}");
+        assert!(!shown.contains("NaN"), "{shown:.400}");
     }
     // Names of files that are no names of folders.
     write(folder, "...toml", SMALL);
