@@ -402,7 +402,7 @@ fn sentence(name: &str, isolation: &Isolation, result: &IsolationSummary) -> Str
         .map(|[went, travel]| message::travel_of(went, travel))
         .collect();
     if !stages.is_empty() {
-        text.push_str(&message::stages_slide(&stages.join(", ")));
+        text.push_str(&message::stages_slide(stages.join(", ")));
     }
     if result.reached_rims() {
         text.push_str(message::the_bearings_stood_at_their_rims());

@@ -44,6 +44,10 @@ impl StrutWidth {
     ];
 }
 
+/// Where the classes of Bertoldi meet, of λh \[–\].
+#[expect(clippy::approx_constant, reason = "the rule says 3.14")]
+const CLASSES: [f64; 2] = [3.14, 7.85];
+
 /// Strengths of masonry, as magnitudes \[Pa\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Masonry {
@@ -125,8 +129,8 @@ impl Panel {
     /// K₁ and K₂ of Bertoldi \[–\].
     fn of_stiffness(&self) -> [f64; 2] {
         match self.relative_stiffness() {
-            low if low < 3.14 => [1.3, -0.178],
-            middle if middle < 7.85 => [0.707, 0.01],
+            low if low < CLASSES[0] => [1.3, -0.178],
+            middle if middle < CLASSES[1] => [0.707, 0.01],
             _ => [0.47, 0.04],
         }
     }
@@ -261,7 +265,7 @@ mod tests {
     use jostle::hysteresis::{HysteresisMemory, Side};
 
     const INCH: f64 = 0.0254;
-    const KIP: f64 = 4448.221_615_260_5;
+    const KIP: f64 = 4_448.221_615_260_5;
 
     /// The worked example of S. Kadysiewski and K. M. Mosalam (PEER 2008/102): storey and panel 140 in high, 120 in wide and 6 in thick, E of
     /// 500 ksi beside columns of 3122 ksi and half of 8856 in⁴. It prints λ = 0.025 /in, 184.391 in and 0.862 rad.
@@ -297,7 +301,7 @@ mod tests {
             panel.column_rigidity *= (panel.relative_stiffness() / relative).powi(4);
             panel.width(StrutWidth::Bertoldi) / panel.diagonal()
         };
-        for limit in [3.14, 7.85] {
+        for limit in CLASSES {
             let [below, above] = [at(limit - 1e-6), at(limit + 1e-6)];
             assert!((above / below - 1.0).abs() < 0.1, "{below} and {above}");
             assert!((0.09..0.25).contains(&above), "{above}");

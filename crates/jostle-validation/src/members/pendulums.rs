@@ -120,7 +120,7 @@ fn cyclic(case: &Value, spring: &Hysteresis, column: usize, name: &str) -> Row {
 /// The reference sums trapezia between its steps, from the first one on. That is 0.12 % less than the work, because corners lie within
 /// steps.
 fn energy(case: &Value, spring: &Hysteresis) -> Row {
-    let (mut sum, mut before) = (0.0, None);
+    let (mut sum, mut before) = (0.0, None::<[f64; 2]>);
     led(case, spring, |at, memory| {
         let here = [at, memory.force()];
         if let Some([from, force]) = before {
