@@ -55,9 +55,10 @@ impl StickModel {
         &mut self,
         joint: usize,
         own: &ColumnFibres,
-        member: MemberPlace,
+        [storey, line]: [usize; 2],
         end: MemberEnd,
     ) -> (usize, FibreSection) {
+        let member = MemberPlace::Column { line, storey };
         let node = self.add_node(self.nodes[joint].x, self.nodes[joint].y);
         self.hinges.push(Hinge {
             ends: [joint, node],

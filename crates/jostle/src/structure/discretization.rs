@@ -520,9 +520,8 @@ pub(super) fn discretize_frame(
             for (joint, end) in [(from, MemberEnd::First), (to, MemberEnd::Last)] {
                 let node = &mut ends[end as usize];
                 if let Some(own) = fibres.filter(|own| own.at_ends[end as usize]) {
-                    let (line, storey) = (line + 1, storey + 1);
-                    let member = MemberPlace::Column { line, storey };
-                    let (beyond, section) = stick_model.add_fibres(joint, own, member, end);
+                    let place = [storey + 1, line + 1];
+                    let (beyond, section) = stick_model.add_fibres(joint, own, place, end);
                     *node = beyond;
                     row_places.extend(section.places());
                     discretization.sections.push(section);
