@@ -398,8 +398,10 @@ fn sentence(name: &str, isolation: &Isolation, result: &IsolationSummary) -> Str
     let stages: Vec<_> = result
         .stages
         .iter()
-        .map(|stage| [stage.travel_peak_m, stage.travel_m].map(format::millimetres))
-        .map(|[went, travel]| message::travel_of(went, travel))
+        .map(|stage| {
+            let [went, travel] = [stage.travel_peak_m, stage.travel_m].map(format::millimetres);
+            message::travel_of(stage.name, went, travel)
+        })
         .collect();
     if !stages.is_empty() {
         text.push_str(&message::stages_slide(stages.join(", ")));
@@ -429,7 +431,7 @@ fn rows(page: &Page) -> (Vec<Row>, usize) {
                 milli(moved),
                 isolation.reach().map_or_else(none, milli),
                 isolation
-                    .limit
+                    .reach()
                     .map_or_else(none, |limit| format::fixed(100.0 * moved / limit, 0)),
                 none(),
                 milli(match result.in_plan {

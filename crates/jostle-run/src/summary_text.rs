@@ -347,14 +347,14 @@ fn write_isolation(text: &mut String, summary: &Summary) -> std::fmt::Result {
             let travels = own.stages.iter();
             let travels = travels.map(|stage| {
                 let [went, travel] = [stage.travel_peak_m, stage.travel_m].map(|m| m * 1e3);
-                format!("{went:.1} of {travel:.0} mm")
+                format!("{} {went:.1} of {travel:.0} mm", stage.name)
             });
             let travels = travels.collect::<Vec<_>>().join(", ");
             let rims = match own.reached_rims() {
                 true => "; all stood at their rims",
                 false => "",
             };
-            writeln!(text, "  its stages slide {travels}{rims}")?;
+            writeln!(text, "  its stages slide: {travels}{rims}")?;
         }
     }
     for wall in &summary.walls {

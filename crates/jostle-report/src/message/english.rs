@@ -234,8 +234,8 @@ messages! {
     share_of_limit(used, limit) = ", {used} % of their limit of {limit}";
     they_dissipate_residual_displacement(damped, residual) = ". They dissipate {damped}. Residual displacement: {residual}.";
     a_stop_is_hit(force) = " A stop is hit with {force}.";
-    travel_of(went, travel) = "{went} of {travel}";
-    stages_slide(stages) = " Its stages slide {stages}.";
+    travel_of(stage, went, travel) = "{stage} {went} of {travel}";
+    stages_slide(stages) = " Their stages slide: {stages}.";
     the_bearings_stood_at_their_rims = " All stages stood at their rims.";
 
     // diagrams

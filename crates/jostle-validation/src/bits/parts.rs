@@ -130,12 +130,33 @@ law = "kelvin-no-tension"
 stiffness = "400 MN/m"
 "#;
 
+const FIBRED_IN_SPACE: &str = r#"
+motion = { record = "el-centro-1940-ns", pga = "0.5 g", duration = "2 s", across = { record = "el-centro-1940-ns", pga = "0.4 g", duration = "2 s" } }
+[[building]]
+name = "S"
+kind = "space-frame"
+storeys = 1
+storey_height = "3 m"
+lines_x = [0, 4]
+lines_y = [0]
+plan = [["-0.2 m", "-0.2 m"], ["4.2 m", "-0.2 m"], ["4.2 m", "0.2 m"], ["-0.2 m", "0.2 m"]]
+elastic_modulus = "30 GPa"
+mass = "60 t"
+column = { size = ["400 mm", "400 mm"], concrete = "C30", steel = "HRB400", bars = "8 d20" }
+beam_x = { width = "250 mm", depth = "500 mm" }
+beam_y = { width = "250 mm", depth = "500 mm" }
+axial = "flexible"
+gravity = true
+hinges = { rule = "fibre", length = "0.3 m", fibres = [6, 6], ends = "base" }
+"#;
+
 /// Every model.
 pub(super) fn models() -> Vec<Pinned> {
     let all = [
         ("walls", WALLED),
         ("fibres", FIBRED),
         ("lifting", LIFTING),
+        ("fibres in space", FIBRED_IN_SPACE),
         ("panels", PANELLED),
         ("pendulums", ON_PENDULUMS),
     ];

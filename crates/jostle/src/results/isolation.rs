@@ -35,8 +35,12 @@ pub(super) fn isolation_summary(
                 let work = peaks.work(Owner::Spring(global));
                 hysteretic += work - own.hysteresis.recoverable_energy(memory);
                 let force = peaks.owned_by(Owner::Spring(global)).of(Kind::Force);
-                let travels = own.hysteresis.travels(force.size()).into_iter();
-                stages.extend(travels.map(|[travel_peak_m, travel_m]| StageSummary {
+                let travels = own.hysteresis.travels(force.size());
+                let names = ["inner", "lower", "upper"];
+                let names = &names[names.len() - travels.len()..];
+                let named = names.iter().zip(travels);
+                stages.extend(named.map(|(name, [travel_peak_m, travel_m])| StageSummary {
+                    name,
                     travel_peak_m,
                     travel_m,
                 }));

@@ -93,7 +93,7 @@ pub struct IsolationSummary {
     /// That limit; `None` without one \[m\].
     #[serde(skip)]
     pub limit_m: Option<f64>,
-    /// Stages of bearings with several sliding surfaces, in the order in which `check` lists them; empty for others.
+    /// Stages of bearings with several sliding surfaces, the inner one first, then from the lower to the upper bowl; empty for others.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub stages: Vec<StageSummary>,
     /// Across and over all bearings; absent in one plane.
@@ -105,6 +105,8 @@ pub struct IsolationSummary {
 /// upper bowl, each by what the slider turns less.
 #[derive(Clone, Copy, Debug, Serialize, PartialEq)]
 pub struct StageSummary {
+    /// Which it is: `inner`, `lower` or `upper`.
+    pub name: &'static str,
     /// Greatest travel, either sign \[m\].
     pub travel_peak_m: f64,
     /// Travel at its rim \[m\].
