@@ -52,10 +52,6 @@ pub(super) fn change_of_peaks(system: &System, [a, b]: [&Outcome; 2]) -> f64 {
             let forms = forms.filter(|(own, _)| *own == kind).map(|(_, form)| form);
             worst = worst.max(change_of_forms(index, forms, [a, b]).relative_to(0.0));
         }
-        for forms in forms_of_parts(building) {
-            let change = change_of_forms(index, forms.into_iter(), [a, b]);
-            worst = worst.max(change.relative_to(0.0));
-        }
     }
     let gaps = system.contacts.last().map_or(0, |contact| contact.gap + 1);
     for gap in 0..gaps {
@@ -65,6 +61,18 @@ pub(super) fn change_of_peaks(system: &System, [a, b]: [&Outcome; 2]) -> f64 {
         for of in [peak_force, impulse] {
             let pairs = own.iter().map(|contact| [of(a, *contact), of(b, *contact)]);
             worst = worst.max(Change::of(pairs).relative_to(0.0));
+        }
+    }
+    worst
+}
+
+/// The same of braces, struts, walls and coupling beams.
+pub(super) fn change_of_parts(system: &System, runs: [&Outcome; 2]) -> f64 {
+    let mut worst = 0.0_f64;
+    for (index, building) in system.buildings.iter().enumerate() {
+        for forms in forms_of_parts(building) {
+            let change = change_of_forms(index, forms.into_iter(), runs);
+            worst = worst.max(change.relative_to(0.0));
         }
     }
     worst

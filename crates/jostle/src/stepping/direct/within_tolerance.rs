@@ -5,7 +5,7 @@ use crate::interface::LinkElement;
 use crate::motion::GroundMotion;
 use crate::state::State;
 use crate::stepping::outcome::{Accuracy, OnProgress, Outcome, RunEnd, Settings};
-use crate::stepping::peak_change::change_of_peaks;
+use crate::stepping::peak_change::{change_of_parts, change_of_peaks};
 use crate::stepping::plan::Plan;
 use crate::stepping::sensitivity::first_parted;
 use crate::system::{BuildingSystem, System};
@@ -65,7 +65,7 @@ impl Change {
         let completed = runs.iter().all(|run| run.end == RunEnd::Completed);
         Self {
             change: if completed {
-                change_of_peaks(system, runs)
+                change_of_peaks(system, runs).max(change_of_parts(system, runs))
             } else {
                 1.0
             },
