@@ -15,7 +15,7 @@ pub enum FlangeWidth {
     /// As stated, web included \[m\].
     Stated(f64),
     /// EN 1992-1-1, 5.3.2.1: on each side 0.2 b + 0.1 l₀, at most 0.2 l₀ and *b*, half of the clear distance to the next beam; l₀ is 0.85
-    /// of an end span, 0.7 of an inner one and a single span.
+    /// of the length of an end span, 0.7 of that of an inner one, and the whole length of a single span.
     En1992 {
         /// Clear distance to the next beam, > 0 \[m\].
         clear: f64,
