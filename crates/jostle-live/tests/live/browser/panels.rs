@@ -130,6 +130,13 @@ fn contacts_between_floors_have_loops_and_their_own_closing() {
     assert!(off < 5e-3, "{off} off the law");
     // At its peak the closing is that of the run, which straight lines between floors do not give.
     page.value("[...document.querySelectorAll('#impact-panels button')].find((b) => b.textContent === 'Hardest').click()");
+    // A chart out of sight is drawn when it comes into sight.
+    let caption = "[...document.querySelectorAll('figcaption')].find((c) => c.textContent.startsWith('Closing, '))";
+    page.value(&format!("{caption}.scrollIntoView()"));
+    page.wait(&format!(
+        "/\\d/.test({caption}.textContent.split('closing')[1])"
+    ));
+    page.drawn();
     let number = |script: &str| -> f64 {
         let text = page.text(script);
         text.replace(['\u{a0}', '\u{202f}'], " ")
@@ -137,9 +144,9 @@ fn contacts_between_floors_have_loops_and_their_own_closing() {
             .find_map(|word| word.parse().ok())
             .unwrap_or_else(|| panic!("no number in {text}"))
     };
-    let shown = number(
-        "[...document.querySelectorAll('figcaption')].find((c) => c.textContent.startsWith('Closing, ')).textContent.split('closing')[1].replace(/without.*/, '')",
-    );
+    let shown = number(&format!(
+        "{caption}.textContent.split('closing')[1].replace(/without.*/, '')"
+    ));
     let peak = number(
         "[...document.querySelectorAll('.tile')].find((t) => t.textContent.includes('Peak closing')).querySelector('.tile-value').textContent",
     );
