@@ -37,6 +37,7 @@ if TYPE_CHECKING:
         "bilinear",
         "restitution",
         "rubber",
+        "formula",
     ]
     #: What a coefficient of restitution means.
     _RestitutionIs = Literal["input", "realised"]
@@ -609,6 +610,9 @@ class Gap(Part):
         damping: of ``"kelvin"``, ``"kelvin-no-tension"`` and ``"modified-kelvin"`` with
             ``variant="mahmoud-jankowski"``: dashpot of every contact instead of ``restitution``, the same whatever the
             masses; between plans that of a whole face.
+        formula: of the law ``"formula"``: the contact force in N, as ``"k * d^1.5 * (1 + 0.6 * v / v0)"``, in terms of
+            indentation ``d``, its rate ``v``, impact speed ``v0``, ``stiffness`` ``k``, ``restitution`` ``e`` and effective
+            mass ``m``, all in SI.
         variant: of the law ``"modified-kelvin"``: ``"ye"`` (default), damping proportional to the indentation, or
             ``"mahmoud-jankowski"``, damping in the approach only.
         yield_share: of the law ``"bilinear"``: yield indentation ÷ greatest design indentation, 0.1 by default.
@@ -648,6 +652,7 @@ class Gap(Part):
         restitution: float | None = None,
         restitution_is: _RestitutionIs | None = None,
         damping: Quantity | None = None,
+        formula: str | None = None,
         variant: _Variant | None = None,
         yield_share: float | None = None,
         design_speed: Quantity | None = None,
@@ -675,6 +680,7 @@ class Gap(Part):
                 "restitution": restitution,
                 "restitution_is": restitution_is,
                 "damping": damping,
+                "formula": formula,
                 "variant": variant,
                 "yield_share": yield_share,
                 "design_speed": design_speed,

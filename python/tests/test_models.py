@@ -431,6 +431,11 @@ def test_contact_constants_reach_the_model() -> None:
         "5 mm", law="bilinear", stiffness_mn_m=400, second_stiffness_mn_m=120, yield_mm=1.5
     )
     assert contact(constants)["law"] == "bilinear (constants given)"
+    hertz = contact(Gap("5 mm", law="hertz-damp", stiffness=2e9, restitution=0.5))
+    text = "k * d^1.5 * (1 + 0.75 * (1 - e^2) * v / v0)"
+    written = contact(Gap("5 mm", law="formula", formula=text, stiffness=2e9, restitution=0.5))
+    assert written["law"] == "formula"
+    assert written["peak_force_n"] == pytest.approx(hertz["peak_force_n"], rel=1e-6)
     found = jostle.collide(
         "kelvin", m1="40 t", m2="60 t", speed="0.4 m/s", stiffness=1e8, damping="1.1 MN.s/m"
     )

@@ -152,6 +152,10 @@ pub(crate) struct CollideArgs {
     /// Contact law
     #[arg(long, value_name = "LAW", default_value = "hertz-damp", value_parser = jostle_io::LAW_NAMES)]
     pub(crate) law: String,
+    /// A law of your own instead, such as "k * d^1.5 * (1 + 0.6 * v / v0)": d indentation, v its rate, v0 impact speed, k
+    /// stiffness, e restitution, m effective mass, in SI
+    #[arg(long, value_name = "FORMULA", conflicts_with_all = ["law", "all", "damping", "variant", "yield_share", "design_speed", "thickness", "exponent", "restitution_is"])]
+    pub(crate) formula: Option<String>,
     /// Compare all laws
     #[arg(long, conflicts_with = "law")]
     pub(crate) all: bool,

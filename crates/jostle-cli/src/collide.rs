@@ -40,6 +40,7 @@ impl CollideArgs {
     fn options(&self) -> CollideOptions {
         CollideOptions {
             law: self.law.clone(),
+            formula: self.formula.clone(),
             all: self.all,
             m1: self.m1.clone(),
             m2: self.m2.clone(),

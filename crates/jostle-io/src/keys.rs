@@ -370,7 +370,8 @@ pub(crate) const MATRIX_UNITS: &[&str] =
     &["N, m", "kN, m", "N, mm", "kN, mm", "kip, ft", "kip, in"];
 /// Spellings of the contact laws.
 pub const LAW_NAMES: [&str; LawKind::NAMES.len()] = LawKind::NAMES;
-pub(crate) const LAWS: &[&str] = &LAW_NAMES;
+/// The same, and a formula of the user.
+pub(crate) const LAWS: &[&str] = &joined::<{ LAW_NAMES.len() + 1 }>(&[&LAW_NAMES, &["formula"]]);
 /// Spellings of the laws of links.
 pub(crate) const LINK_LAWS: &[&str] = &jostle::LinkLaw::NAMES;
 pub(crate) const LAW_VARIANTS: &[&str] = names!(ModifiedKelvin);
@@ -1051,7 +1052,8 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Gap, "floors", FloorPairs, "\"common\"", "Contact locations: every pair of floors at equal height, \"all\" floors against floors or columns, listed pairs of floors or heights, or heights.").any("heights are compared with those of the floors"),
     default(S::Gap, "level_tolerance", Quantity(D::Length), "\"1 mm\"", "Floors whose heights differ by no more than this can touch.").usual("a tolerance of levels", 1e-5, 1.0).possible(0.0, 20.0),
     default(S::Gap, "law", Choice(LAWS), "\"hertz-damp\"", "Contact law."),
-    default(S::Gap, "stiffness", ContactStiffness, "\"2e9 N/m^1.5\" for Hertz laws", "Contact stiffness: N/m^1.5 for hertz, hertz-damp, ye, jankowski and bilinear, N/m for the others and for bilinear with second_stiffness. For rubber, the secant stiffness at 0.8 of the thickness; for restitution, the stiffness of lasting contact.").usual("a contact stiffness", 1e5, 1e13),
+    optional(S::Gap, "formula", Text, "formula: the contact force in N, such as `\"k * d^1.5 * (1 + 0.6 * v / v0)\"`, in terms of indentation `d`, its rate `v`, impact speed `v0`, `stiffness` k, `restitution` e and effective mass `m`, all in SI. Operations `+ - * / ^ < >`; functions `sqrt`, `abs`, `exp`, `ln`, `tanh`, `min`, `max`, `if(condition, force, other force)`. A negative force is cut at zero. It must not fall as `d` or `v` grow."),
+    default(S::Gap, "stiffness", ContactStiffness, "\"2e9 N/m^1.5\" for Hertz laws", "Contact stiffness: N/m^1.5 for hertz, hertz-damp, ye, jankowski, bilinear and a formula that grows with d^1.5, N/m for the others and for bilinear with second_stiffness. For rubber, the secant stiffness at 0.8 of the thickness; for restitution, the stiffness of lasting contact.").usual("a contact stiffness", 1e5, 1e13),
     default(S::Gap, "restitution", Quantity(D::Dimensionless), "0.65", "Coefficient of restitution.").usual("a coefficient of restitution", 1e-3, 1.0),
     default(S::Gap, "restitution_is", Choice(RESTITUTION_IS), "\"input\"", "\"input\": e goes into the published formula. \"realised\": damping is calibrated so that free masses rebound with e."),
 

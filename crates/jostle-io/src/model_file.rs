@@ -39,10 +39,12 @@ mod section;
 mod shear;
 mod shear_failure;
 mod site;
+mod slab;
 mod soil;
 mod space_frame;
 mod space_hinges;
 mod stated;
+mod steel_profile;
 #[cfg(test)]
 mod tests;
 mod unusual_results;

@@ -451,6 +451,7 @@ fn constants(law: &ContactLaw) -> Facts {
                 format::millimetres(own.yield_indentation),
             ),
         ],
+        LawKind::Formula(own) => vec![(message::contact_force_formula(), own.to_string())],
         LawKind::Crushing(own) => vec![
             (message::crushing_force(), exact(own.force, "N")),
             (

@@ -1,8 +1,8 @@
 //! Two free masses under contact laws.
 
 use jostle::contact::{
-    BilinearShape, Dashpot, DashpotLaw, FreeCollision, ModifiedKelvin, RubberBumper,
-    effective_mass, hertz_indentation,
+    BilinearShape, Dashpot, DashpotLaw, ForceLaw, Formula, FreeCollision, ModifiedKelvin,
+    RubberBumper, effective_mass, hertz_indentation,
 };
 use jostle::{ContactLaw, LawKind, RestitutionIs};
 use jostle_io::{Dimension, LAW_NAMES, parse_quantity};
@@ -21,6 +21,8 @@ const MEANINGS: [&str; 2] = ["input", "realised"];
 pub struct CollideOptions {
     /// Contact law.
     pub law: String,
+    /// A formula of the force instead; `None` for none.
+    pub formula: Option<String>,
     /// Every law instead; those that cannot realise the restitution are left out.
     pub all: bool,
     /// Mass of the left body, > 0.
@@ -55,6 +57,7 @@ impl Default for CollideOptions {
     fn default() -> Self {
         Self {
             law: "hertz-damp".into(),
+            formula: None,
             all: false,
             m1: String::new(),
             m2: String::new(),
@@ -144,7 +147,12 @@ pub fn collide(options: &CollideOptions) -> Result<Collisions, RunError> {
             bumper.exponent
         )));
     }
-    let kinds = kinds(options, shape, bumper);
+    let kinds = match &options.formula {
+        None => kinds(options, shape, bumper),
+        Some(text) => vec![LawKind::Formula(Formula::parse(text).map_err(|error| {
+            RunError::Argument(format!("--formula \"{text}\": {error}"))
+        })?)],
+    };
     let energy = effective_mass(masses[0], masses[1]) * speed * speed;
     let stiffness = Stiffness::read(options, &kinds, energy)?;
     let restitution_is = if options.restitution_is == "realised" {
@@ -175,6 +183,13 @@ pub fn collide(options: &CollideOptions) -> Result<Collisions, RunError> {
             )));
         }
         let numbers = law.between(masses[0], masses[1]);
+        if let (ForceLaw::Formula(own), LawKind::Formula(text)) = (numbers, kind)
+            && let Some(problem) = own.fault()
+        {
+            return Err(RunError::Argument(format!(
+                "--formula \"{text}\" {problem}"
+            )));
+        }
         let ratio = numbers.damping_ratio(effective_mass(masses[0], masses[1]));
         if numbers.jumps_at_release() && ratio.is_some_and(|ratio| ratio >= 1.0) {
             return Err(RunError::Argument(format!(

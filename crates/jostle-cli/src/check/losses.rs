@@ -1,9 +1,13 @@
 //! What impacts dissipate.
 
 use jostle::LawKind;
+use jostle::contact::FreeCollision;
 use jostle::interface::Contact;
 use jostle::model::Gap;
 use jostle_run::{kn, mm};
+
+/// Impact speed at which the rebound of a formula is computed \[m/s\].
+const SPEED: f64 = 0.5;
 
 /// What impacts of a gap dissipate, in words.
 pub(super) fn losses(gap: &Gap, contacts: &[&Contact]) -> String {
@@ -34,6 +38,14 @@ pub(super) fn losses(gap: &Gap, contacts: &[&Contact]) -> String {
             kn(own.force),
             own.hardening
         ),
+        LawKind::Formula(own) => {
+            let rebound = range(&|contact: &Contact| {
+                let [left, right] = contact.ports.masses();
+                let collision = FreeCollision::new(&contact.law, left, right, SPEED);
+                Some(collision.realised_restitution())
+            });
+            format!("F = {own}; at {SPEED} m/s free masses rebound with {rebound}")
+        }
         _ => format!("free masses rebound with {free}"),
     }
 }

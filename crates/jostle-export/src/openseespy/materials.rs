@@ -346,6 +346,9 @@ impl Materials {
                     "OpenSees cannot change velocities at once; use a law with a force, such as hertz-damp",
                 );
             }
+            ForceLaw::Formula(_) => {
+                return Err("OpenSees has no contact law by a formula; use hertz-damp or kelvin");
+            }
             ForceLaw::Rubber(_) => {
                 return Err("OpenSees has no rubber bumper; use hertz-damp or kelvin");
             }

@@ -1,6 +1,6 @@
 //! The contact law of a `[[gap]]`: its name, its constants, and which of them go together.
 
-use jostle::contact::{BilinearConstants, Crush, Dashpot, DashpotLaw, ModifiedKelvin};
+use jostle::contact::{BilinearConstants, Crush, Dashpot, DashpotLaw, Formula, ModifiedKelvin};
 use jostle::{ContactLaw, LawKind, RestitutionIs};
 
 use crate::keys::{LAW_VARIANTS, LAWS, RESTITUTION_IS, Section};
@@ -11,6 +11,8 @@ use crate::reader::{Reader, View};
 pub(super) const DEFAULT_LAW: LawKind = LawKind::HertzDamp;
 /// Contact stiffness of the Hertz laws for colliding concrete floors \[N/m^1.5\].
 pub(super) const CONCRETE_STIFFNESS: f64 = 2e9;
+/// Name of the law that is a formula of the user, and of its key.
+const FORMULA: &str = "formula";
 /// Stiffness of lasting contact under the momentum law \[N/m\].
 const LASTING_STIFFNESS: f64 = 1e9;
 /// Restitution of colliding concrete \[–\].
@@ -25,9 +27,12 @@ pub(super) fn contact_law(
     let named = reader
         .get(view, "law")
         .map(|field| reader.choice(&field, LAWS, &[]));
-    let known = named.flatten().and_then(LawKind::from_name);
+    let known = match named.flatten() {
+        Some(FORMULA) => formula(reader, view).map(LawKind::Formula),
+        name => name.and_then(LawKind::from_name),
+    };
     let kind = known.unwrap_or(DEFAULT_LAW);
-    let law_is_bad = matches!(named, Some(None));
+    let law_is_bad = named.is_some() && known.is_none();
     let kind = with_parameters(reader, view, kind, law_is_bad);
     let kind = with_constants(reader, view, kind, law_is_bad);
     if per_length
@@ -63,11 +68,33 @@ pub(super) fn contact_law(
     }
 }
 
+/// The formula of a law.
+fn formula(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Formula> {
+    let Some(field) = reader.get(view, FORMULA) else {
+        reader.missing(
+            view,
+            FORMULA,
+            "add formula = \"k * d^1.5 * (1 + 0.6 * v / v0)\"",
+        );
+        return None;
+    };
+    let text = reader.text(&field)?;
+    match Formula::parse(&text) {
+        Ok(formula) => Some(formula),
+        Err(error) => {
+            *reader.bad(&field, error.to_string()) =
+                Some("write the force in N as in \"k * d^1.5 * (1 + 0.6 * v / v0)\"".into());
+            None
+        }
+    }
+}
+
 /// Where constants state what a law dissipates, no coefficient can.
 fn refuse_restitution(reader: &mut Reader<'_>, view: &View<'_>, kind: LawKind) {
     let stated = match kind {
         LawKind::Dashpot(_) => "damping",
         LawKind::BilinearGiven(_) => "second_stiffness and yield",
+        LawKind::Formula(_) => "a formula without e",
         _ => "crush",
     };
     for key in ["restitution", "restitution_is"] {
@@ -130,10 +157,12 @@ fn with_parameters(
         | LawKind::Restitution
         | LawKind::Dashpot(_)
         | LawKind::BilinearGiven(_)
-        | LawKind::Crushing(_) => {}
+        | LawKind::Crushing(_)
+        | LawKind::Formula(_) => {}
     }
     if !law_is_bad {
         for (key, owner) in [
+            ("formula", FORMULA),
             ("variant", "modified-kelvin"),
             ("yield_share", "bilinear"),
             ("design_speed", "bilinear"),
@@ -274,7 +303,8 @@ fn stiffness(
     law_is_bad: bool,
 ) -> Option<f64> {
     let Some(field) = reader.get(view, "stiffness") else {
-        if !kind.is_hertzian() && kind != LawKind::Restitution && !law_is_bad {
+        let usual = kind.is_hertzian() && !matches!(kind, LawKind::Formula(_));
+        if !usual && kind != LawKind::Restitution && !law_is_bad {
             reader.missing(
                 view,
                 "stiffness",

@@ -2,15 +2,14 @@
 
 use jostle::Section;
 use jostle_section::formula::Member;
-use jostle_section::{
-    Axis, FlangeWidth, Profile, STEEL_DENSITY, STEEL_MODULUS, Slab, Span, StrengthLevel,
-};
+use jostle_section::{STEEL_DENSITY, Span, StrengthLevel};
 
 use super::places::{self, Layout};
+use super::slab::{self, OnSlab};
+use super::steel_profile;
 use crate::grade::ConcreteGrade;
-use crate::keys::{AXES, CONCRETES, FLANGE_WIDTHS, SECTION_CONCRETES, Section as KeySection};
-use crate::nearest::nearest;
-use crate::quantity::{Dimension, shorten};
+use crate::keys::{CONCRETES, SECTION_CONCRETES};
+use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
 
 /// Modulus of elasticity of the concrete grades C20 … C80 \[GPa\] (GB 50010, table 4.1.5).
@@ -101,28 +100,12 @@ pub(super) struct OfTable {
     slab: Option<OnSlab>,
 }
 
-/// A beam whose slab takes part.
-#[derive(Clone, Copy)]
-struct OnSlab {
-    slab: Slab,
-    width: f64,
-    depth: f64,
-    /// E of axial force, and E with the factor of cracking \[Pa\].
-    moduli: [f64; 2],
-}
-
 impl OfTable {
     /// The section in a span; columns have none.
     pub(super) fn at(&self, span: Option<Span>) -> Section {
-        let (Some(own), Some(span)) = (self.slab, span) else {
-            return self.section;
-        };
-        let tee = own.slab.tee(own.width, own.depth, span);
-        let [axial, bending] = own.moduli;
-        Section {
-            flexural_rigidity: bending * tee.inertia,
-            axial_rigidity: Some(axial * tee.area),
-            ..self.section
+        match (self.slab, span) {
+            (Some(slab), Some(span)) => slab.with(self.section, span),
+            _ => self.section,
         }
     }
 }
@@ -179,7 +162,7 @@ fn read_section(
         (false, false, Some(field)) => {
             // Steel does not crack, whatever concrete does.
             (density, factor) = (STEEL_DENSITY, 1.0);
-            profile(reader, &view, &field, material)
+            steel_profile::read(reader, &view, &field, material)
         }
         (_, _, Some(field)) => {
             *reader.bad(&field, "stands beside a size or rigidities") =
@@ -205,7 +188,7 @@ fn read_section(
     }
     if member == Member::Beam {
         let slab = match reader.get(&view, "slab") {
-            Some(field) => Some(slab(reader, &view, &field, material)?),
+            Some(field) => Some(slab::read(reader, &view, &field, material)?),
             None => None,
         };
         let section = Section {
@@ -235,177 +218,6 @@ fn read_section(
     Some(OfTable {
         section,
         slab: None,
-    })
-}
-
-/// A steel profile by its name or its sizes. Its modulus is that of steel unless the building states one in numbers.
-fn profile(
-    reader: &mut Reader<'_>,
-    view: &View<'_>,
-    field: &Field<'_>,
-    material: Material,
-) -> Option<Section> {
-    let axis = match reader.get(view, "axis") {
-        Some(field) => match reader.choice(&field, AXES, &[])? {
-            "weak" => Axis::Weak,
-            _ => Axis::Strong,
-        },
-        None => Axis::Strong,
-    };
-    let own = if let Some(name) = field.as_text() {
-        let Some(own) = Profile::named(name) else {
-            let plain = name.to_uppercase().replace(' ', "");
-            let remedy = nearest(&plain, Profile::names())
-                .map_or_else(|| "give its sizes: profile = { depth = \"310 mm\", width = \"205 mm\", web = \"9.4 mm\", flange = \"16.3 mm\" }".to_owned(), |name| format!("did you mean \"{name}\"? Others by sizes: profile = {{ depth = \"310 mm\", width = \"205 mm\", web = \"9.4 mm\", flange = \"16.3 mm\" }}"));
-            let problem = format!(
-                "\"{}\" is not known; available: IPE80 to IPE600, HEA100 to HEA1000, HEB100 to HEB1000",
-                shorten(name)
-            );
-            *reader.bad(field, problem) = Some(remedy);
-            return None;
-        };
-        own
-    } else {
-        let sizes = reader.open(field, &[KeySection::Profile])?;
-        let mut size = |key: &'static str, example: &str| match reader.get(&sizes, key) {
-            Some(field) => reader.positive(&field, Dimension::Length),
-            None => {
-                reader.missing(&sizes, key, format!("add {key} = {example}"));
-                None
-            }
-        };
-        let [depth, width] = [size("depth", "\"310 mm\""), size("width", "\"205 mm\"")];
-        let [web, flange] = [size("web", "\"9.4 mm\""), size("flange", "\"16.3 mm\"")];
-        let radius = match reader.get(&sizes, "radius") {
-            Some(field) => reader.positive(&field, Dimension::Length)?,
-            None => 0.0,
-        };
-        let own = Profile {
-            depth: depth?,
-            width: width?,
-            web: web?,
-            flange: flange?,
-            radius,
-        };
-        if let Some(fault) = own.fault() {
-            *reader.bad(field, fault) = Some("check the sizes and their units".into());
-            return None;
-        }
-        own
-    };
-    let modulus = material
-        .modulus
-        .filter(|_| material.modulus_is_stated)
-        .unwrap_or(STEEL_MODULUS);
-    let shears = material.shears;
-    Some(Section {
-        flexural_rigidity: modulus * own.inertia(axis),
-        axial_rigidity: Some(modulus * own.area()),
-        shear_rigidity: shears
-            .then(|| own.shear_area(axis) * modulus / (2.0 * (1.0 + STEEL_POISSON))),
-        line_mass: STEEL_DENSITY * own.area(),
-    })
-}
-
-/// ν of steel (EN 1993-1-1, 3.2.6) \[–\].
-const STEEL_POISSON: f64 = 0.3;
-
-/// A slab that takes part in the bending of a beam.
-fn slab(
-    reader: &mut Reader<'_>,
-    beam: &View<'_>,
-    field: &Field<'_>,
-    material: Material,
-) -> Option<OnSlab> {
-    let view = reader.open(field, &[KeySection::Slab])?;
-    if !beam.has("width") || !beam.has("depth") {
-        *reader.bad(field, "needs a beam with width and depth") =
-            Some("give width and depth of the beam, slab included; or EI of both together instead of slab".into());
-        return None;
-    }
-    // Their faults are noted where the rectangle is read.
-    let [web, whole] = ["width", "depth"].map(|key| {
-        let field = reader.get(beam, key)?;
-        reader.quietly(|reader| reader.positive(&field, Dimension::Length))
-    });
-    let depth = match reader.get(&view, "depth") {
-        Some(field) => {
-            let depth = reader.positive(&field, Dimension::Length)?;
-            if whole.is_some_and(|whole| depth >= whole) {
-                *reader.bad(&field, format!("must be less than the depth of the beam, which includes the slab; found {depth} m")) =
-                    Some("give the thickness of the slab, such as \"150 mm\"".into());
-                return None;
-            }
-            depth
-        }
-        None => {
-            reader.missing(&view, "depth", "add depth = \"150 mm\"");
-            return None;
-        }
-    };
-    let sides = match reader.get(&view, "sides") {
-        Some(field) => match reader.count(&field)? {
-            sides @ 1..=2 => sides,
-            sides => {
-                reader.bad(&field, format!("must be 1 or 2, found {sides}"));
-                return None;
-            }
-        },
-        None => 2,
-    };
-    let Some(stated) = reader.get(&view, "width") else {
-        reader.missing(
-            &view,
-            "width",
-            "add width = \"en1992\" or \"aci318\" with spacing, or the effective width, such as \"1.4 m\"",
-        );
-        return None;
-    };
-    let spacing = reader.get(&view, "spacing");
-    let is_word = stated
-        .as_text()
-        .is_some_and(|text| text.starts_with(|c: char| c.is_alphabetic()));
-    let width = if is_word {
-        let rule = reader.choice(&stated, FLANGE_WIDTHS, &[])?;
-        let Some(spacing) = spacing else {
-            reader.missing(
-                &view,
-                "spacing",
-                format!(
-                    "{rule} needs the clear distance to the next beam: add spacing = \"4.7 m\""
-                ),
-            );
-            return None;
-        };
-        let clear = reader.positive(&spacing, Dimension::Length)?;
-        match rule {
-            "en1992" => FlangeWidth::En1992 { clear },
-            _ => FlangeWidth::Aci318 { clear },
-        }
-    } else {
-        if let Some(field) = spacing {
-            *reader.bad(&field, "is for width by a rule") = Some("leave it out".into());
-        }
-        let width = reader.positive(&stated, Dimension::Length)?;
-        if web.is_some_and(|web| width < web) {
-            *reader.bad(
-                &stated,
-                format!("must not be less than the width of the beam, found {width} m"),
-            ) = Some("give the effective width, web included".into());
-            return None;
-        }
-        FlangeWidth::Stated(width)
-    };
-    let modulus = material.modulus?;
-    Some(OnSlab {
-        slab: Slab {
-            depth,
-            sides,
-            width,
-        },
-        width: web?,
-        depth: whole?,
-        moduli: [modulus, modulus * material.factor],
     })
 }
 

@@ -67,6 +67,9 @@ coupling = { stiffness = [[1]] }
 [[gap]]
 law = "linear"
 crush = { force = 1 }
+[[gap]]
+law = "formula"
+formula = "k * d"
 [[link]]
 stiffness = 1
 [[wall]]

@@ -717,6 +717,34 @@ fn parameters_belong_to_their_law() {
             "gap[0].yield: belongs to the law bilinear, not to kelvin",
         ),
         (
+            "law = \"formula\"\nstiffness = 2e9",
+            "gap[0].formula: is missing",
+        ),
+        (
+            "law = \"formula\"\nstiffness = 2e9\nformula = \"k*d*(1 + rate)\"",
+            "gap[0].formula: \"rate\" is no name of a formula; use d, v, v0, k, e or m",
+        ),
+        (
+            "law = \"formula\"\nstiffness = \"90 MN/m\"\nformula = \"k*d*(1 - v/v0)\"",
+            "gap[0].formula: \"k*d*(1 - v/v0)\" must not fall as v grows",
+        ),
+        (
+            "law = \"formula\"\nformula = \"k*d*(1 + 0.5*v/v0)\"",
+            "gap[0].stiffness: is missing",
+        ),
+        (
+            "law = \"formula\"\nstiffness = \"90 MN/m\"\nformula = \"k*d^1.5*(1 + 0.5*v/v0)\"",
+            "gap[0].stiffness: expected a Hertz contact stiffness",
+        ),
+        (
+            "law = \"formula\"\nstiffness = \"90 MN/m\"\nrestitution = 0.6\nformula = \"k*d\"",
+            "gap[0].restitution: cannot be combined with a formula without e",
+        ),
+        (
+            "law = \"kelvin\"\nstiffness = \"90 MN/m\"\nformula = \"k*d\"",
+            "gap[0].formula: belongs to the law formula, not to kelvin",
+        ),
+        (
             "law = \"hertz\"\ncrush = { force = \"600 kN\" }",
             "gap[0].crush: belongs to the law linear, not to hertz",
         ),

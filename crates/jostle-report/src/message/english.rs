@@ -172,6 +172,7 @@ messages! {
     second_stiffness = "second stiffness";
     yield_indentation = "yield indentation";
     crushing_force = "crushes from";
+    contact_force_formula = "contact force [N]";
     crushing_hardening = "stiffness while it crushes ÷ stiffness";
     crushed_by = "crushed at the end by";
     name = "name";

@@ -137,6 +137,9 @@ impl Law {
                 },
                 Some(restitution),
             ),
+            ForceLaw::Formula(_) => {
+                return Err("formulas are compared with the laws that they write".into());
+            }
             ForceLaw::Crushing(_) => {
                 return Err("faces that crush have their own references".into());
             }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::plan::check_plan_gap;
 use super::{Faults, each};
-use crate::contact::{ContactLaw, LawKind};
+use crate::contact::{ContactLaw, ForceLaw, LawKind};
 use crate::interface::contact_points::{crowded, point_pairs};
 use crate::model::{FloorPairs, Gap, Level, Link, LinkLaw, Model};
 
@@ -299,6 +299,9 @@ fn check_inside(faults: &mut Faults, path: &str, building: usize, link: &Link, m
     }
 }
 
+/// Masses between which a formula is tried \[kg\].
+const TRIED_MASS: f64 = 1e5;
+
 /// Parameters of individual laws.
 fn check_shape(faults: &mut Faults, path: &str, law: &ContactLaw) {
     match law.kind {
@@ -341,6 +344,18 @@ fn check_shape(faults: &mut Faults, path: &str, law: &ContactLaw) {
                 format!("{path}.crush.hardening"),
                 || format!("must be at least 0 and below 1, found {share}; it is the stiffness while crushing over the contact stiffness"),
             );
+        }
+        LawKind::Formula(formula) => {
+            // The masses that collide differ from contact to contact; the damping that follows from them scales with their root.
+            let tried = law.between(TRIED_MASS, TRIED_MASS);
+            if let (ForceLaw::Formula(tried), true) = (tried, law.stiffness > 0.0)
+                && let Some(problem) = tried.fault()
+            {
+                faults.add(
+                    format!("{path}.formula"),
+                    format!("\"{formula}\" {problem}"),
+                );
+            }
         }
         LawKind::Linear
         | LawKind::Kelvin

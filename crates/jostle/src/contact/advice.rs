@@ -267,7 +267,7 @@ pub fn advised_range(
     };
     let range = |value, low, high| Some(StiffnessRange { value, low, high });
     match kind {
-        LawKind::Rubber(_) | LawKind::Restitution => None,
+        LawKind::Rubber(_) | LawKind::Restitution | LawKind::Formula(_) => None,
         kind if kind.is_hertzian() => range(spheres, low, high),
         _ => {
             let slab = USUAL_THICKNESS * materials[0].modulus.min(materials[1].modulus);

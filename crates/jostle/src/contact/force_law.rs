@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::hertz::{HERTZ_DURATION, hertz_indentation};
-use super::{Bilinear, Crushing, Rubber, approach, hertz, kelvin};
+use super::{Bilinear, Crushing, FormulaLaw, Rubber, approach, hertz, kelvin};
 
 /// A contact law with its coefficients; pure functions of indentation, rate and memory.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,6 +60,8 @@ pub enum ForceLaw {
     Rubber(Rubber),
     /// A face that crushes and stays crushed.
     Crushing(Crushing),
+    /// A formula of the user.
+    Formula(FormulaLaw),
 }
 
 /// Contact force and its partial derivatives.
@@ -97,7 +99,7 @@ pub struct Memory {
 /// Impact speed below which contact starts from rest, without an impact speed by which a law can divide \[m/s\].
 const REST: f64 = 1e-3;
 /// Lower bound of the speed by which laws divide \[m/s\].
-const SLOWEST: f64 = 1e-9;
+pub(super) const SLOWEST: f64 = 1e-9;
 
 /// A force that grows with this power of the indentation, or a higher one, ends without a noticeable corner.
 const SMOOTH_ONSET: f64 = 1.5;
@@ -162,6 +164,7 @@ impl ForceLaw {
             Self::Bilinear(ref bilinear) => bilinear.respond(indentation, memory),
             Self::Rubber(ref rubber) => rubber.respond(indentation, rate, memory.speed_at(rate)),
             Self::Crushing(ref crushing) => crushing.respond(indentation, memory),
+            Self::Formula(ref formula) => formula.respond(indentation, rate, memory.speed_at(rate)),
         }
     }
 
@@ -178,7 +181,8 @@ impl ForceLaw {
             | Self::Hertz { .. }
             | Self::Jankowski { .. }
             | Self::Restitution { .. }
-            | Self::Rubber(_) => {}
+            | Self::Rubber(_)
+            | Self::Formula(_) => {}
         }
     }
 
@@ -198,7 +202,8 @@ impl ForceLaw {
             | Self::Bilinear(_)
             | Self::Restitution { .. }
             | Self::Rubber(_)
-            | Self::Crushing(_) => None,
+            | Self::Crushing(_)
+            | Self::Formula(_) => None,
         }
     }
 
@@ -209,6 +214,7 @@ impl ForceLaw {
             Self::Kelvin { damping, .. }
             | Self::ApproachKelvin { damping, .. }
             | Self::Restitution { damping, .. } => damping * rate,
+            Self::Formula(ref formula) => formula.onset(rate),
             _ => 0.0,
         }
     }
@@ -229,6 +235,7 @@ impl ForceLaw {
             | Self::DampedLinear { .. }
             | Self::Bilinear(_)
             | Self::Crushing(_)
+            | Self::Formula(_)
             | Self::Restitution { .. } => true,
             Self::Rubber(rubber) => rubber.exponent < SMOOTH_ONSET,
             Self::Hertz { .. } | Self::Jankowski { .. } => false,
@@ -239,14 +246,18 @@ impl ForceLaw {
     /// starts or stops acting there.
     #[must_use]
     pub(crate) fn has_corner_at_turn(&self) -> bool {
-        matches!(
-            self,
+        match self {
             Self::ApproachKelvin { .. }
-                | Self::Jankowski { .. }
-                | Self::Rubber(_)
-                | Self::Bilinear(_)
-                | Self::Crushing(_)
-        )
+            | Self::Jankowski { .. }
+            | Self::Rubber(_)
+            | Self::Bilinear(_)
+            | Self::Crushing(_) => true,
+            Self::Formula(formula) => formula.has_corner_at_turn(),
+            Self::Kelvin { .. }
+            | Self::DampedLinear { .. }
+            | Self::Hertz { .. }
+            | Self::Restitution { .. } => false,
+        }
     }
 
     /// Whether the force, while the motion does not reverse, lies between those at both ends of a step: it follows the
@@ -265,7 +276,10 @@ impl ForceLaw {
     /// Whether the force starts as a root of time, which no step can resolve.
     #[must_use]
     pub(crate) fn starts_steeply(&self) -> bool {
-        matches!(self, Self::Jankowski { .. })
+        match self {
+            Self::Formula(formula) => formula.starts_steeply(),
+            _ => matches!(self, Self::Jankowski { .. }),
+        }
     }
 
     /// The coefficient with which an impact at this closing rate \[m/s\] changes velocities instantly; `None` if a
@@ -283,7 +297,8 @@ impl ForceLaw {
             | Self::Jankowski { .. }
             | Self::Bilinear(_)
             | Self::Rubber(_)
-            | Self::Crushing(_) => None,
+            | Self::Crushing(_)
+            | Self::Formula(_) => None,
         }
     }
 
@@ -298,7 +313,8 @@ impl ForceLaw {
             | Self::DampedLinear { .. }
             | Self::Hertz { .. }
             | Self::Jankowski { .. }
-            | Self::Restitution { .. } => f64::INFINITY,
+            | Self::Restitution { .. }
+            | Self::Formula(_) => f64::INFINITY,
         }
     }
 
@@ -324,6 +340,7 @@ impl ForceLaw {
             }
             Self::Rubber(rubber) => rubber.elastic_duration(effective_mass, impact_speed),
             Self::Crushing(crushing) => linear(crushing.stiffness),
+            Self::Formula(formula) => formula.elastic_duration(effective_mass, impact_speed),
         }
     }
 
@@ -349,6 +366,7 @@ impl ForceLaw {
             }
             Self::Rubber(rubber) => rubber.elastic_force(effective_mass, impact_speed),
             Self::Crushing(crushing) => crushing.greatest_force(effective_mass, impact_speed),
+            Self::Formula(formula) => formula.elastic_force(effective_mass, impact_speed),
         }
     }
 
@@ -365,6 +383,7 @@ impl ForceLaw {
             Self::Bilinear(bilinear) => bilinear.first_stiffness,
             Self::Rubber(rubber) => rubber.stiffness,
             Self::Crushing(crushing) => crushing.stiffness,
+            Self::Formula(formula) => formula.stiffness,
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The formulas by name.
 
-use super::{BilinearConstants, BilinearShape, Crush, Dashpot, DashpotLaw, RubberBumper};
+use super::{BilinearConstants, BilinearShape, Crush, Dashpot, DashpotLaw, Formula, RubberBumper};
 
 /// The formula of a contact law.
 ///
@@ -43,6 +43,8 @@ pub enum LawKind {
     BilinearGiven(BilinearConstants),
     /// F = k δ up to a force at which the face crushes; it stays crushed.
     Crushing(Crush),
+    /// A formula of the user in indentation, rate and impact speed.
+    Formula(Formula),
 }
 
 /// Damper of the modified Kelvin law.
@@ -139,6 +141,7 @@ impl LawKind {
             Self::Bilinear(_) | Self::BilinearGiven(_) => "bilinear",
             Self::Restitution => "restitution",
             Self::Rubber(_) => "rubber",
+            Self::Formula(_) => "formula",
         }
     }
 
@@ -160,10 +163,11 @@ impl LawKind {
     /// Whether the stiffness is in N/m^1.5 rather than N/m.
     #[must_use]
     pub fn is_hertzian(self) -> bool {
-        matches!(
-            self,
-            Self::Hertz | Self::HertzDamp | Self::Ye | Self::Jankowski | Self::Bilinear(_)
-        )
+        match self {
+            Self::Hertz | Self::HertzDamp | Self::Ye | Self::Jankowski | Self::Bilinear(_) => true,
+            Self::Formula(formula) => formula.is_hertzian(),
+            _ => false,
+        }
     }
 
     /// Whether the law loses energy.
@@ -175,7 +179,10 @@ impl LawKind {
     /// Whether the coefficient of restitution matters: the law loses energy, and no constant says how much.
     #[must_use]
     pub fn uses_restitution(self) -> bool {
-        self.is_dissipative() && !self.has_given_constants()
+        match self {
+            Self::Formula(formula) => formula.uses_restitution(),
+            _ => self.is_dissipative() && !self.has_given_constants(),
+        }
     }
 
     /// Whether constants state what the law dissipates, instead of a coefficient of restitution.
@@ -184,7 +191,7 @@ impl LawKind {
         matches!(
             self,
             Self::Dashpot(_) | Self::BilinearGiven(_) | Self::Crushing(_)
-        )
+        ) || matches!(self, Self::Formula(formula) if !formula.uses_restitution())
     }
 
     /// The law of a point that bears a share of the contact: constants that act side by side are shared.
@@ -203,6 +210,7 @@ impl LawKind {
                 force: share * crush.force,
                 ..crush
             }),
+            Self::Formula(formula) => Self::Formula(formula.shared(share)),
             Self::Linear
             | Self::Kelvin
             | Self::KelvinNoTension
@@ -222,7 +230,10 @@ impl LawKind {
     #[must_use]
     pub fn has_published_damping(self) -> bool {
         self.uses_restitution()
-            && !matches!(self, Self::Kelvin | Self::Restitution | Self::Rubber(_))
+            && !matches!(
+                self,
+                Self::Kelvin | Self::Restitution | Self::Rubber(_) | Self::Formula(_)
+            )
     }
 
     /// Which modified Kelvin law it is, of these.

@@ -14,6 +14,7 @@ mod collision;
 mod crushing;
 mod dashpot;
 mod force_law;
+mod formula;
 mod hertz;
 mod kelvin;
 mod kind;
@@ -32,6 +33,7 @@ pub use collision::{CollisionPoint, FreeCollision};
 pub use crushing::{Crush, Crushing};
 pub use dashpot::{Dashpot, DashpotLaw};
 pub use force_law::{ContactResponse, ForceLaw, Memory};
+pub use formula::{Formula, FormulaError, FormulaLaw};
 pub use hertz::{HERTZ_DURATION, hertz_damping, hertz_indentation, hertz_restitution};
 pub use kelvin::CLIPPED_KELVIN_LEAST_RESTITUTION;
 pub use kind::{LawKind, ModifiedKelvin};
@@ -196,6 +198,7 @@ impl ContactLaw {
                 ForceLaw::Bilinear(Bilinear::of_constants(constants, k, mass))
             }
             LawKind::Crushing(crush) => ForceLaw::Crushing(Crushing::new(crush, k)),
+            LawKind::Formula(formula) => ForceLaw::Formula(formula.between(k, e, mass)),
         }
     }
 
@@ -246,7 +249,8 @@ impl ContactLaw {
             | LawKind::Rubber(_)
             | LawKind::Dashpot(_)
             | LawKind::BilinearGiven(_)
-            | LawKind::Crushing(_) => 0.0,
+            | LawKind::Crushing(_)
+            | LawKind::Formula(_) => 0.0,
         }
     }
 
@@ -283,7 +287,7 @@ impl ContactLaw {
             ForceLaw::Bilinear(bilinear) => bilinear.free_restitution(),
             ForceLaw::Restitution { restitution, .. } => restitution,
             ForceLaw::Rubber(rubber) => rubber.free_restitution(),
-            ForceLaw::Crushing(_) => return None,
+            ForceLaw::Crushing(_) | ForceLaw::Formula(_) => return None,
         })
     }
 }

@@ -66,5 +66,8 @@ pub(super) fn restitution(known: &Known<'_>, tally: &mut Tally<'_>) {
 
 /// Whether a law stands for bare concrete that hardly indents.
 pub(super) fn is_bare(kind: LawKind) -> bool {
-    !matches!(kind, LawKind::Rubber(_) | LawKind::Crushing(_))
+    !matches!(
+        kind,
+        LawKind::Rubber(_) | LawKind::Crushing(_) | LawKind::Formula(_)
+    )
 }

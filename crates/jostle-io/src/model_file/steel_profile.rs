@@ -1,0 +1,82 @@
+//! Columns and beams of rolled or welded steel: `profile`.
+
+use jostle::Section;
+use jostle_section::{Axis, Profile, STEEL_DENSITY, STEEL_MODULUS};
+
+use super::section::Material;
+use crate::keys::{AXES, Section as KeySection};
+use crate::nearest::nearest;
+use crate::quantity::{Dimension, shorten};
+use crate::reader::{Field, Reader, View};
+
+/// A steel profile by its name or its sizes. Its modulus is that of steel unless the building states one in numbers.
+pub(super) fn read(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    field: &Field<'_>,
+    material: Material,
+) -> Option<Section> {
+    let axis = match reader.get(view, "axis") {
+        Some(field) => match reader.choice(&field, AXES, &[])? {
+            "weak" => Axis::Weak,
+            _ => Axis::Strong,
+        },
+        None => Axis::Strong,
+    };
+    let own = if let Some(name) = field.as_text() {
+        let Some(own) = Profile::named(name) else {
+            let plain = name.to_uppercase().replace(' ', "");
+            let remedy = nearest(&plain, Profile::names())
+                .map_or_else(|| "give its sizes: profile = { depth = \"310 mm\", width = \"205 mm\", web = \"9.4 mm\", flange = \"16.3 mm\" }".to_owned(), |name| format!("did you mean \"{name}\"? Others by sizes: profile = {{ depth = \"310 mm\", width = \"205 mm\", web = \"9.4 mm\", flange = \"16.3 mm\" }}"));
+            let problem = format!(
+                "\"{}\" is not known; available: IPE80 to IPE600, HEA100 to HEA1000, HEB100 to HEB1000",
+                shorten(name)
+            );
+            *reader.bad(field, problem) = Some(remedy);
+            return None;
+        };
+        own
+    } else {
+        let sizes = reader.open(field, &[KeySection::Profile])?;
+        let mut size = |key: &'static str, example: &str| match reader.get(&sizes, key) {
+            Some(field) => reader.positive(&field, Dimension::Length),
+            None => {
+                reader.missing(&sizes, key, format!("add {key} = {example}"));
+                None
+            }
+        };
+        let [depth, width] = [size("depth", "\"310 mm\""), size("width", "\"205 mm\"")];
+        let [web, flange] = [size("web", "\"9.4 mm\""), size("flange", "\"16.3 mm\"")];
+        let radius = match reader.get(&sizes, "radius") {
+            Some(field) => reader.positive(&field, Dimension::Length)?,
+            None => 0.0,
+        };
+        let own = Profile {
+            depth: depth?,
+            width: width?,
+            web: web?,
+            flange: flange?,
+            radius,
+        };
+        if let Some(fault) = own.fault() {
+            *reader.bad(field, fault) = Some("check the sizes and their units".into());
+            return None;
+        }
+        own
+    };
+    let modulus = material
+        .modulus
+        .filter(|_| material.modulus_is_stated)
+        .unwrap_or(STEEL_MODULUS);
+    let shears = material.shears;
+    Some(Section {
+        flexural_rigidity: modulus * own.inertia(axis),
+        axial_rigidity: Some(modulus * own.area()),
+        shear_rigidity: shears
+            .then(|| own.shear_area(axis) * modulus / (2.0 * (1.0 + STEEL_POISSON))),
+        line_mass: STEEL_DENSITY * own.area(),
+    })
+}
+
+/// ν of steel (EN 1993-1-1, 3.2.6) \[–\].
+const STEEL_POISSON: f64 = 0.3;
