@@ -25,5 +25,12 @@ fn main() -> std::io::Result<()> {
         let text = template(name, "seed").unwrap_or_default();
         write("model", name, text.as_bytes())?;
     }
+    // Models with the keys that no template has.
+    let models = "../crates/jostle-io/tests/reading/models";
+    for entry in fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(models))? {
+        let path = entry?.path();
+        let name = path.file_stem().unwrap_or_default().to_string_lossy();
+        write("model", &name, &fs::read(&path)?)?;
+    }
     Ok(())
 }

@@ -1,6 +1,7 @@
 //! Commands and their arguments, as typed.
 
 use std::ffi::OsString;
+use std::io::Write as _;
 
 use clap::{Parser, Subcommand};
 
@@ -8,6 +9,7 @@ use crate::args::{
     CheckArgs, CollideArgs, CompletionsArgs, MethodArgs, ModesArgs, NewArgs, PushoverArgs, RunArgs,
     SchemaArgs, SectionArgs,
 };
+use crate::terminal;
 
 /// Simulates neighbouring buildings that hit each other during an earthquake.
 #[derive(Debug, Parser)]
@@ -30,9 +32,11 @@ impl Args {
         arguments: impl IntoIterator<Item = OsString>,
     ) -> Result<Self, u8> {
         Self::try_parse_from(arguments).map_err(|error| {
-            // A closed pipe, as of `head`, is not an error.
-            let _ = error.print();
-            u8::try_from(error.exit_code()).unwrap_or(2)
+            let printed = error.print().and_then(|()| std::io::stdout().flush());
+            match terminal::unless_gone(printed) {
+                Err(failure) if !error.use_stderr() => crate::report(failure),
+                _ => u8::try_from(error.exit_code()).unwrap_or(2),
+            }
         })
     }
 }

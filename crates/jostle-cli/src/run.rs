@@ -113,10 +113,11 @@ fn analyse(
     let expected = prepared.expect(settings, !args.no_report);
     let mut pace = Some(Pace::new(&prepared));
     let mut observer = stopped_by(stop, |stage, progress| {
-        if let Some(known) = &mut pace {
-            let [elapsed, seconds] = known.look(progress);
-            if stage != Stage::Pounding || elapsed > PATIENCE {
-                if stage == Stage::Pounding && seconds > LONG {
+        if let Some(running) = &mut pace {
+            let [elapsed, seconds] = running.look(progress);
+            let known = elapsed > PATIENCE && seconds.is_finite();
+            if stage != Stage::Pounding || known {
+                if known && stage == Stage::Pounding && seconds > LONG {
                     terminal::remark(&format!(
                         "expected: {} steps, {}",
                         grouped(expected.steps),

@@ -26,6 +26,14 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
         let mut out = std::io::stdout().lock();
         writeln!(out, "{text}").and_then(|()| out.flush())
     };
+    unless_gone(written)
+}
+
+/// What became of output to standard output: no error if the reader has gone away.
+///
+/// # Errors
+/// The output is lost.
+pub(crate) fn unless_gone(written: std::io::Result<()>) -> Result<(), Failure> {
     match written {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Failure::Analysis(format!(
             "standard output cannot be written: {error}"

@@ -200,6 +200,8 @@ impl Engine {
 
     /// The tree of a text with changes made.
     pub(crate) fn tree(&self, run: &Run) -> Result<ModelTree, Trouble> {
+        #[cfg(test)]
+        assert_ne!(run.text, crate::session::FAILS);
         let mut tree = self.parse(&run.text)?;
         for (path, typed) in &run.edits {
             let value = (!typed.trim().is_empty()).then(|| TreeValue::typed(typed));

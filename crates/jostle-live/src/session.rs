@@ -209,3 +209,60 @@ fn run_curve(engine: &Engine, curve: Curve, stop: &(dyn Fn() -> bool + Sync), wr
         writer.send(answer);
     }
 }
+
+/// The text of a model on which every handler panics, in tests.
+#[cfg(test)]
+pub(crate) const FAILS: &str = "a handler fails";
+
+#[cfg(test)]
+mod tests {
+    use std::net::TcpListener;
+    use std::path::Path;
+    use std::sync::atomic::{AtomicBool, Ordering};
+
+    use super::*;
+
+    /// Every request that a handler answers, with a handler that panics: the answer says so, and the connection goes on.
+    #[test]
+    fn every_handler_may_panic() {
+        let engine = Engine::open(Path::new("paper")).expect("the built-in model");
+        let listener = TcpListener::bind("127.0.0.1:0").expect("a port");
+        let address = listener.local_addr().expect("an address");
+        let ending = AtomicBool::new(false);
+        std::thread::scope(|scope| {
+            scope.spawn(|| {
+                let (mut stream, _) = listener.accept().expect("a connection");
+                // The client may have gone first.
+                let _ = serve(&mut stream, &engine, &|| ending.load(Ordering::Relaxed));
+            });
+            let stream = TcpStream::connect(address).expect("a connection");
+            let patience = Some(Duration::from_secs(30));
+            stream.set_read_timeout(patience).expect("a timeout");
+            let mut page = WebSocket::from_raw_socket(stream, Role::Client, None);
+            let hello = page.read().expect("an answer");
+            assert!(hello.to_text().expect("a text").contains("hello"));
+            let axis = r#","path":"gap[0].width","unit":"m","from":0.01,"to":0.1,"points":3"#;
+            for (id, (op, more)) in [
+                ("run", ""),
+                ("report", ""),
+                ("curve", axis),
+                ("study", axis),
+            ]
+            .into_iter()
+            .enumerate()
+            .chain([(9, ("run", ""))])
+            {
+                let asked = format!(r#"{{"op":"{op}","id":{id},"text":"{FAILS}"{more}}}"#);
+                page.send(Message::text(asked)).expect("it is there");
+                let message = page.read().expect("an answer");
+                let answer = String::from_utf8_lossy(&message.into_data()).into_owned();
+                assert!(answer.contains(&format!("\"id\":{id}")), "{op}: {answer}");
+                assert!(
+                    answer.contains("panic") || answer.contains("fail"),
+                    "{op}: {answer}"
+                );
+            }
+            ending.store(true, Ordering::Relaxed);
+        });
+    }
+}

@@ -129,7 +129,7 @@ impl Prepared {
         let mut pace = Pace::new(self);
         let outcome = self.step(settings, |progress| {
             pace.look(progress);
-            if pace.started.elapsed() > TRIED && progress.time > 0.0 {
+            if pace.has_settled() {
                 ControlFlow::Break(())
             } else {
                 ControlFlow::Continue(())
@@ -139,7 +139,8 @@ impl Prepared {
         let work = self.plan.expected_work(&self.system, self.motion.duration);
         let least = pace.passes * work * TIME_OF_ONE;
         match outcome.end {
-            RunEnd::Stopped => pace.expected.max(least),
+            RunEnd::Stopped if pace.expected.is_finite() => pace.expected.max(least),
+            RunEnd::Stopped => least,
             RunEnd::Completed | RunEnd::Failed(_) => pace.started.elapsed().as_secs_f64(),
         }
     }
@@ -151,6 +152,10 @@ pub struct Pace {
     started: Instant,
     /// Time of the run relative to that of its first pass.
     passes: f64,
+    /// Computing time and time reached after the first steps, which factorise the equations \[s\].
+    first: Option<[f64; 2]>,
+    /// Computing time since then \[s\].
+    since: f64,
     /// Time reached in the first pass, infinite afterwards \[s\].
     reached: f64,
     expected: f64,
@@ -169,21 +174,43 @@ impl Pace {
         Self {
             started: Instant::now(),
             passes,
+            first: None,
+            since: 0.0,
             reached: 0.0,
-            expected: 0.0,
+            expected: f64::INFINITY,
         }
     }
 
     /// Notes how far the run is; returns the time since it began and the expected time of the whole run \[s\].
     pub fn look(&mut self, progress: Progress) -> [f64; 2] {
         let elapsed = self.started.elapsed().as_secs_f64();
-        if progress.time < self.reached {
+        let expected = self.note(elapsed, progress);
+        [elapsed, expected]
+    }
+
+    /// Expected time of the whole run \[s\], infinite before its second steps.
+    fn note(&mut self, elapsed: f64, progress: Progress) -> f64 {
+        let Progress { time, duration } = progress;
+        if time < self.reached {
             self.reached = f64::INFINITY;
-        } else {
-            self.reached = progress.time;
-            self.expected = self.passes * elapsed * progress.duration / progress.time;
+            return self.expected;
         }
-        [elapsed, self.expected]
+        self.reached = time;
+        match self.first {
+            None if time > 0.0 => self.first = Some([elapsed, time]),
+            Some([beginning, from]) if time > from => {
+                self.since = elapsed - beginning;
+                let rest = self.since * (duration - from) / (time - from);
+                self.expected = self.passes * (beginning + rest);
+            }
+            None | Some(_) => {}
+        }
+        self.expected
+    }
+
+    /// Whether the time after the first steps is long enough to be extrapolated.
+    fn has_settled(&self) -> bool {
+        self.since > TRIED.as_secs_f64() || self.reached == f64::INFINITY
     }
 }
 
@@ -240,6 +267,33 @@ fn in_time(seconds: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Time for factors of the first steps is counted once per pass, not in every step.
+    #[test]
+    fn the_first_steps_are_not_extrapolated() {
+        let mut pace = Pace {
+            started: Instant::now(),
+            passes: 3.0,
+            first: None,
+            since: 0.0,
+            reached: 0.0,
+            expected: f64::INFINITY,
+        };
+        let mut at = |elapsed: f64, time: f64| {
+            let duration = 20.0;
+            pace.note(elapsed, Progress { time, duration })
+        };
+        assert_eq!(at(0.5, 0.0), f64::INFINITY);
+        // The first step takes 6 s, the others 10 ms.
+        assert_eq!(at(6.5, 0.01), f64::INFINITY);
+        let due = 3.0 * (6.5 + 0.01 * 1999.0);
+        for steps in [2.0, 30.0] {
+            let expected = at(6.5 + 0.01 * (steps - 1.0), 0.01 * steps);
+            assert!((expected / due - 1.0).abs() < 1e-9, "{steps}: {expected}");
+        }
+        // The second pass begins.
+        assert!((at(9.0, 0.005) / due - 1.0).abs() < 1e-9);
+    }
 
     #[test]
     fn sizes_and_times_have_one_digit() {

@@ -303,10 +303,14 @@ impl Trial {
                         break;
                     }
                     Err(CaseError::Input(error)) => {
-                        let drawn = matches!(factor.values, FactorValues::Drawn(_));
-                        let mut error = file.relocate(&[index], error);
-                        if drawn {
-                            for fault in &mut error.faults {
+                        // Another factor may be at fault with its usual value.
+                        let others = (0..file.factors.len()).filter(|other| *other != index);
+                        let all: Vec<usize> = std::iter::once(index).chain(others).collect();
+                        let mut error = file.relocate(&all, error);
+                        if matches!(factor.values, FactorValues::Drawn(_)) {
+                            let own = format!("vary[{}]:", factor.entry);
+                            let faults = error.faults.iter_mut();
+                            for fault in faults.filter(|fault| fault.path.starts_with(&own)) {
                                 fault.remedy.get_or_insert_with(|| {
                                     "set low or high, so that nothing impossible is drawn".into()
                                 });

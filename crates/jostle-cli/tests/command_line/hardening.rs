@@ -67,7 +67,34 @@ fn lost_output_is_an_error() {
         &["export", "m.toml", "--to", "openseespy"],
         &["study", "s.toml", "--check"],
         &["motion", "list"],
+        &["motion", "show", "el-centro-1940-ns"],
+        &["motion", "spectrum", "el-centro-1940-ns"],
+        &["gap", "m.toml", "--json"],
+        &[
+            "size",
+            "m.toml",
+            "--vary",
+            "gap.width=5 mm..50 mm",
+            "--keep",
+            "impact_count == 0",
+            "--minimise",
+            "gap.width",
+            "--trials",
+            "20",
+            "--json",
+        ],
+        &["contact-advice", "m.toml"],
+        &["method", "m.toml"],
+        &[
+            "section", "--width", "300mm", "--depth", "500mm", "--bars", "8 d20",
+        ],
+        &["live", "m.toml", "--no-open"],
         &["completions", "bash"],
+        &["--help"],
+        &["motion", "--help"],
+        &["run", "--help"],
+        &["--version"],
+        &["help"],
         &[
             "collide", "--law", "hertz", "--m1", "1 t", "--m2", "1 t", "--speed", "1 m/s",
         ],
@@ -276,6 +303,15 @@ fn small_mistakes_are_told() {
         .matches('\n')
         .count();
     assert!(shown.contains(&format!("s.toml:{line}:")), "{shown}");
+    // A key that does not exist is a fault of its factor alone, also while the others are tried.
+    let wrong = format!("{STUDY}\n[[vary]]\npath = \"gap[0].widht\"\nvalues = [\"3 mm\"]\n");
+    write(folder, "s.toml", &wrong);
+    let shown = complained(&jostle(folder, &["study", "s.toml", "--check"]));
+    assert!(
+        shown.contains("s.toml:") && shown.contains("widht"),
+        "{shown}"
+    );
+    assert!(!shown.contains("m.toml:"), "{shown}");
     // A model without a motion cannot be run, and the check does not say that it can.
     let still = &SMALL[SMALL.find("[[building]]").expect("there")..];
     write(folder, "m.toml", still);

@@ -12,7 +12,7 @@ use crate::quantity::{Dimension, parse_quantity, split_number};
 use crate::reader::Reader;
 use crate::record::acceleration_unit;
 use crate::source::Source;
-use crate::tree::{Format, Value, parse};
+use crate::tree::{Format, Node, Value, parse};
 use crate::unusual::Usual;
 use crate::{KnobKind, ModelTree, TreeValue};
 
@@ -229,8 +229,8 @@ acceleration = "A1"
 above = "2 g"
 "#;
 
-#[test]
-fn every_key_of_the_table_is_read() {
+/// Keys that the reader of models asks for.
+fn asked_of_models() -> BTreeSet<(Section, &'static str)> {
     let mut asked = BTreeSet::new();
     for text in ALL_TABLES {
         let source = Source::new("model.toml", text);
@@ -240,6 +240,43 @@ fn every_key_of_the_table_is_read() {
         read_root(&mut reader, &root, &Files::beside(Path::new("")));
         asked.extend(reader.asked);
     }
+    asked
+}
+
+/// Adds the names of all keys of a tree.
+fn add_names(node: &Node, names: &mut BTreeSet<String>) {
+    match &node.value {
+        Value::Table(table) => {
+            for entry in &table.entries {
+                names.insert(entry.key.clone());
+                add_names(&entry.node, names);
+            }
+        }
+        Value::List(list) => list.iter().for_each(|node| add_names(node, names)),
+        _ => {}
+    }
+}
+
+/// Scans of damaged models reach every key by its name.
+#[test]
+fn models_of_scans_have_every_key() {
+    let mut names = BTreeSet::new();
+    for (name, tree) in models_in(&[EXAMPLES, MODELS]) {
+        let source = Source::new(&name, tree.text());
+        let root = parse(&source, Format::Toml).unwrap_or_else(|error| panic!("{error}"));
+        add_names(&root, &mut names);
+    }
+    let asked = asked_of_models();
+    let missing: Vec<_> = asked
+        .iter()
+        .filter(|(_, name)| !names.contains(*name))
+        .collect();
+    assert!(missing.is_empty(), "{missing:?}");
+}
+
+#[test]
+fn every_key_of_the_table_is_read() {
+    let mut asked = asked_of_models();
     let source = Source::new("study.toml", STUDY);
     let root = parse(&source, Format::Toml).unwrap_or_else(|error| panic!("{error}"));
     asked.extend(crate::study_file::keys_asked(&source, &root));
@@ -574,10 +611,17 @@ fn every_quantity_says_which_values_are_usual() {
     }
 }
 
-/// Models that the project ships: they have nearly every key, with values of real buildings.
-fn shipped_models() -> Vec<(String, ModelTree)> {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples");
-    let entries = std::fs::read_dir(folder).expect("examples").flatten();
+/// Models that are shipped as files: they have nearly every key.
+const EXAMPLES: &str = "../../examples";
+/// Models with the keys that no shipped model has.
+const MODELS: &str = "tests/reading/models";
+
+/// Models of folders, and of all templates, with values of real buildings.
+fn models_in(folders: &[&str]) -> Vec<(String, ModelTree)> {
+    let entries = folders.iter().flat_map(|folder| {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
+        std::fs::read_dir(folder).expect("models").flatten()
+    });
     let mut paths: Vec<_> = entries.map(|entry| entry.path()).collect();
     paths.retain(|path| path.extension().is_some_and(|end| end == "toml"));
     paths.sort();
@@ -617,7 +661,7 @@ fn said(tree: &ModelTree, all: bool) -> Result<Vec<String>, ()> {
 #[test]
 fn no_slip_of_a_unit_is_taken_in_silence() {
     let (mut silent, mut tried) = (Vec::new(), BTreeSet::new());
-    for (name, tree) in shipped_models() {
+    for (name, tree) in models_in(&[EXAMPLES]) {
         let before = said(&tree, false);
         let mut knobs = tree.knobs();
         knobs.retain(|knob| {

@@ -1,5 +1,6 @@
-//! Every key of the models that are shipped, with slips of units and strange values: no panic, no number that is not finite, and slips
-//! of a million are refused or warned of. `JOSTLE_SCAN` sets how many damaged models are tried, `JOSTLE_SEED` which.
+//! Every key of the models that are shipped, with slips of units: slips of a million are refused or warned of. Those models and
+//! the ones in `models/` beside this file, which have the keys that no shipped model has, with strange values: no panic, no number
+//! that is not finite. `JOSTLE_SCAN` sets how many damaged models are tried, `JOSTLE_SEED` which.
 
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -9,11 +10,15 @@ use jostle::{Plan, Settings, System, simulate};
 use jostle_io::{Format, TEMPLATE_NAMES, model_names, model_text, read_model_text, template};
 use jostle_testkit::scan::{Dice, scanned};
 
-/// Models by name, with the folder of their records.
-fn models() -> Vec<(String, String)> {
+/// Models by name. Their records are built in or stand in `models/`.
+fn models(folders: &[&str]) -> Vec<(String, String)> {
     let mut models: Vec<(String, String)> = Vec::new();
-    let entries = std::fs::read_dir(examples()).expect("examples");
-    let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+    let mut paths: Vec<PathBuf> = folders
+        .iter()
+        .flat_map(|folder| std::fs::read_dir(of_crate(folder)).expect("models"))
+        .flatten()
+        .map(|entry| entry.path())
+        .collect();
     paths.sort();
     for path in paths {
         let name = path
@@ -37,8 +42,13 @@ fn models() -> Vec<(String, String)> {
     models
 }
 
-fn examples() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples")
+/// Models that are shipped as files.
+const EXAMPLES: &str = "../../examples";
+/// Models with the keys that no shipped model has.
+const MODELS: &str = "tests/reading/models";
+
+fn of_crate(path: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
 }
 
 /// What came of a model.
@@ -51,7 +61,7 @@ enum Outcome {
 
 /// Reads, assembles and plans a model, and steps a little of it.
 fn exercise(text: &str, steps: bool) -> Outcome {
-    let Ok(mut input) = read_model_text("m.toml", text, Format::Toml, &examples()) else {
+    let Ok(mut input) = read_model_text("m.toml", text, Format::Toml, &of_crate(MODELS)) else {
         return Outcome::Refused;
     };
     let system = match System::assemble(&input.model) {
@@ -185,7 +195,7 @@ fn slips_of_units_are_never_silent() {
     let (mut tried, mut dice) = (0, Dice::new(1));
     // All of them in ./check-all.
     let share = if scanned(300) >= 10_000 { 1 } else { 24 };
-    for (name, text) in models() {
+    for (name, text) in models(&[EXAMPLES]) {
         for found in quantities(&text) {
             if dice.below(share) != 0 {
                 continue;
@@ -215,10 +225,18 @@ fn slips_of_units_are_never_silent() {
     );
 }
 
+/// Every model can be stepped before it is damaged.
+#[test]
+fn models_run_before_they_are_damaged() {
+    for (name, text) in models(&[EXAMPLES, MODELS]) {
+        assert_ne!(survives(&text, true), Outcome::Refused, "{name}");
+    }
+}
+
 /// Damaged models are refused or can be stepped.
 #[test]
 fn damaged_models_are_refused_or_run() {
-    let models = models();
+    let models = models(&[EXAMPLES, MODELS]);
     let mut dice = Dice::new(2);
     let mut accepted = 0;
     let count = scanned(300);

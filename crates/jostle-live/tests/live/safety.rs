@@ -477,21 +477,34 @@ fn a_crowd_of_connections_is_turned_away_and_the_server_stays() {
     assert!(becomes(200), "the server stayed busy");
 }
 
-/// Clients that connect and say nothing give way to one that asks, and cost it no time.
+/// Clients that say nothing, or a byte now and then, give way to one that asks, and open pages that do not read what they asked for:
+/// none costs another 100 ms.
 #[test]
-fn silent_clients_cost_others_no_time() {
+fn silent_and_slow_clients_cost_others_no_time() {
     let live = live();
-    let connect = || TcpStream::connect(("127.0.0.1", live.port)).unwrap();
-    let silent: Vec<TcpStream> = (0..100).map(|_| connect()).collect();
+    let connect_only = || TcpStream::connect(("127.0.0.1", live.port)).unwrap();
+    let mut silent: Vec<TcpStream> = (0..100).map(|_| connect_only()).collect();
+    // Pages that ask for runs and never read.
+    let mut deaf: Vec<_> = (0..3).map(|_| connect(&live)).collect();
+    for (id, page) in deaf.iter_mut().enumerate() {
+        page.send(with_gap(id, 40.0)).unwrap();
+    }
     std::thread::sleep(Duration::from_millis(100));
-    for _ in 0..3 {
+    // The least of several, because a busy machine delays everybody.
+    let mut least = Duration::MAX;
+    for _ in 0..20 {
+        for slow in &mut silent {
+            let _ = slow.write_all(b"G");
+        }
         let asked = std::time::Instant::now();
         let page = live.page();
         let waited = asked.elapsed();
         assert_eq!(status(&page), 200, "{page:.300}");
-        assert!(waited < Duration::from_millis(1000), "{waited:?}");
+        assert!(waited < Duration::from_millis(2000), "{waited:?}");
+        least = least.min(waited);
     }
-    drop(silent);
+    assert!(least < Duration::from_millis(100), "{least:?}");
+    drop((silent, deaf));
 }
 
 /// More records than a curve takes are refused in words, and a request on which a handler fails costs no connection.

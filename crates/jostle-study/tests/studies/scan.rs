@@ -11,15 +11,32 @@ use crate::inputs;
 
 const PATHS: &str = "building.J1.column[*].width";
 const MAP: &str = r#"
-table = "measured.csv"
-time = "t"
-[[history]]
-column = "D1"
-quantity = "J1.floor5.displacement_m"
-unit = "mm"
-[[impact]]
-between = ["J1", "J2"]
-column = "F"
+table_acceleration = "A0"
+reverse = true
+low_pass = "20 Hz"
+start = "1 s"
+end = "9 s"
+[[column]]
+measured = "D1"
+computed = "J1.floor5.displacement_m"
+relative_to = "D0"
+reverse = true
+zero = "0.5 s"
+[[column]]
+measured = 3
+computed = "J2.floor5.displacement_m"
+[[impacts]]
+acceleration = "A1"
+above = "2 g"
+contact = "J1-J2.floor5-5"
+window = "20 ms"
+separation = "50 ms"
+[[impacts]]
+sensor = "C1"
+level = 2.5
+[[impacts]]
+closing = ["D1", "D2"]
+width = "20 mm"
 "#;
 const EXPRESSION: &str = "gap[0].width=10mm..200mm\ngap0.width_m + 0.1*peak_force_n/1e6\nimpact_count == 0\nJ1.drift_peak <= 0.01\n";
 const STUDY: &str = r#"
@@ -58,6 +75,16 @@ fn scan(own: u64, seed: &[u8], share: usize, try_one: &dyn Fn(&[u8])) {
             String::from_utf8_lossy(&damaged)
         );
     }
+}
+
+/// What is damaged is in order before.
+#[test]
+fn texts_are_in_order_before_they_are_damaged() {
+    let map = jostle_io::ComparisonMap::parse("map.toml", MAP, Format::Toml);
+    assert!(map.is_ok(), "{map:?}");
+    let base = jostle_io::ModelTree::builtin("paper").expect("a model");
+    let study = StudyFile::parse("s.toml", STUDY, Format::Toml, Path::new(""), Some(base));
+    assert!(study.is_ok(), "{study:?}");
 }
 
 #[test]

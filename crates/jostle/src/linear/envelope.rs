@@ -9,6 +9,8 @@ pub(crate) struct Envelope {
     /// Where every row starts among the values.
     starts: Vec<usize>,
     values: Vec<f64>,
+    /// Rows that are eliminated together, by column.
+    packed: Vec<[f64; SIDE_BY_SIDE]>,
 }
 
 impl Envelope {
@@ -93,36 +95,100 @@ impl Envelope {
     /// in stays within the envelope (A. Jennings, 1966, Comput. J. 9, 281–285). Returns the multiply-adds.
     pub(crate) fn factorize(&mut self) -> u64 {
         let mut operations = 0;
-        for row in 0..self.size() {
+        let mut packed = std::mem::take(&mut self.packed);
+        let mut row = 0;
+        while row < self.size() {
+            // Left of the diagonal block, rows that begin at the same column are eliminated together.
             let first = self.columns[row].start;
-            for column in first..row {
-                let from = first.max(self.columns[column].start);
-                let known: f64 = (from..column)
-                    .map(|k| self.get(row, k) * self.get(column, k))
-                    .sum();
-                // Not yet divided by its pivot: L D.
-                self.set(row, column, self.get(row, column) - known);
-                operations += (column - from) as u64;
+            let rows = self.rows_alike(row);
+            let known = if rows == SIDE_BY_SIDE { row } else { first };
+            if known > first {
+                packed.clear();
+                packed.extend((first..row).map(|column| {
+                    std::array::from_fn::<f64, SIDE_BY_SIDE, _>(|r| self.get(row + r, column))
+                }));
+                for column in first..row {
+                    let from = first.max(self.columns[column].start);
+                    let above = &self.row(column)[from - self.columns[column].start..];
+                    let (before, own) = packed[from - first..].split_at_mut(column - from);
+                    let sums = sums_of_products(before, above);
+                    for (entry, sum) in own[0].iter_mut().zip(sums) {
+                        *entry -= sum;
+                    }
+                    operations += (SIDE_BY_SIDE * (column - from)) as u64;
+                }
+                for (column, entries) in (first..row).zip(&packed) {
+                    for (r, entry) in entries.iter().enumerate() {
+                        self.set(row + r, column, *entry);
+                    }
+                }
             }
-            let mut pivot = self.get(row, row);
-            for column in first..row {
-                let scaled = self.get(row, column);
-                let coupling = scaled / self.get(column, column);
-                pivot -= scaled * coupling;
-                self.set(row, column, coupling);
+            for row in row..row + rows {
+                operations += self.finish_row(row, known);
             }
-            operations += 2 * (row - first) as u64;
-            self.set(row, row, pivot);
+            row += rows;
         }
+        self.packed = packed;
         operations
+    }
+
+    /// Rows from this one that begin at the same column: [`SIDE_BY_SIDE`] of them, or one.
+    fn rows_alike(&self, row: usize) -> usize {
+        let first = self.columns[row].start;
+        match self.columns.get(row..row + SIDE_BY_SIDE) {
+            Some(rows) if rows.iter().all(|own| own.start == first) => SIDE_BY_SIDE,
+            _ => 1,
+        }
+    }
+
+    /// Eliminates a row whose entries of L D left of a column are known, and divides it by the pivots. Returns the multiply-adds.
+    fn finish_row(&mut self, row: usize, known: usize) -> u64 {
+        let mut operations = 0;
+        let first = self.columns[row].start;
+        for column in known..row {
+            let from = first.max(self.columns[column].start);
+            let sum: f64 = (from..column)
+                .map(|k| self.get(row, k) * self.get(column, k))
+                .sum();
+            // Not yet divided by its pivot: L D.
+            self.set(row, column, self.get(row, column) - sum);
+            operations += (column - from) as u64;
+        }
+        let mut pivot = self.get(row, row);
+        for column in first..row {
+            let scaled = self.get(row, column);
+            let coupling = scaled / self.get(column, column);
+            pivot -= scaled * coupling;
+            self.set(row, column, coupling);
+        }
+        self.set(row, row, pivot);
+        operations + 2 * (row - first) as u64
     }
 
     /// Solves with the factors of [`Envelope::factorize`].
     pub(crate) fn solve(&self, vector: &mut [f64]) {
-        for row in 0..self.size() {
+        let mut row = 0;
+        while row < self.size() {
             let first = self.columns[row].start;
-            let known: f64 = (first..row).map(|k| self.get(row, k) * vector[k]).sum();
-            vector[row] -= known;
+            let rows = self.rows_alike(row);
+            let mut known = [0.0; SIDE_BY_SIDE];
+            if rows == SIDE_BY_SIDE {
+                let entries: [&[f64]; SIDE_BY_SIDE] =
+                    std::array::from_fn(|r| &self.row(row + r)[..row - first]);
+                for (k, value) in vector[first..row].iter().enumerate() {
+                    for (sum, entries) in known.iter_mut().zip(entries) {
+                        *sum += entries[k] * value;
+                    }
+                }
+            }
+            let before = if rows == SIDE_BY_SIDE { row } else { first };
+            for (row, mut known) in (row..row + rows).zip(known) {
+                for k in before..row {
+                    known += self.get(row, k) * vector[k];
+                }
+                vector[row] -= known;
+            }
+            row += rows;
         }
         for row in 0..self.size() {
             vector[row] /= self.get(row, row);
@@ -134,6 +200,21 @@ impl Envelope {
             }
         }
     }
+}
+
+/// Rows that are eliminated together, so that their sums do not wait for one another.
+const SIDE_BY_SIDE: usize = 8;
+
+/// Products of several rows, given by column, with another row; each sum in the order of the columns.
+#[inline]
+fn sums_of_products(rows: &[[f64; SIDE_BY_SIDE]], other: &[f64]) -> [f64; SIDE_BY_SIDE] {
+    let mut sums = [0.0; SIDE_BY_SIDE];
+    for (entries, factor) in rows.iter().zip(other) {
+        for (sum, entry) in sums.iter_mut().zip(entries) {
+            *sum += entry * factor;
+        }
+    }
+    sums
 }
 
 /// A square matrix with room beside an envelope for what row exchanges move and fill.
@@ -298,6 +379,50 @@ mod tests {
                 assert!((found - exact).abs() < 1e-14, "{firsts:?}");
             }
         }
+    }
+
+    /// Rows that are eliminated together have the bits of rows eliminated one by one, before and behind rows that begin elsewhere.
+    #[test]
+    fn rows_together_have_the_bits_of_rows_alone() {
+        let firsts = (0..41_usize).map(|row| match row {
+            0..20 => 0,
+            20..25 => row - 3,
+            _ => 2,
+        });
+        let mut matrix = Envelope::default();
+        matrix.reset(firsts);
+        for i in 0..matrix.size() {
+            for j in matrix.columns(i).start..=i {
+                let value = 1.0 / (3.0 + libm::sin((7 * i + 3 * j) as f64));
+                matrix.set(i, j, if i == j { 50.0 + value } else { value });
+            }
+        }
+        let side: Vec<f64> = (0..matrix.size()).map(|i| libm::cos(i as f64)).collect();
+        let mut alone = matrix.clone();
+        let operations: u64 = (0..alone.size())
+            .map(|row| alone.finish_row(row, alone.columns[row].start))
+            .sum();
+        assert_eq!(matrix.factorize(), operations);
+        for row in 0..matrix.size() {
+            assert_eq!(matrix.row(row), alone.row(row), "{row}");
+        }
+        let mut found = side.clone();
+        matrix.solve(&mut found);
+        let mut known = side;
+        for row in 0..alone.size() {
+            let columns = alone.columns(row).start..row;
+            let sum: f64 = columns.map(|k| alone.get(row, k) * known[k]).sum();
+            known[row] -= sum;
+        }
+        for row in 0..alone.size() {
+            known[row] /= alone.get(row, row);
+        }
+        for row in (0..alone.size()).rev() {
+            for k in alone.columns(row).start..row {
+                known[k] -= alone.get(row, k) * known[row];
+            }
+        }
+        assert_eq!(found, known);
     }
 
     #[test]

@@ -133,7 +133,7 @@ impl Plan {
             faults.extend(refused_grounds(solver, system));
         }
         if motion.is_vertical() {
-            faults.extend(refused_vertical(system));
+            faults.extend(refused_vertical(system, analysis));
         }
         if motion.bearing.is_some() && !system.is_in_space() {
             faults.push(ModelFault {
@@ -472,7 +472,7 @@ fn refused_grounds(solver: Solver, system: &System) -> Option<ModelFault> {
 }
 
 /// What cannot be shaken vertically.
-fn refused_vertical(system: &System) -> Option<ModelFault> {
+fn refused_vertical(system: &System, analysis: &Analysis) -> Option<ModelFault> {
     // Columns that cannot shorten move nothing upwards in any case.
     let floats = |own: &&BuildingSystem| {
         let could = own.moves_vertically() || own.discretization.space_frame.is_some();
@@ -496,9 +496,14 @@ fn refused_vertical(system: &System) -> Option<ModelFault> {
     }
     let mut buildings = system.buildings.iter();
     let followed = buildings.any(|building| !building.members.forms.is_empty());
+    let asked = analysis.members.envelopes;
     followed.then(|| ModelFault {
-        path: "output.members".into(),
-        problem: "forces of columns and beams do not include vertical inertia forces yet; leave out members, or vertical under [motion]".into(),
+        path: if asked { "output.members" } else { "motion.vertical" }.into(),
+        problem: match asked {
+            true => "forces of columns and beams do not include vertical inertia forces yet; leave out members, or vertical under [motion]",
+            false => "forces of braces, panels, walls and fibres do not include vertical inertia forces yet; leave vertical out, or those parts",
+        }
+        .into(),
     })
 }
 

@@ -311,10 +311,15 @@ pub(super) fn matrices(
                 for left in 0..right {
                     let [(a, one), (b, other)] = [&founded[left], &founded[right]];
                     let distance = clear_distance(model, *a, *b)?;
-                    let rectangles = [one, other].map(|place| Rectangle {
+                    let mut rectangles = [one, other].map(|place| Rectangle {
                         length: place.foundation.length,
                         width: place.foundation.width,
                     });
+                    // Two rectangles influence each other as their mirror image does.
+                    let of = |own: &Rectangle| (own.length, own.width);
+                    if of(&rectangles[0]) > of(&rectangles[1]) {
+                        rectangles.reverse();
+                    }
                     // Rows of equal foundations have few pairs that differ.
                     let pair = (rectangles, distance);
                     let same = known.iter().find(|(known, _)| *known == pair);

@@ -101,6 +101,9 @@ fn every_place_has_its_charts() {
         assert!(places >= 3.0, "only {places} places");
         let empty = "(() => { const s = document.getElementById('place'); const empty = []; for (const o of s.options) { s.value = o.value; s.dispatchEvent(new Event('change')); if (!document.querySelectorAll('#time-charts > div .chart').length) empty.push(o.value); } return empty.join(); })()";
         assert_eq!(page.text(empty), "", "places without a chart");
+        // Hidden where there are no impacts, and harmless.
+        page.value("document.getElementById('zoom-impact').click()");
+        page.drawn();
         page.assert_content();
     }
 }
