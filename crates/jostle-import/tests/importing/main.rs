@@ -1,0 +1,6 @@
+//! Tables and text models written from buildings that are known, imported again.
+
+mod book;
+mod frames;
+mod refused;
+mod tables;
