@@ -22,6 +22,8 @@ const READ: &[&str] = &[
     "POINT ASSIGNS",
     "LINE ASSIGNS",
     "AREA ASSIGNS",
+    "SLAB PROPERTIES",
+    "DECK PROPERTIES",
 ];
 /// Sections without effect on stiffness and geometry.
 const HARMLESS: &[&str] = &[
@@ -256,6 +258,13 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
     let areas: BTreeMap<&str, &Record<'_>> = of("AREA CONNECTIVITIES")
         .map(|record| (record.at(1), record))
         .collect();
+    let shells = of("SLAB PROPERTIES").chain(of("DECK PROPERTIES"));
+    let bends = |record: &&Record<'_>| {
+        record
+            .value("MODELINGTYPE")
+            .is_some_and(|kind| kind.starts_with("Shell"))
+    };
+    let bending: BTreeSet<&str> = shells.filter(bends).map(|record| record.at(1)).collect();
     let mut floors = 0;
     for record in of("AREA ASSIGNS") {
         let area = areas
@@ -270,6 +279,12 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
                 record.at(2)
             ));
             continue;
+        }
+        if let Some(name) = record
+            .value("SECTION")
+            .filter(|name| bending.contains(name))
+        {
+            model.bending_slabs.push(name.to_owned());
         }
         floors += 1;
         let corners: usize = area.at(3).parse().unwrap_or(0);
@@ -311,11 +326,9 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
     ));
     model.members = members.into_values().collect();
     facts.text = Some(model);
-    facts.left_out.extend(
-        ignored
-            .into_iter()
-            .map(|section| format!("{file}: section ${section}")),
-    );
+    facts
+        .left_out
+        .extend(crate::left_out::lines(file, "sections", &ignored));
     Ok(units)
 }
 

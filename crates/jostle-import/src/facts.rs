@@ -96,9 +96,11 @@ pub(crate) struct Facts {
     pub(crate) stiffness: Vec<StoryStiffness>,
     /// Joints of every storey.
     pub(crate) points: BTreeMap<String, Vec<Point>>,
-    /// Lowest and highest joint of every storey \[m\].
-    pub(crate) joint_heights: BTreeMap<String, [f64; 2]>,
+    /// Name and highest joint of every storey \[m\].
+    pub(crate) joint_heights: BTreeMap<String, (String, f64)>,
     pub(crate) text: Option<TextModel>,
+    /// Whether the model is one of SAP2000, which has other tables.
+    pub(crate) sap2000: bool,
     /// Units of the text model or the listing.
     pub(crate) units: Option<crate::units::Units>,
     /// Tables found, for messages.
@@ -165,11 +167,7 @@ impl Facts {
         if !self.stories.is_empty() || self.joint_heights.len() < 2 {
             return;
         }
-        let mut levels: Vec<(String, f64)> = self
-            .joint_heights
-            .iter()
-            .map(|(name, z)| (name.clone(), z[1]))
-            .collect();
+        let mut levels: Vec<(String, f64)> = self.joint_heights.values().cloned().collect();
         levels.sort_by(|a, b| a.1.total_cmp(&b.1));
         let base = levels.remove(0);
         self.read.push(
@@ -185,7 +183,15 @@ impl Facts {
     /// Floors with mass, from the ground up. Storeys without mass are joined to those above, and listed.
     pub(crate) fn floors(&mut self) -> Result<Vec<Floor>, InputError> {
         if self.stories.is_empty() {
-            return Err(self.fault("", "has no storey heights", "export the table Story Definitions as well, or name the .e2k or $et file of the model beside it"));
+            let remedy = match self.sap2000 {
+                false => {
+                    "export the table Story Definitions as well, or name the .e2k or $et file of the model beside it"
+                }
+                true => {
+                    "give joints of every floor a diaphragm constraint: its levels are the floors"
+                }
+            };
+            return Err(self.fault("", "has no storey heights", remedy));
         }
         let masses = match self.solver_masses.is_empty() {
             false => &self.solver_masses,

@@ -233,6 +233,7 @@ pub fn import(
             .collect();
         let mut facts = Facts {
             name: name.clone(),
+            sap2000: program == Program::Sap2000,
             ..Facts::default()
         };
         for (kind, file) in own {

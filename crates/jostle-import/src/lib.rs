@@ -9,6 +9,7 @@ mod e2k;
 mod facts;
 mod given;
 mod import;
+mod left_out;
 mod listing;
 mod matrix;
 mod member;

@@ -49,6 +49,8 @@ pub(crate) struct TextModel {
     pub(crate) materials: BTreeMap<String, [f64; 2]>,
     /// Walls, for messages; braces are members.
     pub(crate) walls: Vec<String>,
+    /// Floor slabs that bend in the source, for messages.
+    pub(crate) bending_slabs: Vec<String>,
     /// Diaphragms that are not rigid.
     pub(crate) semirigid: Vec<String>,
     /// Supported joints that are not fixed in every direction, or stand on springs.

@@ -265,11 +265,9 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
     );
     facts.read.push(format!("{file}: {} joints, {} columns and beams, {floors} floor areas, {} walls, {} levels with a diaphragm", joints.len(), model.members.len(), model.walls.len(), facts.stories.len()));
     facts.text = Some(model);
-    facts.left_out.extend(
-        ignored
-            .into_iter()
-            .map(|table| format!("{file}: table {table}")),
-    );
+    facts
+        .left_out
+        .extend(crate::left_out::lines(file, "tables", &ignored));
     Ok(units)
 }
 

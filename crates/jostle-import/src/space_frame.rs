@@ -142,10 +142,9 @@ pub(crate) fn build(facts: &mut Facts, model: &TextModel) -> Result<Built, Input
     if model.members.iter().any(|member| member.offset) {
         facts.left_out.push(format!("{}: end offsets of members: jostle's run from joint to joint, so that periods are longer", model.file));
     }
-    facts.left_out.push(format!(
-        "{}: bending stiffness of slabs, and loads",
-        model.file
-    ));
+    if let Some(slab) = model.bending_slabs.first() {
+        facts.left_out.push(format!("{}: {} floor areas bend, such as those of slab \"{slab}\": their stiffness is missing, so that periods are longer, by 10 % and more where beams are shallow", model.file, model.bending_slabs.len()));
+    }
     if places[0].is_empty() {
         return refuse("", "has no columns".into());
     }

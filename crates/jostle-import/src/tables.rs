@@ -347,8 +347,12 @@ pub(crate) fn gather(
             reading.each(&[story], &numbers, |texts, values| {
                 let [x, y, z] = values[..] else { return };
                 facts.points.entry(key(texts[0])).or_default().push([x, y]);
-                let own = facts.joint_heights.entry(key(texts[0])).or_insert([z, z]);
-                *own = [own[0].min(z), own[1].max(z)];
+                let name = || (texts[0].to_owned(), z);
+                let own = facts
+                    .joint_heights
+                    .entry(key(texts[0]))
+                    .or_insert_with(name);
+                own.1 = own.1.max(z);
             })?;
         }
     }

@@ -153,7 +153,7 @@ pub(crate) fn e2k() -> String {
             );
         }
     }
-    text += "\r\n$ AREA ASSIGNS\r\n  AREAASSIGN  \"F1\"  \"Roof slab\"  SECTION \"Slab\"  DIAPH  \"D1\"  \r\n\r\n$ LOAD PATTERNS\r\n  LOADPATTERN \"Dead\"  TYPE  \"Dead\"  SELFWEIGHT  1\r\n\r\n$ LOG\r\n  STARTCOMMENTS\r\n$ STORIES\r\nanything\r\n  ENDCOMMENTS\r\n\r\n$ END OF MODEL FILE\r\n";
+    text += "\r\n$ AREA ASSIGNS\r\n  AREAASSIGN  \"F1\"  \"Roof slab\"  SECTION \"Slab\"  DIAPH  \"D1\"  \r\n\r\n$ SLAB PROPERTIES\r\n  SHELLPROP  \"Slab\"  PROPTYPE  \"Slab\"  MATERIAL \"M25\"  MODELINGTYPE \"ShellThin\"  SLABTHICKNESS 150 \r\n\r\n$ LOAD PATTERNS\r\n  LOADPATTERN \"Dead\"  TYPE  \"Dead\"  SELFWEIGHT  1\r\n\r\n$ LOG\r\n  STARTCOMMENTS\r\n$ STORIES\r\nanything\r\n  ENDCOMMENTS\r\n\r\n$ END OF MODEL FILE\r\n";
     text
 }
 
@@ -204,12 +204,18 @@ fn a_regular_text_model_of_etabs_is_a_space_frame() {
         let off = difference(&periods(&model(&found), 6), &expected());
         assert!(off < 1e-6, "{off:.1e}\n{}", found.toml);
         assert_eq!(found.periods[0].periods, [0.408472, 0.372322]);
+        assert!(
+            found
+                .left_out
+                .iter()
+                .any(|line| line.contains("slab \"Slab\""))
+        );
         assert!(found.toml.contains("elevation = \"-1.5 m\""));
         assert!(
             found
                 .left_out
                 .iter()
-                .any(|line| line.contains("$LOAD PATTERNS")),
+                .any(|line| line.contains("sections LOAD PATTERNS")),
             "{:?}",
             found.left_out
         );
