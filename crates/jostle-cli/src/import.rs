@@ -48,8 +48,8 @@ pub(crate) struct TableArgs {
     /// Model in one plane along x or y, or in space [default: in space where the files suffice]
     #[arg(long, value_enum)]
     direction: Option<DirectionName>,
-    /// Stiffness from displacements under unit loads, from modes, or from storey stiffnesses [default: the first that
-    /// there is]
+    /// Stiffness from displacements under unit loads, from modes, from storey stiffnesses, or from the columns and beams
+    /// of a text model [default: the first that there is]
     #[arg(long, value_enum, value_name = "WAY")]
     by: Option<WayName>,
     /// Width of the gaps between neighbours
@@ -87,6 +87,7 @@ enum WayName {
     Flexibility,
     Modes,
     Stiffness,
+    Frame,
 }
 
 pub(crate) fn import(command: &ImportCommand) -> Result<(), Failure> {
@@ -130,6 +131,7 @@ impl TableArgs {
                 WayName::Flexibility => Way::Flexibility,
                 WayName::Modes => Way::Modes,
                 WayName::Stiffness => Way::Stiffness,
+                WayName::Frame => Way::Frame,
             }),
             case: self.case.clone(),
             diaphragm: self.diaphragm.clone(),

@@ -6,8 +6,8 @@ use std::fmt::Write;
 use jostle_io::InputError;
 
 use crate::facts::{Facts, Floor, Point, key};
-use crate::import::{Direction, ImportOptions, Way};
 use crate::matrix::{positive_definite, symmetrise};
+use crate::options::{Direction, ImportOptions, Way};
 use crate::text::plain;
 
 /// Largest matrices that stand in the model file itself.
@@ -306,7 +306,16 @@ fn flexibility(
     if !positive_definite(&matrix) {
         return Err(facts.fault("Diaphragm Center Of Mass Displacements", "the flexibility is not positive definite: its digits do not suffice to invert it", "set the length of tables to mm and the number of decimals high (Options, Display units), take unit loads of 1000 kN or more, and export again"));
     }
-    remarks.push(format!("flexibility of {n} displacements by unit loads; differences of F_ij and F_ji, which come from rounding, reach {} of √(F_ii F_jj)", text(difference)));
+    let rounding = match difference > 1e-9 {
+        true => format!(
+            "; F_ij and F_ji differ by at most {} of √(F_ii F_jj)",
+            text(difference)
+        ),
+        false => String::new(),
+    };
+    remarks.push(format!(
+        "flexibility of {n} displacements by unit loads{rounding}"
+    ));
     Ok(matrix)
 }
 

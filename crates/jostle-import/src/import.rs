@@ -7,6 +7,7 @@ use jostle_io::InputError;
 
 use crate::facts::{Facts, fault};
 use crate::given::{self, Arrays, Built, quoted};
+use crate::options::{Direction, ImportOptions, Way};
 use crate::units::Units;
 use crate::{e2k, listing, s2k, space_frame, tables, text, workbook};
 
@@ -19,28 +20,6 @@ pub enum Program {
     Sap2000,
 }
 
-/// In which direction a building is modelled.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Direction {
-    /// In one plane, along X of the source.
-    X,
-    /// In one plane, along Y of the source.
-    Y,
-    /// In space.
-    Both,
-}
-
-/// Where the stiffness comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Way {
-    /// Displacements under unit loads.
-    Flexibility,
-    /// Periods and shapes.
-    Modes,
-    /// Storey stiffnesses.
-    Stiffness,
-}
-
 /// A file to import.
 #[derive(Clone, Copy, Debug)]
 pub struct SourceFile<'a> {
@@ -48,29 +27,6 @@ pub struct SourceFile<'a> {
     pub name: &'a str,
     /// Its content.
     pub bytes: &'a [u8],
-}
-
-/// What the user states beside the files.
-#[derive(Clone, Debug, Default)]
-pub struct ImportOptions {
-    /// Direction; `None` for a model in space where the files suffice.
-    pub direction: Option<Direction>,
-    /// Way; `None` for the best that the files allow.
-    pub way: Option<Way>,
-    /// Load case of storey stiffnesses.
-    pub case: Option<String>,
-    /// Diaphragm that is the building, where storeys have several.
-    pub diaphragm: Option<String>,
-    /// Force of cases whose name says where it acts, positive \[N\].
-    pub unit_force: Option<f64>,
-    /// Moment of such cases, positive \[N·m\].
-    pub unit_moment: Option<f64>,
-    /// Units of files that state none, such as `kN, m`.
-    pub units: Option<String>,
-    /// Width of the gaps between neighbours, positive \[m\].
-    pub gap: Option<f64>,
-    /// Name of the model file without extension; archives beside it begin with it.
-    pub stem: String,
 }
 
 /// Periods of the source, to compare those of the model with.
@@ -349,11 +305,8 @@ fn refine_periods(facts: &mut Facts) {
 /// By tables where they have stiffness, else the frame of the text model.
 fn build(facts: &mut Facts, options: &ImportOptions) -> Result<Built, InputError> {
     let has_tables = !(facts.displacements.is_empty() && facts.stiffness.is_empty());
-    match facts
-        .text
-        .clone()
-        .filter(|_| !has_tables && options.way.is_none())
-    {
+    let by_frame = options.way == Some(Way::Frame) || (options.way.is_none() && !has_tables);
+    match facts.text.clone().filter(|_| by_frame) {
         Some(_) if matches!(options.direction, Some(Direction::X | Direction::Y)) => Err(facts
             .fault(
                 "--direction",
@@ -361,6 +314,11 @@ fn build(facts: &mut Facts, options: &ImportOptions) -> Result<Built, InputError
                 "leave it out, or name a workbook of tables as well",
             )),
         Some(model) => space_frame::build(facts, &model),
+        None if options.way == Some(Way::Frame) => Err(facts.fault(
+            "--by frame",
+            "there is no text model",
+            "name the .e2k, $et, .s2k or $2k file of the building as well",
+        )),
         None => given::build(facts, options),
     }
 }

@@ -11,6 +11,8 @@ use crate::member::{Member, SectionFacts, TextModel};
 
 /// Joints nearer than this stand on one line \[m\].
 const ONE_LINE: f64 = 0.002;
+/// Most lines in one direction.
+const MOST_LINES: usize = 60;
 /// Remedy for what a space frame cannot hold.
 const BY_TABLES: &str = "take the stiffness from results instead: run load cases with a unit force along X, along Y and a unit moment on every diaphragm, export Diaphragm Center Of Mass Displacements as .xlsx and name it beside this file";
 
@@ -77,6 +79,13 @@ pub(crate) fn build(facts: &mut Facts, model: &TextModel) -> Result<Built, Input
                 .collect(),
         )
     });
+    if lines.iter().any(|lines| lines.len() > MOST_LINES) {
+        let [x, y] = lines.each_ref().map(Vec::len);
+        return refuse(
+            "",
+            format!("has joints on {x} by {y} lines; a grid of at most {MOST_LINES} is regular"),
+        );
+    }
     let line_of = |axis: usize, at: f64| {
         lines[axis]
             .iter()

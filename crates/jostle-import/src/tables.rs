@@ -158,6 +158,9 @@ fn kind(table: &Table) -> Option<Kind> {
             || has(&["similarto"]))
     {
         Kind::Stories
+    } else if has(&["xcr"]) || has(&["cummassx"]) {
+        // Centers Of Mass And Rigidity repeats masses without inertia.
+        return None;
     } else if has(&["story", "massx", "massy"]) {
         Kind::MassByDiaphragm
     } else if title == "masssummarybystory"
@@ -242,6 +245,7 @@ pub(crate) fn gather(
             if let [Some(x), Some(y)] = centre {
                 numbers.extend([(x, LENGTH), (y, LENGTH)]);
             }
+            facts.masses.retain(|own| !own.diaphragm.is_empty());
             reading.each(&[story, of], &numbers, |texts, values| {
                 if wanted(texts[1]) {
                     let last = values.len();

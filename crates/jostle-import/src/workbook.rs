@@ -11,8 +11,10 @@ use crate::units;
 
 /// Most bytes that a workbook may inflate to: forty times a workbook of a tower of 60 storeys.
 const MOST_INFLATED: u64 = 256 << 20;
-/// Most cells of a workbook.
-const MOST_CELLS: usize = 4_000_000;
+/// Most bytes that its cells may take: a short string may stand in millions of cells.
+const MOST_TEXT: usize = 512 << 20;
+/// Most sheets of a workbook.
+const MOST_SHEETS: usize = 500;
 /// Columns of the widest table.
 const MOST_COLUMNS: u32 = 256;
 
@@ -58,7 +60,12 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Table>, String> {
     let mut book = Xlsx::new(Cursor::new(bytes)).map_err(|e| broken(&e))?;
     let names: Vec<String> = book.sheet_names();
     let mut tables = Vec::new();
-    let mut cells = 0;
+    if names.len() > MOST_SHEETS {
+        return Err(format!(
+            "has more than {MOST_SHEETS} sheets; export only the tables that are needed"
+        ));
+    }
+    let mut left = MOST_TEXT;
     for name in names {
         // Charts have no cells.
         let Ok(mut reader) = book.worksheet_cells_reader(&name) else {
@@ -67,13 +74,8 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Table>, String> {
         let mut rows: Vec<(u32, Vec<String>)> = Vec::new();
         while let Some(cell) = reader.next_cell().map_err(|e| broken(&e))? {
             let (row, column) = cell.get_position();
-            cells += 1;
-            if cells > MOST_CELLS {
-                return Err(format!(
-                    "has more than {MOST_CELLS} cells; export only the tables that are needed"
-                ));
-            }
             let text = written(cell.get_value());
+            left = left.saturating_sub(text.len() + size_of::<String>());
             if column >= MOST_COLUMNS || text.is_empty() {
                 continue;
             }
@@ -82,10 +84,18 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Vec<Table>, String> {
             }
             if let Some((_, values)) = rows.last_mut() {
                 let at = column as usize;
+                // Places left empty take memory as well.
+                left = left.saturating_sub(at.saturating_sub(values.len()) * size_of::<String>());
                 if values.len() <= at {
                     values.resize(at + 1, String::new());
                 }
                 values[at] = text;
+            }
+            if left == 0 {
+                return Err(
+                    "has more cells than can be read; export only the tables that are needed"
+                        .into(),
+                );
             }
         }
         split(&name, rows, &mut tables);

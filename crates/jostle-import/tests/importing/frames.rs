@@ -119,7 +119,8 @@ pub(crate) fn e2k() -> String {
             );
         }
     }
-    text += "  POINT \"landing\"  6000 5000 1500 \r\n\r\n$ LINE CONNECTIVITIES\r\n";
+    // A beam of the lower floor, drawn from the upper storey: the third number is the depth below it.
+    text += "  POINT \"landing\"  6000 5000 1500 \r\n  POINT \"low 1\"  0 0 3200 \r\n  POINT \"low 2\"  6000 0 3200 \r\n\r\n$ LINE CONNECTIVITIES\r\n  LINE  \"LOW\"  BEAM  \"low 1\"  \"low 2\"  0\r\n";
     for (index, (a, b, _)) in members().iter().enumerate() {
         let (kind, below) = if a == b { ("COLUMN", 1) } else { ("BEAM", 0) };
         let _ = write!(
@@ -142,6 +143,9 @@ pub(crate) fn e2k() -> String {
     text += "\r\n$ LINE ASSIGNS\r\n";
     for story in ["1", "Roof slab"] {
         for (index, (_, _, section)) in members().iter().enumerate() {
+            if story == "1" && index == 1 {
+                continue;
+            }
             let turned = if *section == "C 400*700" {
                 "ANG  90 "
             } else {
@@ -153,6 +157,7 @@ pub(crate) fn e2k() -> String {
             );
         }
     }
+    text += "  LINEASSIGN  \"LOW\"  \"Roof slab\"  SECTION \"B1\"  \r\n";
     text += "\r\n$ AREA ASSIGNS\r\n  AREAASSIGN  \"F1\"  \"Roof slab\"  SECTION \"Slab\"  DIAPH  \"D1\"  \r\n\r\n$ SLAB PROPERTIES\r\n  SHELLPROP  \"Slab\"  PROPTYPE  \"Slab\"  MATERIAL \"M25\"  MODELINGTYPE \"ShellThin\"  SLABTHICKNESS 150 \r\n\r\n$ LOAD PATTERNS\r\n  LOADPATTERN \"Dead\"  TYPE  \"Dead\"  SELFWEIGHT  1\r\n\r\n$ LOG\r\n  STARTCOMMENTS\r\n$ STORIES\r\nanything\r\n  ENDCOMMENTS\r\n\r\n$ END OF MODEL FILE\r\n";
     text
 }
