@@ -171,9 +171,15 @@ fn cp1252(text: &str) -> Vec<u8> {
 
 /// The listing of an analysis in kN and m, with heights above the datum of the model.
 pub(crate) fn out() -> String {
+    out_in(1.0)
+}
+
+/// The same where a metre has so many units of length, and a tonne one unit of mass, as in kN and m or N and mm.
+fn out_in(metre: f64) -> String {
     let mut text = String::from(" ETABS\n File: model\n\n");
     for (index, ([mass, inertia, x, y], z)) in MASSES.iter().zip(LEVELS).enumerate().rev() {
-        let z = z - 1.5;
+        let [inertia, x, y] = [inertia * metre * metre, x * metre, y * metre];
+        let z = (z - 1.5) * metre;
         let _ = write!(
             text,
             " {index}, CONSTR = RIGID, DOF = U1 U2 R3\n\n                     TRANSLATIONAL MASS AND MASS MOMENTS OF INERTIA\n                  U1          U2          U3          R1          R2          R3\n           {mass:.6}   {mass:.6}     .000000     .000000     .000000   {inertia:.6}\n\n                     CENTER OF MASS\n  GLOBAL          U1          U2          U3\n     X      {x:.6}    {x:.6}    {x:.6}\n     Y      {y:.6}    {y:.6}    {y:.6}\n     Z     {z:.6}   {z:.6}   {z:.6}\n\n"
@@ -198,8 +204,8 @@ fn a_regular_text_model_of_etabs_is_a_space_frame() {
             .replace("6000 ", "6000,0 ")
             .replace("E 30000 ", "E 30000,00 "),
     );
-    for bytes in [model_text, commas] {
-        let (out, log) = (out(), log());
+    for (bytes, metre, words) in [(model_text, 1.0, "kN, m"), (commas, 1e3, "N, mm")] {
+        let (out, log) = (out_in(metre), log().replace("kN, m", words));
         let files: [(&str, &[u8]); 3] = [
             ("A.$et", &bytes),
             ("A.OUT", out.as_bytes()),
