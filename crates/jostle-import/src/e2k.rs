@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use jostle_io::InputError;
 
 use crate::facts::{Facts, Story, fault, key};
-use crate::member::{Member, SectionFacts, TextModel};
+use crate::member::{Member, TextModel};
 use crate::text::number;
 use crate::units::{LENGTH, PRESSURE, Units};
 
@@ -158,10 +158,7 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
         }
     }
     for record in of("FRAME SECTIONS") {
-        let own = model
-            .sections
-            .entry(record.at(1).to_owned())
-            .or_insert_with(SectionFacts::new);
+        let own = model.sections.entry(record.at(1).to_owned()).or_default();
         if let Some(shape) = record.value("SHAPE") {
             own.shape = shape.to_owned();
             own.material = record.value("MATERIAL").unwrap_or("").to_owned();
@@ -381,15 +378,15 @@ fn stories<'a>(
         let name = record.at(1).to_owned();
         if let Some(height) = record.number("HEIGHT") {
             down.push((name, height * length));
-        } else if let Some(z) = record.number("ELEV") {
-            if base.replace((name, z * length)).is_some() {
-                return Err(fault(
-                    file,
-                    format!("line {}, STORY", record.line),
-                    "is a second base: several towers",
-                    "export each tower as a model of its own",
-                ));
-            }
+        } else if let Some(z) = record.number("ELEV")
+            && base.replace((name, z * length)).is_some()
+        {
+            return Err(fault(
+                file,
+                format!("line {}, STORY", record.line),
+                "is a second base: several towers",
+                "export each tower as a model of its own",
+            ));
         }
     }
     let (Some(base), false) = (base, down.is_empty()) else {

@@ -525,7 +525,7 @@ fn boxes(places: &[Place]) -> Vec<Box> {
         for own in found {
             match merged.last_mut() {
                 Some(last) if others(last) == others(&own) && last[axis][1] + 1 == own[axis][0] => {
-                    last[axis][1] = own[axis][1]
+                    last[axis][1] = own[axis][1];
                 }
                 _ => merged.push(own),
             }

@@ -218,7 +218,7 @@ pub(crate) fn gather(
             let numbers = [(reading.needed(&["bselev"])?, LENGTH)];
             let mut shift = None;
             reading.each(&texts, &numbers, |texts, values| {
-                shift = Some((texts[0].to_owned(), values[0]))
+                shift = Some((texts[0].to_owned(), values[0]));
             })?;
             if let Some((name, height)) = shift {
                 // Storeys were summed from the base known so far.

@@ -39,7 +39,7 @@ impl Table {
     }
 
     /// The text of a cell, empty where there is none.
-    pub(crate) fn text<'a>(row: &'a [String], column: Option<usize>) -> &'a str {
+    pub(crate) fn text(row: &[String], column: Option<usize>) -> &str {
         column
             .and_then(|at| row.get(at))
             .map_or("", |text| text.trim())

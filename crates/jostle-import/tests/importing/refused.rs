@@ -160,7 +160,7 @@ fn workbooks_that_lack_something_are_refused_with_the_table_that_helps() {
             &[("A.xlsx", &tables(sheets))],
             options,
             words,
-        )
+        );
     };
     check(
         &[definitions(3)],
