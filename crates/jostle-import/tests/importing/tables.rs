@@ -223,12 +223,12 @@ fn force_of_pair(building: &str) -> f64 {
     run_and_summary(&input.model, &motion).2.gaps[0].peak_force_n
 }
 
-/// With the displacement under one unit load, five modes find the contact force to 1.5 % and seven to 0.5 %.
+/// With the displacement under one unit load, five modes find the contact force to 1.5 % and seven to 0.2 %.
 #[test]
 fn modes_are_the_building_as_far_as_they_go() {
     let all = expected(FLOORS);
     let whole = force_of_pair(&format!("{MOTION}{}", storeys()));
-    for (count, allowed) in [(5, 0.015), (7, 0.005)] {
+    for (count, allowed) in [(5, 0.015), (7, 0.002)] {
         let mut sheets = vec![definitions(FLOORS), masses(FLOORS)];
         sheets.extend(modes(count));
         let mut hit = unit_forces(12);
