@@ -57,6 +57,9 @@ pub(crate) enum Command {
     ContactAdvice(Box<crate::contact_advice::ContactAdviceArgs>),
     /// Write the model as a script for another program, to compare results
     Export(crate::export::ExportArgs),
+    /// Write a model file from the files of another program
+    #[command(subcommand)]
+    Import(Box<crate::import::ImportCommand>),
     /// Print how accurate each solver formulation is on your model
     Method(MethodArgs),
     /// Compute cracking and yield of reinforced-concrete sections, by formulas and by fibre analysis

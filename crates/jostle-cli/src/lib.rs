@@ -11,6 +11,7 @@ mod contact_advice;
 mod export;
 mod failure;
 mod gap;
+mod import;
 mod live;
 mod man;
 mod method;
@@ -49,6 +50,7 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
         Command::Compare(args) => compare::compare(&args),
         Command::ContactAdvice(args) => contact_advice::contact_advice(&args),
         Command::Export(args) => export::export(&args),
+        Command::Import(command) => import::import(&command),
         Command::Method(args) => method::method(&args),
         Command::Pushover(args) => pushover::pushover(&args),
         Command::Study(args) => study::study(&args),

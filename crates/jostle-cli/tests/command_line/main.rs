@@ -10,6 +10,7 @@ mod export;
 mod floor_spectra;
 mod gap_curve;
 mod hardening;
+mod import;
 mod isolation_bounds;
 mod live_command;
 mod mistakes;

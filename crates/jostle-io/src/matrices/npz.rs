@@ -51,7 +51,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Matrices, String> {
             return Err(format!("has both {one} and {other}; keep one of them"));
         }
     }
-    if found.stiffness.is_none() && !others.is_empty() {
+    if found.stiffness.is_none() && found.flexibility.is_none() && !others.is_empty() {
         return Err(format!(
             "has no stiffness matrix K, only {}; name the arrays K, M and, where wanted, C, r and h",
             others.join(", ")
@@ -251,6 +251,11 @@ mod tests {
             [3.0, 4.0]
         );
         assert!(found.damping.is_none());
+        // F stands for K, whatever else there is.
+        let arrays: [(&str, &[usize], Vec<f64>); 2] =
+            [("F", &[1, 1], vec![2.0]), ("other", &[1], vec![0.0])];
+        let found = parse(&write(&arrays).expect("memory")).expect("an archive");
+        assert!(found.flexibility.is_some() && found.stiffness.is_none());
     }
 
     #[test]

@@ -1,0 +1,243 @@
+//! `jostle import`: model files from the files of other programs.
+
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use jostle_import::{
+    BuildingPeriods, Direction, ImportOptions, Imported, Program, SourceFile, Way,
+};
+use jostle_io::{Dimension, Overrides, parse_quantity, read_file};
+use jostle_run::{BOLD, FileKind, LOUD, list_modes, may_write, open, styled};
+
+use crate::failure::Failure;
+use crate::terminal;
+
+/// Largest file that is read \[bytes\].
+const MOST_BYTES: usize = 64 << 20;
+/// Periods compared.
+const MODES: usize = 6;
+
+/// First line of every model.
+const MODEL: FileKind = FileKind {
+    name: "model that jostle imported",
+    marks: &["# Written by jostle import from "],
+};
+const ARCHIVE: FileKind = FileKind {
+    name: "archive of matrices that jostle wrote",
+    marks: &["written_by_jostle.npy"],
+};
+
+/// Programs that models can be imported from.
+#[derive(Debug, clap::Subcommand)]
+pub(crate) enum ImportCommand {
+    /// Result tables (.xlsx), text models (.e2k, $et), and .OUT and .LOG files of ETABS
+    Etabs(TableArgs),
+    /// Text models (.s2k, $2k), and .OUT and .LOG files of SAP2000
+    Sap2000(TableArgs),
+}
+
+/// Files and what they do not say.
+#[derive(Debug, clap::Args)]
+pub(crate) struct TableArgs {
+    /// Files of one building, or of several: those of one building then have one name, such as A.xlsx and A.OUT
+    #[arg(required = true)]
+    files: Vec<PathBuf>,
+    /// Model file to write
+    #[arg(long, value_name = "MODEL")]
+    to: PathBuf,
+    /// Model in one plane along x or y, or in space [default: in space where the files suffice]
+    #[arg(long, value_enum)]
+    direction: Option<DirectionName>,
+    /// Stiffness from displacements under unit loads, from modes, from storey stiffnesses, or from the columns and beams
+    /// of a text model [default: the first that there is]
+    #[arg(long, value_enum, value_name = "WAY")]
+    by: Option<WayName>,
+    /// Width of the gaps between neighbours
+    #[arg(long, value_name = "QUANTITY")]
+    gap: Option<String>,
+    /// Load case of Story Stiffness
+    #[arg(long, value_name = "NAME")]
+    case: Option<String>,
+    /// Diaphragm of this building, where storeys have several
+    #[arg(long, value_name = "NAME")]
+    diaphragm: Option<String>,
+    /// Force of load cases named "FX STORY" and "FY STORY"
+    #[arg(long, value_name = "QUANTITY")]
+    unit_force: Option<String>,
+    /// Moment of load cases named "MZ STORY"
+    #[arg(long, value_name = "QUANTITY")]
+    unit_moment: Option<String>,
+    /// Units of tables that have no row of them, such as "kN, m"
+    #[arg(long, value_name = "UNITS")]
+    units: Option<String>,
+    /// Replace files even if jostle did not write them
+    #[arg(long)]
+    force: bool,
+}
+
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+enum DirectionName {
+    X,
+    Y,
+    Both,
+}
+
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+enum WayName {
+    Flexibility,
+    Modes,
+    Stiffness,
+    Frame,
+}
+
+pub(crate) fn import(command: &ImportCommand) -> Result<(), Failure> {
+    let (program, args) = match command {
+        ImportCommand::Etabs(args) => (Program::Etabs, args),
+        ImportCommand::Sap2000(args) => (Program::Sap2000, args),
+    };
+    let options = args.options()?;
+    let mut contents = Vec::new();
+    for path in &args.files {
+        let bytes = read_file(path, MOST_BYTES)
+            .map_err(|error| Failure::Input(format!("{} {error}", path.display())))?;
+        contents.push((path.display().to_string(), bytes));
+    }
+    let files: Vec<SourceFile<'_>> = contents
+        .iter()
+        .map(|(name, bytes)| SourceFile { name, bytes })
+        .collect();
+    let imported = jostle_import::import(program, &files, &options)?;
+    write(args, &imported)
+}
+
+impl TableArgs {
+    fn options(&self) -> Result<ImportOptions, Failure> {
+        let quantity = |text: &Option<String>, key: &str, dimension: Dimension| match text {
+            None => Ok(None),
+            Some(text) => match parse_quantity(text, dimension) {
+                Ok(value) if value > 0.0 => Ok(Some(value)),
+                Ok(_) => Err(Failure::Input(format!("{key}: must be greater than zero"))),
+                Err(error) => Err(Failure::Input(format!("{key}: {error}"))),
+            },
+        };
+        let stem = self.to.file_stem();
+        Ok(ImportOptions {
+            direction: self.direction.map(|name| match name {
+                DirectionName::X => Direction::X,
+                DirectionName::Y => Direction::Y,
+                DirectionName::Both => Direction::Both,
+            }),
+            way: self.by.map(|name| match name {
+                WayName::Flexibility => Way::Flexibility,
+                WayName::Modes => Way::Modes,
+                WayName::Stiffness => Way::Stiffness,
+                WayName::Frame => Way::Frame,
+            }),
+            case: self.case.clone(),
+            diaphragm: self.diaphragm.clone(),
+            unit_force: quantity(&self.unit_force, "--unit-force", Dimension::Force)?,
+            unit_moment: quantity(&self.unit_moment, "--unit-moment", Dimension::Moment)?,
+            units: self.units.clone(),
+            gap: quantity(&self.gap, "--gap", Dimension::Length)?,
+            stem: stem.map_or_else(String::new, |stem| stem.to_string_lossy().into_owned()),
+        })
+    }
+}
+
+/// Writes the model and prints what was read, what was left out, and periods beside those of the source.
+fn write(args: &TableArgs, imported: &Imported) -> Result<(), Failure> {
+    let beside = |name: &str| args.to.with_file_name(name);
+    may_write(&args.to, Some(MODEL), args.force)?;
+    for (name, _) in &imported.files {
+        may_write(&beside(name), Some(ARCHIVE), args.force)?;
+    }
+    for (name, bytes) in &imported.files {
+        jostle_io::write_atomically(&beside(name), bytes)?;
+    }
+    jostle_io::write_atomically(&args.to, imported.toml.as_bytes())?;
+    let mut text = String::new();
+    for (title, lines) in [
+        ("Read", &imported.read),
+        ("To know", &imported.remarks),
+        ("Not carried over", &imported.left_out),
+    ] {
+        if lines.is_empty() {
+            continue;
+        }
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{}", styled(BOLD, title));
+        for line in lines {
+            let _ = writeln!(text, "  {line}");
+        }
+        text.push('\n');
+    }
+    let opened = open(Some(&args.to), &Overrides::default(), false).map_err(|error| {
+        Failure::Input(format!(
+            "{error}\n{} was written, but is no sound model yet: correct it, or the tables",
+            args.to.display()
+        ))
+    })?;
+    for (building, modes) in &list_modes(&opened.system, MODES)? {
+        let source = imported
+            .periods
+            .iter()
+            .find(|own| own.name == building.name);
+        let own: Vec<f64> = modes.iter().map(|mode| mode.period()).collect();
+        compare(&mut text, &building.name, &own, source);
+    }
+    let shown = args.to.display();
+    let _ = writeln!(text, "{shown} is ready. Next:\n  jostle check {shown}");
+    terminal::print(&text)
+}
+
+/// Periods of the model beside those of the source: of one direction one by one, else the nearest.
+fn compare(text: &mut String, name: &str, own: &[f64], source: Option<&BuildingPeriods>) {
+    let _ = writeln!(text, "{}", styled(BOLD, name));
+    let Some(source) = source.filter(|source| !source.periods.is_empty()) else {
+        for (index, period) in own.iter().enumerate() {
+            let _ = writeln!(text, "  T{} {period:.4} s", index + 1);
+        }
+        text.push('\n');
+        return;
+    };
+    let which = match source.of_direction {
+        true => "",
+        false => ", the nearest of all directions",
+    };
+    let _ = writeln!(
+        text,
+        "  mode   this model   source ({}{which})",
+        source.origin
+    );
+    let mut most = 0.0_f64;
+    for (index, period) in own.iter().enumerate() {
+        let distance = |other: &&f64| (*other / period).ln().abs();
+        let other = match source.of_direction {
+            true => source.periods.get(index),
+            false => source
+                .periods
+                .iter()
+                .min_by(|a, b| distance(a).total_cmp(&distance(b))),
+        };
+        let Some(other) = other else { break };
+        let difference = period / other - 1.0;
+        if index == 0 {
+            most = difference;
+        }
+        let _ = writeln!(
+            text,
+            "  {:>4}   {period:8.4} s   {other:8.4} s  {:+7.2} %",
+            index + 1,
+            difference * 100.0
+        );
+    }
+    if most.abs() > 0.05 {
+        let _ = writeln!(
+            text,
+            "  {} the first period differs by {:+.1} %: see \"To know\" and \"Not carried over\"",
+            styled(LOUD, "warning:"),
+            most * 100.0
+        );
+    }
+    text.push('\n');
+}

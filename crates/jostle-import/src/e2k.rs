@@ -1,0 +1,415 @@
+//! Text models of ETABS: `.e2k` and `.$et`.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use jostle_io::InputError;
+
+use crate::facts::{Facts, Story, fault, key};
+use crate::member::{Member, TextModel};
+use crate::text::number;
+use crate::units::{LENGTH, PRESSURE, Units};
+
+/// Sections of a file that are read.
+const READ: &[&str] = &[
+    "CONTROLS",
+    "STORIES",
+    "DIAPHRAGM NAMES",
+    "MATERIAL PROPERTIES",
+    "FRAME SECTIONS",
+    "POINT COORDINATES",
+    "LINE CONNECTIVITIES",
+    "AREA CONNECTIVITIES",
+    "POINT ASSIGNS",
+    "LINE ASSIGNS",
+    "AREA ASSIGNS",
+    "SLAB PROPERTIES",
+    "DECK PROPERTIES",
+];
+/// Sections without effect on stiffness and geometry.
+const HARMLESS: &[&str] = &[
+    "PROGRAM INFORMATION",
+    "GRIDS",
+    "GROUPS",
+    "LOG",
+    "END OF MODEL FILE",
+    "PROJECT INFORMATION",
+    "TABLE SETS",
+    "DEVELOPED ELEVATIONS",
+    "PIER/SPANDREL NAMES",
+];
+
+/// A word of a line, and whether it stood in quotes.
+struct Word<'a> {
+    text: &'a str,
+    quoted: bool,
+}
+
+/// Words of a line; a quote ends a word even without a blank.
+fn words(line: &str) -> Vec<Word<'_>> {
+    let mut found = Vec::new();
+    let mut rest = line.trim_start();
+    while !rest.is_empty() {
+        let (text, quoted, end) = match rest.strip_prefix('"') {
+            Some(inner) => match inner.find('"') {
+                Some(end) => (&inner[..end], true, end + 2),
+                None => (inner, true, rest.len()),
+            },
+            None => {
+                let end = rest
+                    .find(|c: char| c.is_whitespace() || c == '"')
+                    .unwrap_or(rest.len());
+                (&rest[..end], false, end)
+            }
+        };
+        found.push(Word { text, quoted });
+        rest = rest[end..].trim_start();
+    }
+    found
+}
+
+/// A line: its section, its number, its words.
+struct Record<'a> {
+    line: usize,
+    words: Vec<Word<'a>>,
+}
+
+impl<'a> Record<'a> {
+    /// The text at a place; empty behind the last.
+    fn at(&self, place: usize) -> &'a str {
+        self.words.get(place).map_or("", |word| word.text)
+    }
+
+    /// The value behind a bare key. A key without value, such as a flag, is skipped.
+    fn value(&self, name: &str) -> Option<&'a str> {
+        let place = self
+            .words
+            .iter()
+            .position(|word| !word.quoted && word.text == name)?;
+        self.words.get(place + 1).map(|word| word.text)
+    }
+
+    fn number(&self, name: &str) -> Option<f64> {
+        number(self.value(name)?)
+    }
+}
+
+/// Adds what a text model of ETABS says.
+///
+/// # Errors
+/// A file without units or storeys, and names that lead nowhere.
+pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, InputError> {
+    let mut sections: BTreeMap<&str, Vec<Record<'_>>> = BTreeMap::new();
+    let mut ignored: BTreeSet<&str> = BTreeSet::new();
+    let (mut section, mut comment) = ("", false);
+    for (index, line) in text.lines().enumerate() {
+        let trimmed = line.trim();
+        if comment || trimmed.is_empty() {
+            comment &= trimmed != "ENDCOMMENTS";
+            continue;
+        }
+        if let Some(name) = trimmed.strip_prefix('$') {
+            section = name.trim();
+            // "STORIES - IN SEQUENCE FROM TOP"
+            section = section.split(" - ").next().unwrap_or(section).trim();
+            let known = READ.contains(&section)
+                || HARMLESS.contains(&section)
+                || section.starts_with("File ");
+            if !known && !section.is_empty() {
+                ignored.insert(section);
+            }
+            continue;
+        }
+        if trimmed.starts_with("STARTCOMMENTS") {
+            comment = true;
+            continue;
+        }
+        if READ.contains(&section) {
+            sections.entry(section).or_default().push(Record {
+                line: index + 1,
+                words: words(trimmed),
+            });
+        }
+    }
+    let none = Vec::new();
+    let of = |name: &str| sections.get(name).unwrap_or(&none).iter();
+    let units = units(file, of("CONTROLS"))?;
+    let (length, pressure) = (units.factor(LENGTH), units.factor(PRESSURE));
+    let levels = stories(file, of("STORIES"), length, facts)?;
+    let mut model = TextModel {
+        file: file.to_owned(),
+        ..TextModel::default()
+    };
+    let used: BTreeSet<&str> = of("AREA ASSIGNS")
+        .chain(of("POINT ASSIGNS"))
+        .filter_map(|record| record.value("DIAPH"))
+        .collect();
+    for record in of("DIAPHRAGM NAMES").filter(|record| record.value("TYPE") == Some("SEMIRIGID")) {
+        if used.contains(record.at(1)) {
+            model.semirigid.push(record.at(1).to_owned());
+        }
+    }
+    for record in of("MATERIAL PROPERTIES") {
+        let own = model
+            .materials
+            .entry(record.at(1).to_owned())
+            .or_insert([f64::NAN, 0.2]);
+        if let Some(modulus) = record.number("E") {
+            *own = [modulus * pressure, record.number("U").unwrap_or(0.2)];
+        }
+    }
+    for record in of("FRAME SECTIONS") {
+        let own = model.sections.entry(record.at(1).to_owned()).or_default();
+        if let Some(shape) = record.value("SHAPE") {
+            own.shape = shape.to_owned();
+            own.material = record.value("MATERIAL").unwrap_or("").to_owned();
+            own.size = ["D", "B"].map(|name| record.number(name).map(|size| size * length));
+        }
+        for (factor, name) in own.factors.iter_mut().zip(["I3MOD", "I2MOD", "JMOD"]) {
+            *factor = record.number(name).unwrap_or(*factor);
+        }
+        own.others |= ["AMOD", "A2MOD", "A3MOD"]
+            .iter()
+            .any(|name| record.number(name).is_some_and(|own| own != 1.0));
+    }
+    let mut points: BTreeMap<&str, [f64; 3]> = BTreeMap::new();
+    for record in of("POINT COORDINATES") {
+        let mut place = [0.0; 3];
+        for (axis, value) in place.iter_mut().enumerate() {
+            match number(record.at(2 + axis)) {
+                Some(number) => *value = number * length,
+                None if axis == 2 => {}
+                None => {
+                    return Err(fault(
+                        file,
+                        format!("line {}, point \"{}\"", record.line, record.at(1)),
+                        "has no two coordinates",
+                        "export the model again",
+                    ));
+                }
+            }
+        }
+        points.insert(record.at(1), place);
+    }
+    let place = |point: &str, level: usize| {
+        let [x, y, below] = *points.get(point)?;
+        // The third number is the depth below the storey.
+        Some([x, y, levels.get(level)?.1 - below])
+    };
+    let level_of = |name: &str| levels.iter().position(|level| key(&level.0) == key(name));
+    let lost = |record: &Record<'_>, what: &str| {
+        fault(
+            file,
+            format!(
+                "line {}, {} \"{}\"",
+                record.line,
+                record.at(0),
+                record.at(1)
+            ),
+            format!("names {what}, which the file does not have"),
+            "export the whole model again",
+        )
+    };
+    let lines: BTreeMap<&str, &Record<'_>> = of("LINE CONNECTIVITIES")
+        .map(|record| (record.at(1), record))
+        .collect();
+    let mut members: BTreeMap<(String, usize), Member> = BTreeMap::new();
+    for record in of("LINE ASSIGNS") {
+        let line = lines
+            .get(record.at(1))
+            .ok_or_else(|| lost(record, "a line"))?;
+        let level = level_of(record.at(2))
+            .ok_or_else(|| lost(record, &format!("the storey \"{}\"", record.at(2))))?;
+        let below: usize = line.at(5).parse().unwrap_or(0);
+        let ends = level
+            .checked_sub(below)
+            .and_then(|lower| Some([place(line.at(3), lower)?, place(line.at(4), level)?]));
+        let ends = ends.ok_or_else(|| lost(line, "points or storeys"))?;
+        let kind = line.at(2).to_lowercase();
+        let own = members
+            .entry((record.at(1).to_owned(), level))
+            .or_insert_with(|| Member {
+                shown: format!("{kind} \"{}\" of storey \"{}\"", record.at(1), record.at(2)),
+                ends,
+                section: String::new(),
+                angle: 0.0,
+                released: false,
+                offset: false,
+            });
+        // Further lines of one member add keys.
+        if let Some(section) = record.value("SECTION") {
+            section.clone_into(&mut own.section);
+        }
+        own.angle = record.number("ANG").unwrap_or(own.angle);
+        own.released |= record.value("RELEASE").is_some();
+        own.offset |= [
+            "LENGTHOFFI",
+            "LENGTHOFFJ",
+            "OFFSETXI",
+            "OFFSETYI",
+            "OFFSETXJ",
+            "OFFSETYJ",
+        ]
+        .iter()
+        .any(|name| record.number(name).is_some_and(|own| own != 0.0));
+    }
+    let areas: BTreeMap<&str, &Record<'_>> = of("AREA CONNECTIVITIES")
+        .map(|record| (record.at(1), record))
+        .collect();
+    let shells = of("SLAB PROPERTIES").chain(of("DECK PROPERTIES"));
+    let bends = |record: &&Record<'_>| {
+        record
+            .value("MODELINGTYPE")
+            .is_some_and(|kind| kind.starts_with("Shell"))
+    };
+    let bending: BTreeSet<&str> = shells.filter(bends).map(|record| record.at(1)).collect();
+    let mut floors = 0;
+    for record in of("AREA ASSIGNS") {
+        let area = areas
+            .get(record.at(1))
+            .ok_or_else(|| lost(record, "an area"))?;
+        let level = level_of(record.at(2))
+            .ok_or_else(|| lost(record, &format!("the storey \"{}\"", record.at(2))))?;
+        if area.at(2) == "PANEL" {
+            model.walls.push(format!(
+                "wall \"{}\" of storey \"{}\"",
+                record.at(1),
+                record.at(2)
+            ));
+            continue;
+        }
+        if let Some(name) = record
+            .value("SECTION")
+            .filter(|name| bending.contains(name))
+        {
+            model.bending_slabs.push(name.to_owned());
+        }
+        floors += 1;
+        let corners: usize = area.at(3).parse().unwrap_or(0);
+        for corner in 0..corners.min(area.words.len()) {
+            let [x, y, _] =
+                place(area.at(4 + corner), level).ok_or_else(|| lost(area, "points"))?;
+            facts
+                .points
+                .entry(key(record.at(2)))
+                .or_default()
+                .push([x, y]);
+        }
+    }
+    for ((_, level), member) in &members {
+        for [x, y, _] in member.ends {
+            facts
+                .points
+                .entry(key(&levels[*level].0))
+                .or_default()
+                .push([x, y]);
+        }
+    }
+    let base = levels.first().map_or("", |level| level.0.as_str());
+    for record in of("POINT ASSIGNS").filter(|record| key(record.at(2)) == key(base)) {
+        let held = record
+            .value("RESTRAINT")
+            .map_or(0, |text| text.split_whitespace().count());
+        if record.value("SPRINGPROP").is_some() || (held > 0 && held < 6) {
+            model
+                .loose_feet
+                .push(format!("point \"{}\" of storey \"{base}\"", record.at(1)));
+        }
+    }
+    facts.read.push(format!(
+        "{file}: {} storeys, {} columns and beams, {floors} floor areas, {} walls",
+        facts.stories.len(),
+        members.len(),
+        model.walls.len()
+    ));
+    model.members = members.into_values().collect();
+    facts.text = Some(model);
+    facts
+        .left_out
+        .extend(crate::left_out::lines(file, "sections", &ignored));
+    Ok(units)
+}
+
+/// Units of the controls, which some versions write twice.
+fn units<'a>(
+    file: &str,
+    controls: impl Iterator<Item = &'a Record<'a>>,
+) -> Result<Units, InputError> {
+    let mut found: Option<Units> = None;
+    for record in controls.filter(|record| record.at(0) == "UNITS") {
+        let [force, length] = [record.at(1), record.at(2)];
+        let own = Units::new(force, length).ok_or_else(|| {
+            fault(
+                file,
+                format!("line {}, UNITS", record.line),
+                format!("\"{force}\" and \"{length}\" are not known"),
+                "export the model in N, kN, kgf, tonf, lb or kip with m, cm, mm, ft or in",
+            )
+        })?;
+        if found.is_some_and(|other| other != own) {
+            return Err(fault(
+                file,
+                format!("line {}, UNITS", record.line),
+                "differ from those above",
+                "export the model again: it is not clear which units hold",
+            ));
+        }
+        found = Some(own);
+    }
+    found.ok_or_else(|| {
+        fault(
+            file,
+            "$ CONTROLS",
+            "has no line UNITS",
+            "export the model as .e2k from ETABS (File, Export, ETABS .e2k Text File)",
+        )
+    })
+}
+
+/// Storeys from the ground up with the base as the first.
+fn stories<'a>(
+    file: &str,
+    records: impl Iterator<Item = &'a Record<'a>>,
+    length: f64,
+    facts: &mut Facts,
+) -> Result<Vec<(String, f64)>, InputError> {
+    let mut down: Vec<(String, f64)> = Vec::new();
+    let mut base = None;
+    for record in records.filter(|record| record.at(0) == "STORY") {
+        let name = record.at(1).to_owned();
+        if let Some(height) = record.number("HEIGHT") {
+            down.push((name, height * length));
+        } else if let Some(z) = record.number("ELEV")
+            && base.replace((name, z * length)).is_some()
+        {
+            return Err(fault(
+                file,
+                format!("line {}, STORY", record.line),
+                "is a second base: several towers",
+                "export each tower as a model of its own",
+            ));
+        }
+    }
+    let (Some(base), false) = (base, down.is_empty()) else {
+        return Err(fault(
+            file,
+            "$ STORIES",
+            "has no storeys above a base",
+            "export the whole model again",
+        ));
+    };
+    let mut z = base.1;
+    let mut levels = vec![base.clone()];
+    levels.extend(down.into_iter().rev().map(|(name, height)| {
+        z += height;
+        (name, z)
+    }));
+    facts.stories = levels[1..]
+        .iter()
+        .map(|(name, top)| Story {
+            name: name.clone(),
+            top: *top,
+        })
+        .collect();
+    facts.base = Some(base);
+    Ok(levels)
+}

@@ -1,0 +1,659 @@
+//! Buildings by flexibility, by modes, or by storey stiffness.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write;
+
+use jostle_io::InputError;
+
+use crate::facts::{Facts, Floor, Point, key};
+use crate::matrix::{positive_definite, symmetrise};
+use crate::options::{Direction, ImportOptions, Way};
+use crate::text::plain;
+
+/// Largest matrices that stand in the model file itself.
+const MOST_ROWS_INLINE: usize = 12;
+/// Greatest product of two shapes of unit mass, which are orthogonal.
+const ORTHOGONAL: f64 = 0.05;
+/// Least share of a mode's kinetic energy in the direction of a model in plane.
+const LEAST_SHARE: f64 = 0.7;
+const FORCES: [&str; 3] = ["F_x", "F_y", "M_z"];
+
+/// Arrays of a file beside the model: name, sizes, numbers.
+pub(crate) type Arrays = Vec<(&'static str, Vec<usize>, Vec<f64>)>;
+
+/// A building of a model file.
+pub(crate) struct Built {
+    /// Its `[[building]]`.
+    pub(crate) block: String,
+    /// Arrays of its archive, whose name stands in the block as `FILE`.
+    pub(crate) arrays: Option<Arrays>,
+    pub(crate) remarks: Vec<String>,
+    pub(crate) in_space: bool,
+    /// 0 or 1 for a model in plane along X or Y.
+    pub(crate) axis: usize,
+}
+
+/// A number with ten digits.
+pub(crate) fn digits(value: f64) -> String {
+    let rounded: f64 = format!("{value:.9e}").parse().unwrap_or(value);
+    match rounded.abs() {
+        size if size != 0.0 && !(1e-4..1e9).contains(&size) => format!("{rounded:e}"),
+        _ => format!("{rounded}"),
+    }
+}
+
+/// A text of TOML.
+pub(crate) fn quoted(text: &str) -> String {
+    let clean: String = text.chars().filter(|c| !c.is_control()).collect();
+    format!("\"{}\"", clean.replace('\\', "\\\\").replace('"', "\\\""))
+}
+
+/// Quantities of one unit.
+pub(crate) fn quantities(values: impl Iterator<Item = f64>, unit: &str) -> String {
+    let values: Vec<String> = values
+        .map(|value| format!("\"{} {unit}\"", digits(value)))
+        .collect();
+    format!("[{}]", values.join(", "))
+}
+
+/// A point of a plan.
+pub(crate) fn point([x, y]: Point) -> String {
+    quantities([x, y].into_iter(), "m")
+}
+
+/// The head of a building, with the height of its base.
+pub(crate) fn head(facts: &Facts, kind: &str) -> String {
+    let mut block = format!(
+        "[[building]]\nname = {}\nkind = \"{kind}\"\n",
+        quoted(&facts.name)
+    );
+    if facts.base_height() != 0.0 {
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            block,
+            "elevation = \"{} m\"              # of the base, as in the source",
+            digits(facts.base_height())
+        );
+    }
+    block
+}
+
+/// Plans of all floors from an origin at their lower left, and that origin.
+pub(crate) fn plans(facts: &Facts, floors: &[Floor]) -> Option<(String, Point)> {
+    let outlines: Option<Vec<Vec<Point>>> = floors
+        .iter()
+        .map(|floor| facts.outline(&floor.name))
+        .collect();
+    let outlines = outlines?;
+    let least = |axis: usize| {
+        outlines
+            .iter()
+            .flatten()
+            .map(|corner| corner[axis])
+            .fold(f64::INFINITY, f64::min)
+    };
+    let origin = [least(0), least(1)];
+    let corners = |outline: &Vec<Point>| {
+        let corners: Vec<String> = outline
+            .iter()
+            .map(|[x, y]| point([x - origin[0], y - origin[1]]))
+            .collect();
+        format!("[{}]", corners.join(", "))
+    };
+    let same = outlines.windows(2).all(|pair| pair[0] == pair[1]);
+    let text = match same {
+        true => format!("plan = {}\n", corners(&outlines[0])),
+        false => {
+            let lines: String = outlines
+                .iter()
+                .map(|outline| format!("  {{ corners = {} }},\n", corners(outline)))
+                .collect();
+            format!("plan = [                          # from the ground up\n{lines}]\n")
+        }
+    };
+    Some((text, origin))
+}
+
+/// Makes a building of the facts.
+///
+/// # Errors
+/// What is missing for each of the ways.
+pub(crate) fn build(facts: &mut Facts, options: &ImportOptions) -> Result<Built, InputError> {
+    let floors = facts.floors()?;
+    let cases = unit_cases(facts, options)?;
+    if options.way.is_none_or(|way| way == Way::Flexibility)
+        && options.direction.is_none_or(|own| own == Direction::Both)
+    {
+        match space_lacks(facts, &floors, &cases) {
+            None => return in_space(facts, &floors, &cases),
+            Some(lacks) if options.direction == Some(Direction::Both) => {
+                return Err(facts.fault(
+                    "--direction both",
+                    format!("a model in space is not possible: {}", lacks.0),
+                    lacks.1,
+                ));
+            }
+            // Neither of the planes can be guessed.
+            Some(lacks) => {
+                return Err(facts.fault(
+                    "",
+                    format!("a model in space is not possible: {}", lacks.0),
+                    format!(
+                        "add --direction x or --direction y for a model in one plane; or {}",
+                        lacks.1
+                    ),
+                ));
+            }
+        }
+    }
+    let axis = match options.direction {
+        Some(Direction::Y) => 1,
+        Some(Direction::X) => 0,
+        _ => {
+            return Err(facts.fault(
+                "",
+                "modes and storey stiffness give a model in one plane",
+                "add --direction x or --direction y",
+            ));
+        }
+    };
+    let complete = floors
+        .iter()
+        .all(|floor| cases.contains_key(&(key(&floor.name), axis)));
+    let wants = |way: Way| options.way.is_none_or(|own| own == way);
+    if wants(Way::Flexibility) && complete {
+        return in_plane(facts, &floors, &cases, axis);
+    }
+    if wants(Way::Modes)
+        && let Some(built) = by_modes(facts, &floors, &cases, axis)?
+    {
+        return Ok(built);
+    }
+    if wants(Way::Stiffness)
+        && let Some(built) = by_stiffness(facts, &floors, axis, options.case.as_deref())?
+    {
+        return Ok(built);
+    }
+    let force = FORCES[axis];
+    Err(facts.fault(
+        "",
+        format!("has no stiffness: neither a unit {force} at every floor, nor modes, nor storey stiffness among its tables ({})", facts.tables.join(", ")),
+        format!("export one of these: Diaphragm Center Of Mass Displacements of load cases with a unit {force} each (best); the same of the modal case, with Modal Periods And Frequencies; or Story Stiffness of an earthquake case along {}", ["X", "Y"][axis]),
+    ))
+}
+
+type Cases = BTreeMap<(String, usize), (String, f64)>;
+
+/// Load cases with one load, by storey and component.
+fn unit_cases(facts: &Facts, options: &ImportOptions) -> Result<Cases, InputError> {
+    let mut found = Cases::new();
+    let mut loads: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+    for (index, load) in facts.unit_loads.iter().enumerate() {
+        loads.entry(&load.case).or_default().push(index);
+    }
+    for (case, own) in loads {
+        // Cases with several loads are no unit loads.
+        if let [index] = own[..] {
+            let load = &facts.unit_loads[index];
+            found.insert((key(&load.story), load.component), (key(case), load.size));
+        }
+    }
+    // By name, as "FX Story5".
+    let cases: BTreeSet<&str> = facts
+        .displacements
+        .iter()
+        .map(|own| own.case.as_str())
+        .collect();
+    for case in cases {
+        for (component, start) in ["fx", "fy", "mz"].into_iter().enumerate() {
+            let own = plain(case);
+            let Some(rest) = own.strip_prefix(start) else {
+                continue;
+            };
+            let Some(story) = facts
+                .stories
+                .iter()
+                .find(|story| plain(&story.name) == rest)
+            else {
+                continue;
+            };
+            let place = (key(&story.name), component);
+            if found.contains_key(&place) {
+                continue;
+            }
+            let (size, key_of) = match component {
+                2 => (options.unit_moment, "--unit-moment \"1000 kN.m\""),
+                _ => (options.unit_force, "--unit-force \"1000 kN\""),
+            };
+            let Some(size) = size else {
+                return Err(facts.fault(
+                    format!("case \"{case}\""),
+                    "does not say how great its load is",
+                    format!("add {key_of}, or export the table of user loads as well"),
+                ));
+            };
+            found.insert(place, (key(case), size));
+        }
+    }
+    Ok(found)
+}
+
+/// Displacement of a floor in a case without steps.
+fn response(facts: &Facts, case: &str, story: &str) -> Option<[f64; 3]> {
+    let own =
+        |own: &&crate::facts::Displacement| key(&own.case) == case && key(&own.story) == key(story);
+    facts.displacements.iter().find(own).map(|own| own.by)
+}
+
+/// What a model in space lacks, and what helps.
+fn space_lacks(facts: &Facts, floors: &[Floor], cases: &Cases) -> Option<(String, String)> {
+    for floor in floors {
+        if floor.inertia.is_none() || floor.centre.is_none() {
+            return Some((format!("storey \"{}\" has no mass moment of inertia or centre of mass", floor.name), "export Mass Summary by Diaphragm with all of its columns, or name the .OUT file of the analysis".into()));
+        }
+        if let Some(component) =
+            (0..3).find(|component| !cases.contains_key(&(key(&floor.name), *component)))
+        {
+            return Some((
+                format!(
+                    "no load case has a unit {} on storey \"{}\" alone",
+                    FORCES[component], floor.name
+                ),
+                format!(
+                    "make a load case with a unit force along X, one along Y and one with a unit moment for every diaphragm, named \"FX {0}\", \"FY {0}\", \"MZ {0}\", and export their Diaphragm Center Of Mass Displacements",
+                    floor.name
+                ),
+            ));
+        }
+        if facts.outline(&floor.name).is_none() {
+            return Some(("there is no outline of the floors".into(), "name the .e2k or $et file of the model beside the workbook, or export the table Objects and Elements - Joints (Point Object Connectivity)".into()));
+        }
+    }
+    None
+}
+
+/// Flexibility over these components of every floor, symmetric.
+fn flexibility(
+    facts: &Facts,
+    floors: &[Floor],
+    cases: &Cases,
+    components: &[usize],
+    remarks: &mut Vec<String>,
+) -> Result<Vec<Vec<f64>>, InputError> {
+    let mut columns = Vec::new();
+    for floor in floors {
+        for component in components {
+            let (case, size) = &cases[&(key(&floor.name), *component)];
+            let mut column = Vec::new();
+            for other in floors {
+                let Some(by) = response(facts, case, &other.name) else {
+                    return Err(facts.fault(format!("case \"{case}\", storey \"{}\"", other.name), "has no displacement", "select this case for output and export Diaphragm Center Of Mass Displacements again, with all storeys"));
+                };
+                column.extend(components.iter().map(|component| by[*component] / size));
+            }
+            columns.push(column);
+        }
+    }
+    let n = columns.len();
+    let mut matrix: Vec<Vec<f64>> = (0..n)
+        .map(|i| columns.iter().map(|column| column[i]).collect())
+        .collect();
+    let difference = symmetrise(&mut matrix);
+    let text = |difference: f64| format!("{:.1e}", difference);
+    if difference > 0.05 {
+        return Err(facts.fault("Diaphragm Center Of Mass Displacements", format!("the flexibility is not symmetric, by {}: a floor must move under a force at another as that one under a force at it", text(difference)), "check that each case has one load alone at the centre of mass, that all are linear, and their sizes"));
+    }
+    if !positive_definite(&matrix) {
+        return Err(facts.fault("Diaphragm Center Of Mass Displacements", "the flexibility is not positive definite: its digits do not suffice to invert it", "set the length of tables to mm and the number of decimals high (Options, Display units), take unit loads of 1000 kN or more, and export again"));
+    }
+    let rounding = match difference > 1e-9 {
+        true => format!(
+            "; F_ij and F_ji differ by at most {} of √(F_ii F_jj)",
+            text(difference)
+        ),
+        false => String::new(),
+    };
+    remarks.push(format!(
+        "flexibility of {n} displacements by unit loads{rounding}"
+    ));
+    Ok(matrix)
+}
+
+/// Matrices in the block, or beside it where they are large.
+fn matrices(
+    block: &mut String,
+    matrix: &[Vec<f64>],
+    mass: &[f64],
+    floors: Vec<String>,
+) -> Option<Arrays> {
+    let n = matrix.len();
+    let ports = format!("\n[building.ports]\n{}", floors.concat());
+    if n > MOST_ROWS_INLINE {
+        let _ = write!(
+            block,
+            "matrices = \"FILE\"                 # F: displacements under unit loads; M: masses; in N, m, kg\n{ports}"
+        );
+        return Some(vec![
+            ("F", vec![n, n], matrix.concat()),
+            ("M", vec![n], mass.to_vec()),
+        ]);
+    }
+    let list = |values: &[f64]| {
+        let values: Vec<String> = values.iter().map(|value| digits(*value)).collect();
+        format!("[{}]", values.join(", "))
+    };
+    let rows: String = matrix
+        .iter()
+        .map(|row| format!("  {},\n", list(row)))
+        .collect();
+    let _ = write!(
+        block,
+        "{ports}\n[building.matrices]               # in N, m, kg and rad\nmass = {}\nflexibility = [                   # displacements under unit loads\n{rows}]\n",
+        list(mass)
+    );
+    None
+}
+
+fn in_space(facts: &Facts, floors: &[Floor], cases: &Cases) -> Result<Built, InputError> {
+    let mut remarks = Vec::new();
+    let matrix = flexibility(facts, floors, cases, &[0, 1, 2], &mut remarks)?;
+    let mut block = head(facts, "given");
+    let Some((plan, origin)) = plans(facts, floors) else {
+        return Err(facts.fault(
+            "",
+            "has no outline of its floors",
+            "name the .e2k file of the model beside the workbook",
+        ));
+    };
+    remarks.push("outline of floors: convex hull of their joints; slabs that project and corners that re-enter are not in it: correct plan where a neighbour is near".into());
+    block.push_str(&plan);
+    let mut mass = Vec::new();
+    let mut ports = Vec::new();
+    for (index, floor) in floors.iter().enumerate() {
+        let [x, y] = floor.mass;
+        if (x - y).abs() > 1e-6 * x {
+            return Err(facts.fault(format!("storey \"{}\"", floor.name), "has different masses along X and Y", "a floor in space has one mass: set the mass source to both directions in ETABS, or add --direction x"));
+        }
+        let (Some(inertia), Some([cx, cy])) = (floor.inertia, floor.centre) else {
+            continue;
+        };
+        mass.extend([x, x, inertia]);
+        let row = 3 * index + 1;
+        ports.push(format!(
+            "\"{}\" = {{ dofs = [{row}, {}, {}], at = {}, height = \"{} m\" }} # {}\n",
+            index + 1,
+            row + 1,
+            row + 2,
+            point([cx - origin[0], cy - origin[1]]),
+            digits(floor.height),
+            floor.name
+        ));
+    }
+    let arrays = matrices(&mut block, &matrix, &mass, ports);
+    Ok(Built {
+        block,
+        arrays,
+        remarks,
+        in_space: true,
+        axis: 0,
+    })
+}
+
+fn in_plane(
+    facts: &Facts,
+    floors: &[Floor],
+    cases: &Cases,
+    axis: usize,
+) -> Result<Built, InputError> {
+    let mut remarks = vec![PLANE.to_owned()];
+    let matrix = flexibility(facts, floors, cases, &[axis], &mut remarks)?;
+    let mut block = head(facts, "given");
+    let mass: Vec<f64> = floors.iter().map(|floor| floor.mass[axis]).collect();
+    let ports = floors.iter().enumerate().map(|(index, floor)| {
+        format!(
+            "\"{0}\" = {{ dof = {0}, height = \"{1} m\" }} # {2}\n",
+            index + 1,
+            digits(floor.height),
+            floor.name
+        )
+    });
+    let arrays = matrices(&mut block, &matrix, &mass, ports.collect());
+    Ok(Built {
+        block,
+        arrays,
+        remarks,
+        in_space: false,
+        axis,
+    })
+}
+
+const PLANE: &str = "in one plane: floors do not turn, and what moves across is left out";
+
+/// Storey heights and masses of a block.
+fn floors_of(block: &mut String, floors: &[Floor], axis: usize) {
+    let mut below = 0.0;
+    let heights = floors
+        .iter()
+        .map(|floor| floor.height - std::mem::replace(&mut below, floor.height));
+    let heights: Vec<f64> = heights.collect();
+    let names: Vec<&str> = floors.iter().map(|floor| floor.name.as_str()).collect();
+    let _ = writeln!(block, "# Floors from the ground up: {}.", names.join(", "));
+    let _ = writeln!(
+        block,
+        "storey_height = {}",
+        quantities(heights.into_iter(), "m")
+    );
+    let _ = writeln!(
+        block,
+        "mass = {}",
+        quantities(floors.iter().map(|floor| floor.mass[axis] * 1e-3), "t")
+    );
+}
+
+/// By the modes of one direction; `None` where there are none.
+fn by_modes(
+    facts: &Facts,
+    floors: &[Floor],
+    cases: &Cases,
+    axis: usize,
+) -> Result<Option<Built>, InputError> {
+    let mut remarks = vec![PLANE.to_owned()];
+    let mut found: Vec<(usize, f64, Vec<f64>)> = Vec::new();
+    let mut least_share = 1.0_f64;
+    for own in &facts.periods {
+        let shape: Option<Vec<[f64; 3]>> = floors
+            .iter()
+            .map(|floor| {
+                let is = |row: &&crate::facts::Displacement| {
+                    row.step == Some(own.mode)
+                        && key(&row.story) == key(&floor.name)
+                        && (own.case.is_empty() || key(&row.case) == key(&own.case))
+                };
+                facts.displacements.iter().find(is).map(|row| row.by)
+            })
+            .collect();
+        let Some(shape) = shape else { continue };
+        // Share of kinetic energy in the direction.
+        let energy = |component: usize| -> f64 {
+            shape
+                .iter()
+                .zip(floors)
+                .map(|(by, floor)| {
+                    by[component].powi(2)
+                        * match component {
+                            2 => floor.inertia.unwrap_or(0.0),
+                            _ => floor.mass[component],
+                        }
+                })
+                .sum()
+        };
+        let all = energy(0) + energy(1) + energy(2);
+        let share = energy(axis) / all;
+        if !(all > 0.0 && share > 0.5) || own.period <= 0.0 {
+            continue;
+        }
+        least_share = least_share.min(share);
+        found.push((
+            own.mode,
+            own.period,
+            shape.iter().map(|by| by[axis]).collect(),
+        ));
+    }
+    if found.is_empty() {
+        return Ok(None);
+    }
+    let table = "Diaphragm Center Of Mass Displacements of modes";
+    if least_share < LEAST_SHARE {
+        return Err(facts.fault(table, format!("the building turns as it sways: only {:.0} % of the kinetic energy of one of its modes is along {}", least_share * 100.0, ["X", "Y"][axis]), "model it in space: export displacements under a unit force along X, along Y and a unit moment on every diaphragm"));
+    }
+    if least_share < 0.95 {
+        remarks.push(format!("modes along {} turn a little: at least {:.0} % of their kinetic energy is in this direction", ["X", "Y"][axis], least_share * 100.0));
+    }
+    found.sort_by(|a, b| b.1.total_cmp(&a.1));
+    found.truncate(floors.len());
+    let product = |a: &[f64], b: &[f64]| -> f64 {
+        a.iter()
+            .zip(b)
+            .zip(floors)
+            .map(|((a, b), floor)| a * b * floor.mass[axis])
+            .sum()
+    };
+    for (index, one) in found.iter().enumerate() {
+        for other in &found[..index] {
+            let shared = product(&one.2, &other.2)
+                / (product(&one.2, &one.2) * product(&other.2, &other.2)).sqrt();
+            if shared.abs() > ORTHOGONAL {
+                return Err(facts.fault(table, format!("modes {} and {} are not orthogonal with the floor masses (their product is {shared:.3}): storeys without mass, semi-rigid floors or torsion carry mass that the floors do not have", other.0, one.0), "model it by unit loads, in space if it turns: export displacements under a unit force on every diaphragm"));
+            }
+        }
+    }
+    let mut block = head(facts, "given");
+    floors_of(&mut block, floors, axis);
+    let _ = writeln!(
+        block,
+        "periods = {}",
+        quantities(found.iter().map(|own| own.1), "s")
+    );
+    let _ = writeln!(block, "shapes = [");
+    for (mode, _, shape) in &found {
+        let most = shape.iter().fold(0.0_f64, |most, own| most.max(own.abs()));
+        let shape: Vec<String> = shape.iter().map(|own| digits(own / most)).collect();
+        let _ = writeln!(block, "  [{}], # mode {mode}", shape.join(", "));
+    }
+    block.push_str("]\n");
+    remarks.push(format!("{} modes of {} floors", found.len(), floors.len()));
+    // The highest floor with a unit load alone.
+    let struck = floors.iter().enumerate().rev().find_map(|(index, floor)| {
+        let (case, size) = cases.get(&(key(&floor.name), axis))?;
+        Some((index, response(facts, case, &floor.name)?[axis] / size))
+    });
+    match struck.filter(|_| found.len() < floors.len()) {
+        Some((index, own)) => {
+            let _ = writeln!(
+                block,
+                "contact_flexibility = \"{} m/N\"   # under a unit load there\ncontact_floor = {}",
+                digits(own),
+                index + 1
+            );
+            remarks.push(format!(
+                "what the modes leave out: from the displacement of floor {} under a unit load",
+                index + 1
+            ));
+        }
+        None if found.len() < floors.len() => {
+            remarks.push("what the modes leave out: as of a uniform building, which sets the stiffness of floors that are struck; one load case with a unit force on the floor that a neighbour reaches makes it exact".into());
+        }
+        None => {}
+    }
+    Ok(Some(Built {
+        block,
+        arrays: None,
+        remarks,
+        in_space: false,
+        axis,
+    }))
+}
+
+/// A shear building by storey stiffness; `None` where there is none.
+fn by_stiffness(
+    facts: &Facts,
+    floors: &[Floor],
+    axis: usize,
+    wanted: Option<&str>,
+) -> Result<Option<Built>, InputError> {
+    let cases: BTreeSet<&str> = facts
+        .stiffness
+        .iter()
+        .filter(|own| own.stiffness[axis] > 0.0)
+        .map(|own| own.case.as_str())
+        .collect();
+    let case = match (wanted, &cases.iter().collect::<Vec<_>>()[..]) {
+        (_, []) => return Ok(None),
+        (Some(wanted), _) if cases.iter().any(|own| key(own) == key(wanted)) => wanted,
+        (None, [one]) => **one,
+        (_, several) => {
+            let several: Vec<&str> = several.iter().map(|own| **own).collect();
+            return Err(facts.fault(
+                "table Story Stiffness",
+                format!("depends on the load case; there are {}", several.join(", ")),
+                format!(
+                    "name one with --case \"{}\": the earthquake case along {}",
+                    several[0],
+                    ["X", "Y"][axis]
+                ),
+            ));
+        }
+    };
+    let mut springs = Vec::new();
+    let mut flexibility = 0.0;
+    let mut floor = floors.iter().peekable();
+    for story in &facts.stories {
+        let is = |own: &&crate::facts::StoryStiffness| {
+            key(&own.case) == key(case)
+                && own.stiffness[axis] > 0.0
+                && key(&own.story) == key(&story.name)
+        };
+        let Some(own) = facts.stiffness.iter().find(is) else {
+            return Err(facts.fault(
+                format!(
+                    "table Story Stiffness, case \"{case}\", storey \"{}\"",
+                    story.name
+                ),
+                "has no stiffness",
+                "export Story Stiffness with all storeys",
+            ));
+        };
+        // Storeys without mass stand in series with those above.
+        flexibility += 1.0 / own.stiffness[axis];
+        if floor
+            .next_if(|floor| key(&floor.name) == key(&story.name))
+            .is_some()
+        {
+            springs.push(1.0 / std::mem::take(&mut flexibility));
+        }
+    }
+    if flexibility > 0.0 {
+        // Above the highest floor with mass.
+        springs.truncate(floors.len());
+    }
+    let mut block = head(facts, "shear");
+    floors_of(&mut block, floors, axis);
+    let _ = writeln!(
+        block,
+        "stiffness = {}",
+        quantities(springs.iter().map(|own| own * 1e-6), "MN/m")
+    );
+    let remarks = vec![
+        PLANE.to_owned(),
+        format!(
+            "storey stiffness of case \"{case}\": it depends on the load, so that periods differ by some percent; if the second one differs by more than 10 %, the building bends as a whole (walls, tall frames) and wants unit loads or modes"
+        ),
+    ];
+    Ok(Some(Built {
+        block,
+        arrays: None,
+        remarks,
+        in_space: false,
+        axis,
+    }))
+}

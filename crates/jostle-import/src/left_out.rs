@@ -1,0 +1,69 @@
+//! Sections and tables that are not read, by what it means that they are not.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Words of names, and what it means to leave out what they stand for; the first that fits holds.
+const MEANINGS: [(&[&str], &str); 4] = [
+    (
+        &[
+            "LINK",
+            "PANEL ZONE",
+            "TENDON",
+            "SPRING",
+            "SOLID",
+            "CABLE",
+            "HINGE",
+            "DAMPER",
+        ],
+        "links, springs, panel zones, tendons and hinges: if members have any, their stiffness and damping is missing",
+    ),
+    (
+        &[
+            "DESIGN",
+            "PREFERENCES",
+            "REBAR",
+            "OVERWRITES",
+            "CONCRETE SECTIONS",
+            "DIMENSION",
+            "TIME DEPENDENT",
+            "DAMPING",
+            "ACCEPTANCE",
+        ],
+        "design and display: the model is elastic, with 5 % damping; give hinges or damping in the model file",
+    ),
+    (
+        &[
+            "LOAD",
+            "FUNCTION",
+            "MASS SOURCE",
+            "CASE",
+            "COMBINATION",
+            "ANALYSIS",
+            "WAVE",
+            "GENERALIZED",
+            "PATTERN",
+        ],
+        "loads and analyses: masses come from tables or the .OUT file, and [motion] shakes the model",
+    ),
+    (
+        &["SLAB", "DECK", "WALL", "AREA", "SHELL"],
+        "slabs, decks and walls: floors are rigid in their plane and do not bend",
+    ),
+];
+
+/// One line for each meaning. `what` is how the file calls them, such as `sections`.
+pub(crate) fn lines(file: &str, what: &str, names: &BTreeSet<&str>) -> Vec<String> {
+    let mut found: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    for name in names {
+        let fits = |words: &[&str]| words.iter().any(|word| name.contains(word));
+        let meaning = MEANINGS.iter().find(|own| fits(own.0));
+        found
+            .entry(meaning.map_or("not known to jostle", |own| own.1))
+            .or_default()
+            .push(name);
+    }
+    let line = |(meaning, names): (&str, Vec<&str>)| {
+        format!("{file}: {meaning} ({what} {})", names.join(", "))
+    };
+    found.into_iter().map(line).collect()
+}

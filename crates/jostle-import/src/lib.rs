@@ -1,0 +1,25 @@
+//! Models of ETABS and SAP2000 as model files of jostle.
+//!
+//! Input is the bytes of files, output is text; nothing is opened, run or printed. What a file says is gathered in
+//! one list of facts, whatever its format; one of three ways makes a building of it, by flexibility, by modes or by storey
+//! stiffness, or the frame of a text model. Nothing is guessed without being listed in [`Imported::remarks`], and what
+//! is not carried over is listed in [`Imported::left_out`] with what it means.
+
+mod e2k;
+mod facts;
+mod given;
+mod import;
+mod left_out;
+mod listing;
+mod matrix;
+mod member;
+mod options;
+mod s2k;
+mod space_frame;
+mod tables;
+mod text;
+mod units;
+mod workbook;
+
+pub use import::{BuildingPeriods, Imported, Program, SourceFile, import};
+pub use options::{Direction, ImportOptions, Way};

@@ -1,0 +1,8 @@
+//! Tables and text models written from buildings that are known, imported again.
+
+mod book;
+mod examples;
+mod frames;
+mod refused;
+mod tables;
+mod workbooks;
