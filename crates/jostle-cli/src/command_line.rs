@@ -66,8 +66,13 @@ pub(crate) enum Command {
     Gap(crate::gap::GapArgs),
     /// Search the least damper, gap or other key that keeps conditions, such as no impact
     Size(Box<crate::size::SizeArgs>),
+    /// Read a building of another program and write a model file
+    #[command(subcommand)]
+    Import(Box<crate::import::ImportCommand>),
     /// Open a local page that runs the model after every change
     Live(crate::live::LiveArgs),
+    /// Serve check, run, gap, study and explain to an assistant, by the Model Context Protocol over standard input and output
+    Mcp(crate::mcp::McpArgs),
     /// Run a pushover analysis to a target drift or loss of strength
     Pushover(PushoverArgs),
     /// Write a commented starter file
