@@ -275,7 +275,7 @@ def read_model(
         result.stated = damping
     elif not np.abs(viscous).max() > 0.0:
         result.remarks.append(
-            "the model has no damping, so jostle uses 5 % of critical in modes 1 and 3; damping={\"ratio\": 0} keeps it undamped"
+            "the model has no damping, so jostle uses 5 % of critical in modes 1 and 3; a damping ratio of 0 keeps it undamped"
         )
     elif proportional < 1e-6 and min(alpha_beta) >= 0.0:
         result.stated = {"alpha": f"{alpha_beta[0]!r} 1/s", "beta": f"{alpha_beta[1]!r} s"}

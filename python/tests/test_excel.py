@@ -57,7 +57,9 @@ def test_members_are_a_sheet_if_they_are_asked_for(tmp_path: Path) -> None:
     frame = jostle.Frame("A", storeys=2, storey_height="3 m", spans=["5 m"], column={"width": "0.4 m", "depth": "0.4 m"},
                          beam={"width": "0.3 m", "depth": "0.5 m"}, elastic_modulus="30 GPa", beam_mass="3 t/m")  # fmt: skip
     result = jostle.run(jostle.Model(frame, motion=tree, output={"members": True}))
-    rows = table(openpyxl.load_workbook(result.to_excel(tmp_path / "a.xlsx")), "Members")
+    book = openpyxl.load_workbook(result.to_excel(tmp_path / "a.xlsx"))
+    assert [row[2] for row in book["Members"].iter_rows(max_row=2, values_only=True)] == ["struck_height_m", "m"]
+    rows = table(book, "Members")
     ends = [end for own in result.summary["buildings"][0]["members"] for end in own["ends"]]
     assert [row["moment_peak_n_m"] for row in rows] == [end["moment_peak_n_m"] for end in ends]
 

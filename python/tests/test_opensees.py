@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 import jostle
-from jostle import _opensees
+from jostle import _opensees_file
 
 try:
     with contextlib.redirect_stderr(io.StringIO()):
@@ -342,7 +342,7 @@ def test_the_command_writes_a_model_file(
 ) -> None:
     to = tmp_path / "model.toml"
     arguments = [str(SCRIPTS / f"{name}.py"), "--to", str(to), "--units", units, "--name", "A", *extra]
-    assert _opensees._main(arguments) == 0
+    assert _opensees_file.main(arguments) == 0
     assert "written" in capsys.readouterr().out
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", jostle.ModelWarning)
@@ -353,9 +353,9 @@ def test_the_command_writes_a_model_file(
     # NumPy's own file against numbers in text: the same bits.
     assert list(written.periods(0)) == list(direct.periods(0))
     # Its own file is replaced, another is not.
-    assert _opensees._main(arguments) == 0
+    assert _opensees_file.main(arguments) == 0
     to.write_text("# mine\n")
-    assert _opensees._main(arguments) == 2
+    assert _opensees_file.main(arguments) == 2
     assert "was not written by jostle" in capsys.readouterr().err
     assert to.read_text() == "# mine\n"
     assert not list(tmp_path.glob(".*"))

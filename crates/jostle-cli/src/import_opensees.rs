@@ -39,7 +39,7 @@ pub(crate) struct ImportOpenseesArgs {
 }
 
 /// Module that does the work.
-const MODULE: &str = "jostle._opensees";
+const MODULE: &str = "jostle._opensees_file";
 
 pub(crate) fn import(args: &ImportOpenseesArgs) -> Result<(), Failure> {
     let python = std::env::var_os("JOSTLE_PYTHON").unwrap_or_else(|| "python3".into());

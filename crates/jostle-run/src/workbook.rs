@@ -26,6 +26,13 @@ pub fn workbook(summary: &Summary) -> Result<Vec<u8>, String> {
     write(summary).map_err(|error| error.to_string())
 }
 
+/// Columns that say where, which are no quantities.
+const PLACES: [(&str, [&str; 2]); 3] = [
+    ("left_floor", ["–", "floor of the left building"]),
+    ("right_floor", ["–", "floor of the right building"]),
+    ("struck_height_m", ["m", "height of the struck point; empty at ends"]),
+];
+
 /// Unit and meaning of a quantity.
 type Known = BTreeMap<&'static str, [&'static str; 2]>;
 
@@ -92,6 +99,7 @@ fn known(key: &str) -> Known {
     let entries = entries.flat_map(|owner| &owner.entries);
     entries
         .map(|entry| (entry.name, [entry.unit, entry.meaning]))
+        .chain(PLACES)
         .collect()
 }
 

@@ -46,7 +46,7 @@ fn python_and_packages_that_are_missing_are_named() {
     let refused = run(&python);
     assert_eq!(refused.status.code(), Some(2));
     let said = complained(&refused);
-    assert!(said.contains("error: -m jostle._opensees frame.py --to a.toml --direction x --side right --units=N, m"), "{said}");
+    assert!(said.contains("error: -m jostle._opensees_file frame.py --to a.toml --direction x --side right --units=N, m"), "{said}");
     let python = script(
         "[ \"$1\" = -c ] && exit 0; echo 'written: a.toml'; echo 'warning: tangent' >&2; echo 'Process 0 Terminating' >&2",
     );
