@@ -30,7 +30,10 @@ pub fn workbook(summary: &Summary) -> Result<Vec<u8>, String> {
 const PLACES: [(&str, [&str; 2]); 3] = [
     ("left_floor", ["–", "floor of the left building"]),
     ("right_floor", ["–", "floor of the right building"]),
-    ("struck_height_m", ["m", "height of the struck point; empty at ends"]),
+    (
+        "struck_height_m",
+        ["m", "height of the struck point; empty at ends"],
+    ),
 ];
 
 /// Unit and meaning of a quantity.

@@ -111,7 +111,9 @@ fn run(files: &Files, arguments: Value, cancelled: Cancelled<'_>) -> Result<Stri
     }
     let prepared = opened.prepare()?;
     prepared.check_digits(None)?;
-    let settings = prepared.settings(false);
+    // With histories, from which filtered accelerations follow, as on the command line.
+    let settings = prepared.settings(true);
+    prepared.check_histories(settings, true, None)?;
     let stop = AtomicBool::new(false);
     let mut observer = stopped_by(&stop, |_, _| {
         if cancelled() {
