@@ -26,6 +26,9 @@ pub fn workbook(summary: &Summary) -> Result<Vec<u8>, String> {
     write(summary).map_err(|error| error.to_string())
 }
 
+/// Columns of a table by name.
+type Columns = Vec<(String, Values)>;
+
 /// Columns that say where, which are no quantities.
 const PLACES: [(&str, [&str; 2]); 3] = [
     ("left_floor", ["–", "floor of the left building"]),
@@ -54,7 +57,7 @@ fn write(summary: &Summary) -> Result<Vec<u8>, XlsxError> {
         columns.map(|(name, own)| (name.to_owned(), own)).collect()
     };
     // Name of the sheet, key of its rows in summary.json, columns.
-    let sheets: [(&str, &str, Vec<(String, Values)>); 6] = [
+    let sheets: [(&str, &str, Columns); 6] = [
         ("Buildings", "buildings[]", building_columns(summary)),
         ("Floors", "buildings[].floors[]", floor_columns(summary)),
         ("Contacts", "gaps[].contacts[]", contact_columns(summary)),
@@ -120,7 +123,7 @@ fn described(known: &Known, column: &str, values: &Values) -> [&'static str; 2] 
 }
 
 /// One row for each contact, in the order of the gaps.
-fn contact_columns(summary: &Summary) -> Vec<(String, Values)> {
+fn contact_columns(summary: &Summary) -> Columns {
     let contacts: Vec<(&GapSummary, &ContactSummary)> = summary
         .gaps
         .iter()
