@@ -31,6 +31,7 @@ from ._matrices import Matrices
 from ._model import Model
 from ._modes import BuildingModes, modes
 from ._motion import Motion, Spectrum
+from ._opensees import from_opensees, import_opensees
 from ._own_law import Experiment, experiment
 from ._pushover import CapacityCurve, pushover
 from ._result import BuildingResult, Contact, Corner, Floor, LinkedFloors, Result
@@ -108,6 +109,8 @@ __all__ = [
     "contact_laws",
     "critical_gap",
     "experiment",
+    "from_opensees",
+    "import_opensees",
     "modes",
     "pushover",
     "run",

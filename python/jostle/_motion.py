@@ -142,6 +142,36 @@ class Motion:
             raise MissingFileError(str(error), name) from None
 
     @classmethod
+    def from_event_grid(
+        cls,
+        path: str | os.PathLike[str],
+        *,
+        unit: str,
+        longitude: float | None = None,
+        latitude: float | None = None,
+        component: str = "x",
+    ) -> list[Motion]:
+        """Reads the motions of one point of an ``EventGrid.csv`` of NHERI SimCenter, each scaled by its factor.
+
+        The grid lists points (``GP_file,Longitude,Latitude``), each file of a point lists records (``TH_file,factor``), and a record is
+        a file of JSON with ``dT`` and ``data_x``, ``data_y`` or ``data_z``.
+
+        Args:
+            path: the file ``EventGrid.csv``.
+            unit: unit of the accelerations, which the files do not state: ``"g"``, ``"m/s2"``, ``"in/s2"``.
+            longitude: place of the buildings [degrees]; with ``latitude`` it chooses the nearest point. Not needed if there is one point.
+            latitude: as ``longitude``.
+            component: ``"x"``, ``"y"`` or ``"z"``.
+
+        Raises:
+            MissingFileError: a file that is listed does not exist.
+            ModelError: a file cannot be understood, or lists nothing.
+        """
+        from ._event_grid import read
+
+        return read(path, unit, longitude, latitude, component)
+
+    @classmethod
     def el_centro(cls) -> Motion:
         """El Centro 1940, north-south, as digitised by Peknold: 1560 points, 0.02 s, 0.319 g."""
         return cls.read("el-centro-1940-ns")

@@ -531,6 +531,28 @@ class Result:
         self._core.save(folder, report, twin)
         return Path(folder)
 
+    def to_excel(self, path: str | os.PathLike[str], *, force: bool = False) -> Path:
+        """Writes the numbers as an Excel workbook: summary, buildings, floors, contacts, impacts and, if asked for, members.
+
+        Each sheet is one table with names and units in its first two rows; numbers are in SI, absent ones are empty cells. The sheet
+        ``Quantities`` says what every column means. Numbers without contact are included if that run exists, as after
+        ``run(without_contact=True)``.
+
+        Args:
+            path: file to write; an earlier workbook of jostle is replaced.
+            force: true replaces other files too.
+
+        Returns:
+            The path.
+
+        Raises:
+            FileExistsError: the file exists and jostle did not write it.
+            OSError: the file cannot be written; it is then as it was before.
+        """
+        twin = self.__dict__.get("without_contact")
+        self._core.workbook(path, self._twin if twin is None else twin._core, force)
+        return Path(path)
+
     def pdf(self, path: str | os.PathLike[str], *, paper: str = "a4", force: bool = False) -> Path:
         """Prints the report to a PDF file by a Chromium that is installed on this machine.
 

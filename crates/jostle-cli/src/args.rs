@@ -102,6 +102,9 @@ pub(crate) struct RunArgs {
     /// Paper of report.pdf
     #[arg(long, value_name = "SIZE", default_value = "a4", value_parser = jostle_run::Paper::NAMES, requires = "pdf")]
     pub(crate) paper: String,
+    /// Write the numbers as an Excel workbook too: summary, buildings, floors, contacts, impacts, members
+    #[arg(long, value_name = "FILE")]
+    pub(crate) xlsx: Option<PathBuf>,
     /// Rule for the governing value of several records [default: that of the model, else of the code of its match, else
     /// maximum]
     #[arg(long, value_name = "RULE", value_parser = jostle_motion::GoverningRule::NAMES)]

@@ -37,6 +37,18 @@ const SITE: &str = "site.svg";
 pub(crate) fn check(args: &CheckArgs) -> Result<(), Failure> {
     let opened = args.model.open()?;
     let site = site_file(args, &opened)?;
+    terminal::print(&report(&opened)?)?;
+    match site {
+        Some(target) => draw_site(&target, &opened),
+        None => Ok(()),
+    }
+}
+
+/// What is known of a model without running it.
+///
+/// # Errors
+/// Faults that only the ground motion or the steps show.
+pub(crate) fn report(opened: &Opened) -> Result<String, Failure> {
     let mut text = String::new();
     // Writing to a string cannot fail.
     let _ = describe(
@@ -73,7 +85,7 @@ pub(crate) fn check(args: &CheckArgs) -> Result<(), Failure> {
         text.push('\n');
     }
     if !opened.input.records().is_empty() {
-        text += &records(&opened)?;
+        text += &records(opened)?;
     } else if let Some((motion, plan)) = motion {
         if let Err(refusal) = plan.check_digits(&opened.system) {
             let problem = format!("{refusal}; jostle run --force runs it anyway");
@@ -106,11 +118,7 @@ pub(crate) fn check(args: &CheckArgs) -> Result<(), Failure> {
         Some(_) => "The model is valid.",
         None => "The model is valid, without a ground motion.",
     });
-    terminal::print(&text)?;
-    match site {
-        Some(target) => draw_site(&target, &opened),
-        None => Ok(()),
-    }
+    Ok(text)
 }
 
 /// Where the site is drawn: of models with plans, and only if a folder is named or the usual one may be written.

@@ -243,7 +243,8 @@ fn sets(found: &[CriticalGap]) -> Vec<([String; 2], [f64; 3], usize)> {
     pairs.into_iter().map(of).collect()
 }
 
-fn json(title: &str, found: &[CriticalGap], notes: &[String]) -> String {
+/// Every number as JSON.
+pub(crate) fn json(title: &str, found: &[CriticalGap], notes: &[String]) -> String {
     let sets: Vec<_> = sets(found)
         .into_iter()
         .map(|(between, [most, mean, deviation], records)| {
@@ -266,7 +267,8 @@ fn json(title: &str, found: &[CriticalGap], notes: &[String]) -> String {
     serde_json::to_string_pretty(&value).unwrap_or_default()
 }
 
-fn describe(title: &str, found: &[CriticalGap]) -> String {
+/// The gaps beside those of rules and codes, as text.
+pub(crate) fn describe(title: &str, found: &[CriticalGap]) -> String {
     let mut text = format!("{}\n", jostle_run::styled(jostle_run::BOLD, title));
     for gap in found {
         text += &format!(

@@ -10,6 +10,7 @@ use jostle_io::{Dimension, Overrides, parse_quantity, read_file};
 use jostle_run::{BOLD, FileKind, LOUD, list_modes, may_write, open, styled};
 
 use crate::failure::Failure;
+use crate::import_opensees::{self, ImportOpenseesArgs};
 use crate::terminal;
 
 /// Largest file that is read \[bytes\].
@@ -34,6 +35,8 @@ pub(crate) enum ImportCommand {
     Etabs(TableArgs),
     /// Text models (.s2k, $2k), and .OUT and .LOG files of SAP2000
     Sap2000(TableArgs),
+    /// Run an OpenSeesPy script and write its building by its matrices; needs Python with jostle and openseespy
+    Opensees(ImportOpenseesArgs),
 }
 
 /// Files and what they do not say.
@@ -94,6 +97,7 @@ pub(crate) fn import(command: &ImportCommand) -> Result<(), Failure> {
     let (program, args) = match command {
         ImportCommand::Etabs(args) => (Program::Etabs, args),
         ImportCommand::Sap2000(args) => (Program::Sap2000, args),
+        ImportCommand::Opensees(args) => return import_opensees::import(args),
     };
     let options = args.options()?;
     let mut contents = Vec::new();

@@ -12,8 +12,10 @@ mod export;
 mod failure;
 mod gap;
 mod import;
+mod import_opensees;
 mod live;
 mod man;
+mod mcp;
 mod method;
 mod modes;
 mod motion;
@@ -56,6 +58,7 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
         Command::Study(args) => study::study(&args),
         Command::Gap(args) => gap::gap(&args),
         Command::Live(args) => live::live(&args),
+        Command::Mcp(args) => mcp::mcp(&args),
         Command::Motion(command) => motion::run(&command),
         Command::Section(args) => section::section(&args),
         Command::Size(args) => size::size(&args),

@@ -17,6 +17,7 @@ use crate::args::{RunArgs, SolverName};
 use crate::failure::Failure;
 use crate::printer::Printer;
 use crate::progress::StageBar;
+use crate::replace::Target;
 use crate::stop::stop_on_interrupt;
 use crate::{method, terminal};
 
@@ -78,6 +79,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
         let both = !args.no_report;
         prepared.check_histories(settings, both, Some("--force runs it anyway"))?;
     }
+    let workbook = Target::of_option(args.xlsx.as_ref(), FileKind::WORKBOOK, args.force)?;
     let mut claim = None;
     if let Some(out) = &out {
         std::fs::create_dir_all(out).map_err(|error| {
@@ -94,6 +96,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
         prepared,
         out.as_deref(),
         printer.as_ref(),
+        workbook.as_ref(),
         &stop_on_interrupt(),
     );
     drop(claim);
@@ -106,6 +109,7 @@ fn analyse(
     prepared: Prepared,
     out: Option<&Path>,
     printer: Option<&Printer>,
+    workbook: Option<&Target>,
     stop: &AtomicBool,
 ) -> Result<(), Failure> {
     let settings = prepared.settings(out.is_some() || !args.no_report);
@@ -161,6 +165,12 @@ fn analyse(
         if let Some(printer) = printer {
             printer.print(&out.join("report.html"))?;
         }
+    }
+    if let Some(target) = workbook {
+        let bytes = jostle_run::workbook(&summary)
+            .map_err(|problem| Failure::Analysis(format!("--xlsx: {problem}")))?;
+        jostle_io::write_atomically(&target.path, &bytes)?;
+        target.written();
     }
     if args.json {
         terminal::print(&jostle_io::summary_json(&summary))?;

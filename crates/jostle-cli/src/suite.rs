@@ -31,6 +31,11 @@ pub(crate) fn run(
             "--method: goes with one record; choose one with --record".into(),
         ));
     }
+    if args.xlsx.is_some() {
+        return Err(Failure::Input(
+            "--xlsx: goes with one record; choose one with --record".into(),
+        ));
+    }
     let rule = args.governing.as_deref().and_then(GoverningRule::from_name);
     let suite = Suite::new(opened, rule)?;
     terminal::warn_all(&suite.warnings);

@@ -103,6 +103,15 @@ impl Files {
         Self::new(&self.folder, allowed)
     }
 
+    /// The same permissions; relative names start from this folder, itself relative to the present one.
+    #[must_use]
+    pub fn starting_in(&self, folder: &Path) -> Self {
+        Self {
+            folder: self.folder.join(folder),
+            ..self.afresh()
+        }
+    }
+
     /// The same with a report of its own, which is empty.
     #[must_use]
     pub fn afresh(&self) -> Self {

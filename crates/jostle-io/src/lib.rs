@@ -5,6 +5,7 @@
 
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))] // bits of results depend on no processor
 
+mod archive;
 mod baseline;
 mod builtin;
 mod builtin_model;
@@ -45,6 +46,7 @@ mod tree;
 mod unit;
 mod unusual;
 
+pub use archive::archive_text;
 pub use baseline::Baseline;
 pub use builtin::{BUILTIN_RECORDS, BuiltinRecord, builtin_motions, builtin_record};
 pub use builtin_model::{builtin_model, model_names, model_text};

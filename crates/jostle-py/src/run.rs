@@ -237,6 +237,24 @@ impl Run {
             .map_err(|error| output_error(&error))
     }
 
+    /// Writes the numbers as an Excel workbook, completely or not at all; replaces workbooks of jostle, and other files only
+    /// with `force`.
+    #[pyo3(signature = (path, without_contact=None, force=false))]
+    fn workbook(
+        &self,
+        py: Python<'_>,
+        path: PathBuf,
+        without_contact: Option<&Self>,
+        force: bool,
+    ) -> PyResult<()> {
+        may_write(&path, Some(FileKind::WORKBOOK), force).map_err(must_stay)?;
+        let summary = self.summary(without_contact);
+        let bytes = py.detach(|| jostle_run::workbook(&summary));
+        let bytes = bytes.map_err(AnalysisError::new_err)?;
+        py.detach(|| write_atomically(&path, &bytes))
+            .map_err(|error| output_error(&error))
+    }
+
     /// Prints a page to a PDF file by a Chromium of this machine.
     #[staticmethod]
     #[pyo3(signature = (path, page, paper, force=false))]

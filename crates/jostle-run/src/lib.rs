@@ -43,6 +43,8 @@ mod spectra;
 mod style;
 mod summary_text;
 mod variants;
+#[cfg(not(target_family = "wasm"))]
+mod workbook;
 
 pub use case_cache::{CaseCache, CaseError};
 pub use checks_text::finding_with_remedy;
@@ -81,3 +83,5 @@ pub use shapes::SharedShapes;
 pub use spectra::{Inelastic, accelerogram, spectra_json, spectrum_json};
 pub use style::{BOLD, DIM, LOUD, plain, styled};
 pub use summary_text::{describe_summary, summary_text};
+#[cfg(not(target_family = "wasm"))]
+pub use workbook::workbook;

@@ -13,6 +13,12 @@ const LOOK: u64 = 8192;
 /// Longest footer of a Parquet file that is read \[bytes\].
 const LONGEST_FOOTER: u64 = 64 << 20;
 
+/// Member of a workbook that says who wrote it.
+const PROPERTIES: &str = "docProps/core.xml";
+
+/// Largest workbook that is looked into \[bytes\].
+const LARGEST_WORKBOOK: usize = 256 << 20;
+
 /// A kind of file that jostle writes.
 #[derive(Clone, Copy, Debug)]
 pub struct FileKind {
@@ -37,6 +43,14 @@ impl FileKind {
     pub const REPORT: Self = Self {
         name: "report of jostle",
         marks: &["<html", " – jostle</title>"],
+    };
+    /// Excel workbooks of results; see [`PROPERTIES`].
+    pub const WORKBOOK: Self = Self {
+        name: "workbook of jostle",
+        marks: &[
+            "<cp:coreProperties",
+            "<dc:title>Results of jostle</dc:title>",
+        ],
     };
     /// Reports printed by a browser.
     pub const PDF: Self = Self {
@@ -173,6 +187,12 @@ fn ends(path: &Path, len: u64) -> std::io::Result<String> {
         end.clear();
         file.seek(SeekFrom::Start(len.saturating_sub(footer)))?;
         file.take(footer).read_to_end(&mut end)?;
+    }
+    if bytes.starts_with(b"PK\x03\x04")
+        && let Ok(whole) = jostle_io::read_file(path, LARGEST_WORKBOOK)
+        && let Some(text) = jostle_io::archive_text(&whole, PROPERTIES, LOOK)
+    {
+        end.extend(text.into_bytes());
     }
     bytes.append(&mut end);
     Ok(String::from_utf8_lossy(&bytes).into_owned())
