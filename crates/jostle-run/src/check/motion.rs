@@ -4,7 +4,8 @@ use std::fmt::Write as _;
 
 use jostle::structure::StepEquations;
 use jostle::{GroundMotion, Plan, RiccatiSweep, Solver, System};
-use jostle_run::{BOLD, grouped, styled};
+use crate::numbers::grouped;
+use crate::style::{BOLD, styled};
 
 use super::decimals;
 

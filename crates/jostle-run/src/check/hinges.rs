@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use jostle::hysteresis::{Hysteresis, HysteresisRule, Side};
 use jostle::model::{Hinges, PlanAxis, PlanSpring, Tiers};
 use jostle::{ColumnFibres, SpaceFrame, SpaceMember, SpacePlace};
-use jostle_run::counted;
+use crate::numbers::counted;
 
 pub(super) fn describe_hinges(text: &mut String, hinges: &Hinges) -> std::fmt::Result {
     match hinges {

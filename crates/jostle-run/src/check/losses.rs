@@ -3,7 +3,7 @@
 use jostle::LawKind;
 use jostle::interface::Contact;
 use jostle::model::Gap;
-use jostle_run::{kn, mm};
+use crate::numbers::{kn, mm};
 
 /// What impacts of a gap dissipate, in words.
 pub(super) fn losses(gap: &Gap, contacts: &[&Contact]) -> String {

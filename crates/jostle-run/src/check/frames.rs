@@ -2,7 +2,7 @@
 
 use jostle::hysteresis::{Hysteresis, HysteresisRule, Side};
 use jostle::{DiagonalKind, Frame, Section};
-use jostle_run::counted;
+use crate::numbers::counted;
 
 /// Whether the columns of a frame shorten, and why; `None` if it is not known whether the file says so.
 pub(super) fn axial_of_columns(frame: &Frame, is_stated: Option<bool>) -> String {
