@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import json
-import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from . import _jostle
+from ._answers import Answers
 from ._errors import AnalysisError, ModelError
-from ._units import Quantity, in_si, number
+from ._units import Quantity, in_si, option_text
 
 if TYPE_CHECKING:
     from ._builders import _Law
@@ -155,12 +155,12 @@ def collide_all(
     stiffness: Quantity | None = None,
     restitution: float = 0.65,
     restitution_is: str = "input",
-) -> list[Collision]:
+) -> Answers[Collision]:
     """Returns the same collision under every law, with equal secant stiffness at the greatest elastic Hertz indentation.
 
     Laws that cannot realise the restitution are omitted. Arguments as for :func:`collide`.
     """
-    return _collide(
+    return Answers(_collide(
         None,
         m1=m1,
         m2=m2,
@@ -168,7 +168,7 @@ def collide_all(
         stiffness=stiffness,
         restitution=restitution,
         restitution_is=restitution_is,
-    )
+    ))
 
 
 def _collide(law: str | None, **given: object) -> list[Collision]:
@@ -176,22 +176,11 @@ def _collide(law: str | None, **given: object) -> list[Collision]:
     for name, value in given.items():
         if value is None:
             continue
-        plain = number(value)
-        if isinstance(value, bool) or (plain is None and not isinstance(value, str)):
-            raise TypeError(
-                f"{name}: expected a text with a unit or a number in SI, found {type(value).__name__}"
-            )
-        options[name] = value if isinstance(value, str) else repr(plain)
-    try:
-        found = _jostle.collide(law, options)
-    except ModelError as error:
-        raise ModelError(_as_keyword(str(error))) from None
+        if isinstance(value, (list, tuple)):
+            raise TypeError(f"{name}: expected a text with a unit or a number in SI, found {type(value).__name__}")
+        options[name] = option_text(name, value)
+    found = _jostle.collide(law, options)
     return [_collision(json.loads(numbers), curve) for numbers, curve in found]
-
-
-def _as_keyword(text: str) -> str:
-    """Options of the command line as keywords of Python."""
-    return re.sub(r"--([a-z0-9-]+)", lambda option: option[1].replace("-", "_"), text)
 
 
 def _collision(numbers: dict[str, Any], curve: npt.NDArray[np.float64]) -> Collision:

@@ -64,6 +64,11 @@ class Comparison:
     def __repr__(self) -> str:
         return f"<Comparison {self.summary['title']!r}: {len(self.summary['columns'])} histories>"
 
+    def _repr_html_(self) -> str:
+        from ._draw import comparison_html
+
+        return comparison_html(self)
+
     def __reduce__(self) -> tuple[Any, ...]:
         raise TypeError("a Comparison cannot be pickled; send comparison.summary")
 

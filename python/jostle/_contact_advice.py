@@ -9,10 +9,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from . import _jostle
-from ._collide import _as_keyword
-from ._errors import ModelError
+from ._answers import Answers
 from ._model import Model
-from ._units import Quantity, number
+from ._units import Quantity, option_text
 
 
 @dataclass(frozen=True)
@@ -121,6 +120,11 @@ class ContactAdvice:
     restitution: StiffnessRange
     notes: tuple[str, ...]
 
+    def _repr_html_(self) -> str:
+        from ._draw import advice_html
+
+        return advice_html(self)
+
 
 def contact_advice(
     model: Model | str | os.PathLike[str] | None = None,
@@ -134,7 +138,7 @@ def contact_advice(
     poisson_ratio: float = 0.2,
     density: Quantity | Sequence[Quantity] = 2500.0,
     speed: Quantity = 0.4,
-) -> list[ContactAdvice]:
+) -> Answers[ContactAdvice]:
     """Returns stiffness and restitution for the contacts of a model, or of two floors: ``jostle contact-advice``.
 
     A value with two entries is of the left and the right floor.
@@ -154,8 +158,8 @@ def contact_advice(
     Raises:
         ModelError: a value is missing or outside its range; the model is wrong.
     """
-    if model is not None and not isinstance(model, Model):
-        model = Model.load(model)
+    if model is not None:
+        model = Model.from_any(model)
     options: dict[str, str] = {}
     given: dict[str, Any] = {
         "mass": mass,
@@ -170,26 +174,9 @@ def contact_advice(
     }
     for name, value in given.items():
         if value is not None:
-            options[name] = _as_option(name, value)
-    try:
-        found = _jostle.contact_advice(None if model is None else model._core, options)
-    except ModelError as error:
-        raise ModelError(_as_keyword(str(error))) from None
-    return [_advice(one) for one in json.loads(found)]
-
-
-def _as_option(name: str, value: Any) -> str:
-    """A value as the text of an option: two entries with a comma."""
-    if isinstance(value, str):
-        return value
-    plain = None if isinstance(value, bool) else number(value)
-    if plain is not None:
-        return repr(plain)
-    if isinstance(value, Sequence) and len(value) == 2:
-        return ", ".join(_as_option(name, entry) for entry in value)
-    raise TypeError(
-        f"{name}: expected a text with a unit, a number in SI, or two of them, found {type(value).__name__}"
-    )
+            options[name] = option_text(name, value)
+    found = _jostle.contact_advice(None if model is None else model._core, options)
+    return Answers(_advice(one) for one in json.loads(found))
 
 
 def _advice(one: dict[str, Any]) -> ContactAdvice:

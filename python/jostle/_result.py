@@ -482,18 +482,19 @@ class Result:
             return Result._of(self._model, twin, self._interval)
         return Result._of(self._model, self._twin, self._interval)
 
-    def _page(self) -> str:
+    def _page(self, method: bool = False) -> str:
         """The page of the report, compared with a run without contact only if there is one already."""
         twin = self.__dict__.get("without_contact")
-        return self._core.report(self._twin if twin is None else twin._core)
+        return self._core.report(self._twin if twin is None else twin._core, method)
 
-    def report(self, path: str | os.PathLike[str], *, force: bool = False) -> Path:
+    def report(self, path: str | os.PathLike[str], *, method: bool = False, force: bool = False) -> Path:
         """Writes the report: one HTML page with animation, histories and tables, which opens offline.
 
         The page includes a comparison with a run without contact, which is computed if it does not exist yet.
 
         Args:
             path: file to write; an earlier page of jostle is replaced.
+            method: adds how accurate each solver formulation is on these buildings.
             force: true replaces other files too.
 
         Returns:
@@ -504,10 +505,12 @@ class Result:
             OSError: the file cannot be written; it is then as it was before.
         """
         _ = self.without_contact
-        self._core.write(path, self._page(), force)
+        self._core.write(path, self._page(method), force)
         return Path(path)
 
-    def save(self, folder: str | os.PathLike[str], *, report: bool = True, force: bool = False) -> Path:
+    def save(
+        self, folder: str | os.PathLike[str], *, report: bool = True, method: bool = False, force: bool = False
+    ) -> Path:
         """Writes ``summary.json``, tables of histories, buildings, floors and impacts, and ``report.html``, as ``jostle run`` does.
 
         Models that yield also get ``hinges.parquet``.
@@ -515,6 +518,7 @@ class Result:
         Args:
             folder: created if it does not exist.
             report: false omits the report and its run without contact.
+            method: adds to the report how accurate each solver formulation is on these buildings.
             force: true replaces files of these names even if jostle did not write them.
 
         Returns:
@@ -528,7 +532,7 @@ class Result:
         twin = self._twin
         if report and twin is None and self.without_contact is not None:
             twin = self.without_contact._core
-        self._core.save(folder, report, twin)
+        self._core.save(folder, report, twin, method)
         return Path(folder)
 
     def pdf(self, path: str | os.PathLike[str], *, paper: str = "a4", force: bool = False) -> Path:
