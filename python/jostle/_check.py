@@ -10,7 +10,13 @@ from . import _jostle
 
 
 class Check:
-    """A model, checked without running it: the answer of :meth:`Model.check`."""
+    """A model, checked without running it: the answer of :meth:`Model.check`.
+
+    Examples:
+        >>> import jostle
+        >>> print(jostle.Model.paper_example().check().findings[0]["id"])
+        A12
+    """
 
     tree: dict[str, Any]
 

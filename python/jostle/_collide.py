@@ -26,6 +26,12 @@ class ContactLaw:
         force: ``force(indentation, rate, impact_speed)`` [N] of the indentation [m] > 0, its rate [m/s] (positive while
             closing) and the impact speed [m/s]; a positive force pushes the masses apart.
         name: name in tables.
+
+    Examples:
+        >>> import jostle
+        >>> law = jostle.ContactLaw(lambda indentation, rate, speed: 8e7 * indentation, name="spring")
+        >>> round(jostle.collide(law, m1="40 t", m2="60 t", speed="0.4 m/s").realised_restitution, 3)
+        1.0
     """
 
     force: Callable[[float, float, float], float]
@@ -52,6 +58,12 @@ class Collision:
         indentation: indentation at them [m].
         rate: its rate [m/s].
         force: force [N].
+
+    Examples:
+        >>> import jostle
+        >>> collision = jostle.collide(m1="40 t", m2="60 t", speed="0.4 m/s")
+        >>> bool(collision.force.max() <= collision.peak_force)
+        True
     """
 
     law: str
@@ -81,7 +93,13 @@ class Collision:
 
 
 def contact_laws() -> list[dict[str, Any]]:
-    """The contact laws: ``law``, ``variant``, ``stiffness_unit`` and whether it is ``dissipative``."""
+    """The contact laws: ``law``, ``variant``, ``stiffness_unit`` and whether it is ``dissipative``.
+
+    Examples:
+        >>> import jostle
+        >>> "hertz-damp" in str(jostle.contact_laws())
+        True
+    """
     laws: list[dict[str, Any]] = json.loads(_jostle.contact_laws())
     return laws
 
@@ -123,6 +141,11 @@ def collide(
     Raises:
         ModelError: a value outside its range; the message gives the range. Both ``damping`` and ``restitution``.
         AnalysisError: a user-defined law whose contact does not end.
+
+    Examples:
+        >>> import jostle
+        >>> round(jostle.collide("hertz", m1="40 t", m2="60 t", speed="0.4 m/s").realised_restitution, 3)
+        1.0
     """
     if isinstance(law, ContactLaw):
         masses = [in_si(name, value, "mass") for name, value in (("m1", m1), ("m2", m2))]
@@ -159,6 +182,11 @@ def collide_all(
     """Returns the same collision under every law, with equal secant stiffness at the greatest elastic Hertz indentation.
 
     Laws that cannot realise the restitution are omitted. Arguments as for :func:`collide`.
+
+    Examples:
+        >>> import jostle
+        >>> len(jostle.collide_all(m1="40 t", m2="60 t", speed="0.4 m/s")) > 5
+        True
     """
     return Answers(_collide(
         None,

@@ -22,6 +22,12 @@ class StiffnessRange:
         value: recommended value.
         low: lowest plausible value.
         high: highest plausible value.
+
+    Examples:
+        >>> import jostle
+        >>> (advice,) = jostle.contact_advice(mass="40 t")
+        >>> advice.hertz.low <= advice.hertz.value <= advice.hertz.high
+        True
     """
 
     value: float
@@ -42,6 +48,12 @@ class StiffnessEstimate:
         is_valid: whether its assumptions hold here.
         source: where it comes from.
         validity: what it assumes.
+
+    Examples:
+        >>> import jostle
+        >>> (advice,) = jostle.contact_advice(mass="40 t")
+        >>> advice.estimates[0].family
+        'hertz'
     """
 
     name: str
@@ -63,6 +75,12 @@ class WaveEstimate:
         peak_force: greatest force [N].
         duration: time in contact [s].
         restitution: apparent restitution of the centres of mass [–].
+
+    Examples:
+        >>> import jostle
+        >>> (advice,) = jostle.contact_advice(mass="40 t", length=12, width=10, thickness="150 mm")
+        >>> advice.wave.duration > 0
+        True
     """
 
     transit: tuple[float, float]
@@ -80,6 +98,12 @@ class LateralRule:
         lateral: force on its struck floor ÷ displacement of that floor [N/m].
         low: ten times that [N/m].
         high: a hundred times that [N/m].
+
+    Examples:
+        >>> import jostle
+        >>> (advice,) = jostle.contact_advice("paper")
+        >>> advice.lateral.low < advice.lateral.high
+        True
     """
 
     of: str
@@ -105,6 +129,12 @@ class ContactAdvice:
         lateral: what the habit of many studies gives for linear laws; ``None`` without a model.
         restitution: recommended restitution [–].
         notes: what was assumed, and what to heed.
+
+    Examples:
+        >>> import jostle
+        >>> (advice,) = jostle.contact_advice(mass="40 t")
+        >>> advice.restitution.value
+        0.65
     """
 
     between: tuple[str, str]
@@ -157,6 +187,12 @@ def contact_advice(
 
     Raises:
         ModelError: a value is missing or outside its range; the model is wrong.
+
+    Examples:
+        >>> import jostle
+        >>> (advice,) = jostle.contact_advice(mass=["40 t", "60 t"], length=12, width=10, thickness="150 mm")
+        >>> advice.linear.low < advice.linear.high
+        True
     """
     if model is not None:
         model = Model.from_any(model)

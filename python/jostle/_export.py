@@ -22,6 +22,12 @@ class Script:
         text: the script, or the list of buildings of exported matrices.
         differences: how the other program differs.
         files: files written.
+
+    Examples:
+        >>> import jostle
+        >>> script = jostle.Model.paper_example().export()
+        >>> script.text.splitlines()[0]
+        '#!/usr/bin/env python3'
     """
 
     text: str

@@ -14,7 +14,13 @@ from ._model import Model
 
 
 class MethodSurvey:
-    """How accurate each solver formulation is on the buildings of a model: the answer of :func:`method`."""
+    """How accurate each solver formulation is on the buildings of a model: the answer of :func:`method`.
+
+    Examples:
+        >>> import jostle
+        >>> print(str(jostle.method("paper")).splitlines()[0])
+        J1
+    """
 
     def __init__(self, text: str, page: str) -> None:
         self._text, self._page = text, page
@@ -48,6 +54,11 @@ def method(model: Model | str | os.PathLike[str] | Mapping[str, Any]) -> MethodS
 
     Raises:
         AnalysisError: a reference solution failed.
+
+    Examples:
+        >>> import jostle
+        >>> print(str(jostle.method("paper")).splitlines()[0])
+        J1
     """
     return MethodSurvey(*Model.from_any(model)._core.methods())
 
@@ -61,6 +72,12 @@ def template(name: str = "frames", title: str = "Untitled") -> str:
 
     Raises:
         ModelError: there is no such template.
+
+    Examples:
+        >>> import jostle
+        >>> model = jostle.Model.loads(jostle.template("towers", "Two towers"))
+        >>> model.title
+        'Two towers'
     """
     text = _jostle.template(name, title)
     if text is None:
@@ -77,6 +94,11 @@ def schema(what: str = "model") -> Any:
 
     Raises:
         ModelError: an unknown word.
+
+    Examples:
+        >>> import jostle
+        >>> "properties" in jostle.schema()
+        True
     """
     text = _jostle.schema(what, False)
     return text if what == "combinations" else cast(Any, json.loads(text))

@@ -36,6 +36,12 @@ class Spectrum:
         total_acceleration: [m/s²], shape ``(d, n)``.
         inelastic: one dict for each pair: ``damping``, ``ductility``, ``yield_acceleration_m_s2``, ``reduction`` and
             ``displacement_m``.
+
+    Examples:
+        >>> import jostle
+        >>> spectrum = jostle.Motion.el_centro().spectrum([0.5, 1.0], damping=[0.02, 0.05])
+        >>> spectrum.pseudo_acceleration.shape
+        (2, 2)
     """
 
     periods: npt.NDArray[np.float64]
@@ -82,6 +88,12 @@ class Motion:
 
     Raises:
         ModelError: too few values, values that are not finite or beyond 100 m/s², an unusable step or unit.
+
+    Examples:
+        >>> import jostle
+        >>> motion = jostle.Motion.el_centro().scaled(pga="0.2 g")
+        >>> round(motion.pga, 3)
+        1.961
     """
 
     _core: _jostle.Motion

@@ -30,6 +30,12 @@ class CapacityCurve:
         events: at each point, hinges that crack or yield.
         end: reason for the end of the curve.
         tree: all results, as in ``jostle pushover --json``.
+
+    Examples:
+        >>> import jostle
+        >>> (curve,) = jostle.pushover(jostle.Model.example("paper-inelastic"), building="J1")
+        >>> curve.base_shear.shape == curve.roof_drift.shape
+        True
     """
 
     building: str
@@ -74,6 +80,12 @@ def pushover(
 
     Raises:
         ModelError: an invalid argument.
+
+    Examples:
+        >>> import jostle
+        >>> curves = jostle.pushover(jostle.Model.example("paper-inelastic"), drift=0.01)
+        >>> [curve.building for curve in curves]
+        ['J1', 'J2']
     """
     if not isinstance(model, Model):
         raise TypeError(f"model: expected a Model, found {type(model).__name__}")

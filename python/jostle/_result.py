@@ -50,6 +50,12 @@ class Floor:
         rotation: counter-clockwise seen from above [rad].
         rotation_rate: its rate [rad/s].
         rotation_acceleration: the rate of that [rad/s²].
+
+    Examples:
+        >>> import jostle
+        >>> result = jostle.run("paper")
+        >>> result.floor("J1", -1).displacement.shape == result.time.shape
+        True
     """
 
     building: str
@@ -79,6 +85,16 @@ class Corner:
         displacement: relative to the ground [m].
         velocity: relative to the ground [m/s].
         total_acceleration: ground included [m/s²], for small rotations.
+
+    Examples:
+        >>> import jostle
+        >>> def tower(name, x):
+        ...     plan = [[x, 0], [x + 12, 0], [x + 12, 8], [x, 8]]
+        ...     stiffness = {"x": "60 MN/m", "y": "50 MN/m", "torsion": "4 GN.m"}
+        ...     return jostle.Shear(name, mass=["90 t"], stiffness=[stiffness], storey_height="3 m", plan=plan)
+        >>> model = jostle.Model([tower("A", 0.0), tower("B", 12.02)], jostle.Gap(), motion=jostle.Motion.el_centro().lasting("5 s"))
+        >>> jostle.run(model).building("A").corner(3).at
+        (12.0, 8.0)
     """
 
     building: str
@@ -91,7 +107,14 @@ class Corner:
 
 
 class BuildingResult:
-    """Histories of one building: ``result.building("A").corner(3)``."""
+    """Histories of one building: ``result.building("A").corner(3)``.
+
+    Examples:
+        >>> import jostle
+        >>> result = jostle.run("paper")
+        >>> result.building("J1").floor(-1).floor
+        5
+    """
 
     _result: Result
     _at: int
@@ -174,6 +197,12 @@ class Contact:
         force: contact force on the instants of ``result.time``, positive in compression [N], shape ``(n,)``.
         peak_force: greatest force [N].
         impact_count: number of impacts.
+
+    Examples:
+        >>> import jostle
+        >>> result = jostle.run("paper", gap="10 mm")
+        >>> max(contact.impact_count for contact in result.contacts) > 0
+        True
     """
 
     between: tuple[str, str]
@@ -198,6 +227,15 @@ class LinkedFloors:
         peak_force: force of greatest magnitude, with its sign [N].
         peak_stroke: greatest change of length, either sign [m].
         dissipated: energy dissipated in the damper [J].
+
+    Examples:
+        >>> import jostle
+        >>> tower = jostle.Shear("A", mass="40 t", stiffness="60 MN/m", storeys=2, storey_height="3 m")
+        >>> other = jostle.Shear("B", mass="40 t", stiffness="90 MN/m", storeys=2, storey_height="3 m")
+        >>> link = jostle.Link(["A", "B"], damping="400 kN.s/m")
+        >>> pair = jostle.Model([tower, other], jostle.Gap("20 mm"), links=link, motion=jostle.Motion.el_centro())
+        >>> jostle.run(pair).links[0].dissipated > 0
+        True
     """
 
     between: tuple[str, str]
@@ -215,6 +253,12 @@ class Result:
     """Summary, histories and impacts of a run.
 
     Histories are read-only NumPy views of one table.
+
+    Examples:
+        >>> import jostle
+        >>> result = jostle.run("paper", gap="10 mm")
+        >>> len(result.impacts) == result.summary["gaps"][0]["impact_count"]
+        True
     """
 
     _core: _jostle.Run

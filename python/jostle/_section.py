@@ -18,7 +18,15 @@ if TYPE_CHECKING:
 
 
 class SectionAnswer:
-    """Cracking and yield of reinforced sections, by formulas and by fibre analysis: the answer of :func:`section`."""
+    """Cracking and yield of reinforced sections, by formulas and by fibre analysis: the answer of :func:`section`.
+
+    Examples:
+        >>> import jostle
+        >>> answer = jostle.section(width="300 mm", depth="600 mm", bars="4 d25 top, 3 d25 bottom")
+        >>> curvature, moment = answer.curve()
+        >>> bool(moment.max() > 0)
+        True
+    """
 
     tree: list[dict[str, Any]]
 
@@ -103,6 +111,12 @@ def section(
 
     Raises:
         ModelError: an argument is wrong, or the model has no reinforced member.
+
+    Examples:
+        >>> import jostle
+        >>> answer = jostle.section(width="500 mm", depth="500 mm", bars="12 d20", axial_load="800 kN", length="3.2 m")
+        >>> answer[0]["name"]
+        'Column'
     """
     own = {"width": width, "depth": depth, "bars": bars}
     missing = [name for name, value in own.items() if value is None]

@@ -36,6 +36,12 @@ class DesignSpectrum:
 
     Raises:
         ModelError: a key is missing or wrong.
+
+    Examples:
+        >>> import jostle
+        >>> target = jostle.DesignSpectrum("en1998", type=1, ground="B", ag="0.2 g")
+        >>> target.acceleration([0.3]).round(3)
+        array([5.884])
     """
 
     name: str
@@ -111,7 +117,14 @@ class DesignSpectrum:
 
 
 class Selection:
-    """A set of motions, checked by the rules of a code: the answer of :meth:`Motion.select`."""
+    """A set of motions, checked by the rules of a code: the answer of :meth:`Motion.select`.
+
+    Examples:
+        >>> import jostle
+        >>> target = jostle.DesignSpectrum("gb50011", intensity=8, site="II", group=1)
+        >>> jostle.Motion.select(target, periods=["0.8 s"], natural=["el-centro-1940-ns"]).passes
+        False
+    """
 
     tree: dict[str, Any]
 

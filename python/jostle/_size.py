@@ -29,7 +29,16 @@ class _TrialLine(ProgressLine):
 
 
 class SizeAnswer:
-    """A search for the least of something that keeps conditions: the answer of :func:`size`."""
+    """A search for the least of something that keeps conditions: the answer of :func:`size`.
+
+    Examples:
+        >>> import jostle
+        >>> answer = jostle.size(
+        ...     "paper", vary={"gap.width": ("20 mm", "300 mm")}, keep="impact_count == 0", minimise="gap.width", trials=10
+        ... )
+        >>> list(answer.best)
+        ['gap.width']
+    """
 
     _core: _jostle.Sized
 
@@ -126,6 +135,14 @@ def size(
     Raises:
         ModelError: a key, a condition or the model is wrong.
         FileExistsError: the folder contains a file of such a name that jostle did not write.
+
+    Examples:
+        >>> import jostle
+        >>> answer = jostle.size(
+        ...     "paper", vary={"gap.width": ("20 mm", "300 mm")}, keep="impact_count == 0", minimise="gap.width", trials=10
+        ... )
+        >>> answer.objective < 0.3
+        True
     """
     model = Model.from_any(model)
     if motions is not None:

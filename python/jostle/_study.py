@@ -52,6 +52,12 @@ class Study:
 
     Raises:
         ModelError: all faults at once, each with its location.
+
+    Examples:
+        >>> import jostle
+        >>> study = jostle.Study("paper", [{"name": "gap", "path": "gap[0].width", "values": ["20 mm", "40 mm"]}])
+        >>> study.cases
+        2
     """
 
     _core: _jostle.Study
@@ -266,6 +272,13 @@ class StudyResult:
     Attributes:
         study: the study.
         folder: its folder.
+
+    Examples:
+        >>> import jostle
+        >>> study = jostle.Study("paper", [{"name": "gap", "path": "gap[0].width", "values": ["20 mm", "150 mm"]}])
+        >>> result = study.run("out", report=False)
+        >>> (result["impact_count"] > 0).tolist()
+        [True, False]
     """
 
     study: Study
@@ -322,6 +335,18 @@ class WorstAngle:
         angle: from x to the motion, counter-clockwise [rad].
         value: the greatest value [SI].
         case: number of its case.
+
+    Examples:
+        >>> import jostle
+        >>> def tower(name, x):
+        ...     plan = [[x, 0], [x + 12, 0], [x + 12, 8], [x, 8]]
+        ...     stiffness = {"x": "60 MN/m", "y": "50 MN/m", "torsion": "4 GN.m"}
+        ...     return jostle.Shear(name, mass=["90 t"], stiffness=[stiffness], storey_height="3 m", plan=plan)
+        >>> model = jostle.Model([tower("A", 0.0), tower("B", 12.02)], jostle.Gap(), motion=jostle.Motion.el_centro().lasting("5 s"))
+        >>> angles = jostle.angles(model, "out", step="90 deg", report=False)
+        >>> worst = angles.worst("peak_force_n")
+        >>> worst.quantity
+        'peak_force_n'
     """
 
     quantity: str
@@ -332,7 +357,19 @@ class WorstAngle:
 
 @dataclass(frozen=True)
 class AngleStudy(StudyResult):
-    """The folder of a study over the angle of incidence."""
+    """The folder of a study over the angle of incidence.
+
+    Examples:
+        >>> import jostle
+        >>> def tower(name, x):
+        ...     plan = [[x, 0], [x + 12, 0], [x + 12, 8], [x, 8]]
+        ...     stiffness = {"x": "60 MN/m", "y": "50 MN/m", "torsion": "4 GN.m"}
+        ...     return jostle.Shear(name, mass=["90 t"], stiffness=[stiffness], storey_height="3 m", plan=plan)
+        >>> model = jostle.Model([tower("A", 0.0), tower("B", 12.02)], jostle.Gap(), motion=jostle.Motion.el_centro().lasting("5 s"))
+        >>> angles = jostle.angles(model, "out", step="90 deg", report=False)
+        >>> angles.worst("peak_force_n").case in range(4)
+        True
+    """
 
     @property
     def angle(self) -> npt.NDArray[np.float64]:
@@ -384,6 +421,17 @@ def angles(
     Raises:
         ModelError: the model is wrong, or in one plane; the range is none.
         OSError: a file cannot be written; finished cases are kept.
+
+    Examples:
+        >>> import jostle
+        >>> def tower(name, x):
+        ...     plan = [[x, 0], [x + 12, 0], [x + 12, 8], [x, 8]]
+        ...     stiffness = {"x": "60 MN/m", "y": "50 MN/m", "torsion": "4 GN.m"}
+        ...     return jostle.Shear(name, mass=["90 t"], stiffness=[stiffness], storey_height="3 m", plan=plan)
+        >>> model = jostle.Model([tower("A", 0.0), tower("B", 12.02)], jostle.Gap(), motion=jostle.Motion.el_centro().lasting("5 s"))
+        >>> angles = jostle.angles(model, "out", step="90 deg", report=False)
+        >>> len(angles.angle)
+        4
     """
     import math
 
@@ -416,6 +464,12 @@ class RuleGap:
         code: name of the code as in ``[codes]``; ``None`` for general rules.
         inputs: inputs that the rule used, with defaults marked.
         setbacks: distances of both buildings from the property line between them [m], of rules for such lines.
+
+    Examples:
+        >>> import jostle
+        >>> (gap,) = jostle.critical_gap("paper", outcomes=False, tolerance="1 mm", codes=["en1998"])
+        >>> [rule.rule for rule in gap.rules]
+        ['ABS', 'SRSS', '0.7 SRSS', 'DDC', 'EN 1998-1']
     """
 
     rule: str
@@ -438,6 +492,12 @@ class GapPoint:
         peak_force: greatest contact force in the gap [N].
         first_impact: first impact [s]; ``None`` without one.
         met: whether the run met its tolerance; ``None`` without an estimate.
+
+    Examples:
+        >>> import jostle
+        >>> (gap,) = jostle.critical_gap("paper", outcomes=False, tolerance="1 mm", curve=3)
+        >>> [point.impact_count > 0 for point in gap.curve]
+        [True, True, False]
     """
 
     width: float
@@ -462,6 +522,12 @@ class CriticalGap:
         left_out: rules that cannot be applied, and the keys of ``[codes]`` that they need.
         curve: force and impacts over the gap, from zero to ``gap``; empty unless asked for.
         reversed_gap: smallest gap without an impact under the motion with the other sign [m].
+
+    Examples:
+        >>> import jostle
+        >>> (gap,) = jostle.critical_gap("paper", outcomes=False, tolerance="1 mm")
+        >>> gap.between, round(gap.gap, 3)
+        (('J1', 'J2'), 0.137)
     """
 
     between: tuple[str, str]
@@ -512,6 +578,12 @@ def critical_gap(
     Raises:
         ModelError: model, motion or an argument is wrong.
         AnalysisError: a run failed.
+
+    Examples:
+        >>> import jostle
+        >>> (gap,) = jostle.critical_gap("paper", outcomes=False, tolerance="1 mm")
+        >>> gap.gap < gap.closing_without_contact + 0.002
+        True
     """
     if curve and not 2 <= curve <= 10000:
         raise ModelError(f"curve: must be 0 or 2 to 10000, found {curve}")

@@ -44,6 +44,13 @@ class Governing:
         p16: 16 % quantile.
         p84: 84 % quantile.
         governing: the mean or the greatest value, by the rule of the suite.
+
+    Examples:
+        >>> import jostle
+        >>> suite = jostle.run_suite("paper", motions=["el-centro-1940-ns", "nanjing-artificial"], report=False)
+        >>> drift = suite["J1.drift_peak"]
+        >>> drift.minimum <= drift.mean <= drift.maximum
+        True
     """
 
     name: str
@@ -60,7 +67,14 @@ class Governing:
 
 
 class Suite:
-    """Results of a model under several records."""
+    """Results of a model under several records.
+
+    Examples:
+        >>> import jostle
+        >>> suite = jostle.run_suite("paper", motions=["el-centro-1940-ns", "nanjing-artificial"], report=False)
+        >>> len(suite.table)
+        2
+    """
 
     _core: _jostle.Suite
     _folder: Path | None
@@ -173,6 +187,12 @@ def run_suite(
     Raises:
         ModelError: the model, one of its records or an argument is wrong.
         FileExistsError: the folder contains a file of such a name that jostle did not write.
+
+    Examples:
+        >>> import jostle
+        >>> suite = jostle.run_suite("paper", motions=["el-centro-1940-ns", "nanjing-artificial"], report=False)
+        >>> suite.records
+        ['el-centro-1940-ns', 'nanjing-artificial']
     """
     if jobs is not None and jobs < 1:
         raise ValueError(f"jobs: must be at least 1, found {jobs}")
