@@ -22,10 +22,13 @@ fn collect(command: &Command, above: &str, list: &mut Vec<Value>) {
             continue;
         }
         let shown = |arg: &&Arg| arg.get_id() != "help";
-        let arguments = own.get_arguments().filter(shown).map(|arg| match arg.get_long() {
-            Some(long) => format!("--{long}"),
-            None => arg.get_id().as_str().to_uppercase(),
-        });
+        let arguments = own
+            .get_arguments()
+            .filter(shown)
+            .map(|arg| match arg.get_long() {
+                Some(long) => format!("--{long}"),
+                None => arg.get_id().as_str().to_uppercase(),
+            });
         list.push(json!({ "command": name, "arguments": arguments.collect::<Vec<_>>() }));
     }
 }

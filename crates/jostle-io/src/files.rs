@@ -66,9 +66,7 @@ enum Allowed {
 impl PartialEq for Files {
     /// Whether the same names lead to the same files.
     fn eq(&self, other: &Self) -> bool {
-        self.folder == other.folder
-            && self.allowed == other.allowed
-            && self.beside == other.beside
+        self.folder == other.folder && self.allowed == other.allowed && self.beside == other.beside
     }
 }
 

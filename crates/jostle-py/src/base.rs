@@ -40,7 +40,13 @@ pub(crate) fn rewritten(
             text = tree
                 .rewritten(&path, value.as_ref())
                 .map_err(|error| argument_error(error.to_string()))?;
-            let next = (name.clone(), text.clone(), json, folder.clone(), files.clone());
+            let next = (
+                name.clone(),
+                text.clone(),
+                json,
+                folder.clone(),
+                files.clone(),
+            );
             tree = tree_of(next).map_err(|error| input_error(&error))?;
         }
         Ok(text)

@@ -58,7 +58,10 @@ const PHRASES: [(&str, &str); 9] = [
     ("or --record", "or change the motion"),
     ("chosen with --record", "chosen with motion="),
     ("\"jostle gap\"", "critical_gap"),
-    ("jostle run, jostle gap, a study and run_suite of Python take", "run_suite, critical_gap and Study take"),
+    (
+        "jostle run, jostle gap, a study and run_suite of Python take",
+        "run_suite, critical_gap and Study take",
+    ),
     ("\"jostle run --sensitivity\"", "run(…, sensitivity=True)"),
 ];
 
@@ -73,7 +76,8 @@ pub(crate) fn in_python(text: &str) -> String {
         let (before, after) = rest.split_at(at);
         said.push_str(before);
         let option = &after[2..];
-        let end = option.find(|c: char| !(c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-'));
+        let end =
+            option.find(|c: char| !(c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-'));
         let (name, left) = option.split_at(end.unwrap_or(option.len()));
         if name.starts_with(|c: char| c.is_ascii_lowercase()) {
             said.push_str(&name.replace('-', "_"));

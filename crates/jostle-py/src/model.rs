@@ -59,7 +59,13 @@ impl Model {
         lines: bool,
         files: Option<HashMap<String, String>>,
     ) -> PyResult<Self> {
-        let base = (name.to_owned(), text.to_owned(), json, base, files.unwrap_or_default());
+        let base = (
+            name.to_owned(),
+            text.to_owned(),
+            json,
+            base,
+            files.unwrap_or_default(),
+        );
         let read = || Self::assemble(tree_of(base)?.input()?);
         py.detach(read).map_err(|mut error| {
             if !lines {
@@ -174,7 +180,10 @@ impl Model {
     fn sections(&self, py: Python<'_>) -> PyResult<Sections> {
         let input = &self.opened.input;
         let found = py.detach(|| jostle_run::sections(input, "the model"));
-        Ok(section_answer(&input.model.title, &found.map_err(run_error)?))
+        Ok(section_answer(
+            &input.model.title,
+            &found.map_err(run_error)?,
+        ))
     }
 
     /// The script for OpenSeesPy, and how that program differs.

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use jostle::{GroundMotion, Wave};
 use jostle_io::{
-    Files, MotionError, MotionSource, MotionSpec, Record, RecordContent, RecordFormat, RecordLayout,
-    RecordOptions, Scaling,
+    Files, MotionError, MotionSource, MotionSpec, Record, RecordContent, RecordFormat,
+    RecordLayout, RecordOptions, Scaling,
 };
 use jostle_motion::{Accelerogram, MotionFault, measures};
 use jostle_report::{MotionPage, render_motion};

@@ -128,7 +128,9 @@ impl Table {
     /// The table of these rows, in this order.
     fn taken(&self, py: Python<'_>, rows: Vec<usize>) -> PyResult<Self> {
         fn pick<T: Clone>(values: &[T], rows: &[usize]) -> Vec<T> {
-            rows.iter().filter_map(|row| values.get(*row).cloned()).collect()
+            rows.iter()
+                .filter_map(|row| values.get(*row).cloned())
+                .collect()
         }
         let columns = match &self.columns {
             Columns::Histories(histories) => {

@@ -107,7 +107,11 @@ pub(crate) fn size(
         let tree = tree_of(base).map_err(|error| input_error(&error))?;
         SizeProblem::new(tree, &request).map_err(|error| study_error(&error))
     })?;
-    let warnings = problem.warnings().iter().map(|text| in_python(text)).collect();
+    let warnings = problem
+        .warnings()
+        .iter()
+        .map(|text| in_python(text))
+        .collect();
     if let Some(folder) = &folder {
         jostle_study::size::earlier_size_files(folder, force).map_err(run_error)?;
     }
@@ -205,7 +209,9 @@ fn target_of(words: HashMap<String, String>) -> PyResult<TargetSpectrum> {
         *place = Some(value);
     }
     let Some(path) = file else {
-        return own.target().map_err(|error| argument_error(error.to_string()));
+        return own
+            .target()
+            .map_err(|error| argument_error(error.to_string()));
     };
     let read = jostle_io::read_target_file(&PathBuf::from(path));
     let mut target = read.map_err(|error| argument_error(error.to_string()))?;
@@ -223,7 +229,9 @@ pub(crate) fn target(
     damping: f64,
 ) -> PyResult<(String, [f64; 2], Vec<f64>)> {
     let target = target_of(words)?;
-    let values = periods.iter().map(|period| target.acceleration(*period, damping));
+    let values = periods
+        .iter()
+        .map(|period| target.acceleration(*period, damping));
     let values: Result<_, _> = values.collect();
     let values = values.map_err(|fault| argument_error(fault.to_string()))?;
     Ok((target.name(), target.range(), values))
@@ -387,7 +395,11 @@ pub(crate) fn select(
     };
     py.detach(|| {
         let found = Selection::new(target, request)?;
-        Ok((found.json().to_string(), plain(&found.text()), found.page()?))
+        Ok((
+            found.json().to_string(),
+            plain(&found.text()),
+            found.page()?,
+        ))
     })
     .map_err(run_error)
 }

@@ -75,7 +75,8 @@ pub fn section(args: &SectionOptions) -> Result<SectionSurvey, RunError> {
     let concrete =
         parse_concrete(&args.concrete, level).map_err(|problem| wrong("--concrete", problem))?;
     let steel = parse_steel(&args.steel, level).map_err(|problem| wrong("--steel", problem))?;
-    let bars = Reinforcement::parse(&args.bars).map_err(|error| wrong("--bars", error.to_string()))?;
+    let bars =
+        Reinforcement::parse(&args.bars).map_err(|error| wrong("--bars", error.to_string()))?;
     let ties = args.ties.as_deref().map(Ties::parse).transpose();
     let ties = ties.map_err(|error| wrong("--ties", error.to_string()))?;
     let section = Section::new(

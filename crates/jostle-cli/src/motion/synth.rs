@@ -37,7 +37,12 @@ fn spectrum(args: &SynthSpectrumArgs) -> Result<(), Failure> {
         tolerance: quantity("--tolerance", &args.tolerance, Dimension::Dimensionless)?,
     };
     let made = wanted.make(&target)?;
-    write(&args.wave.out, args.wave.force, &made.name, &made.matched.motion)?;
+    write(
+        &args.wave.out,
+        args.wave.force,
+        &made.name,
+        &made.matched.motion,
+    )?;
     terminal::print(&format!(
         "{}: {}\n{}\n{}",
         args.wave.out.display(),

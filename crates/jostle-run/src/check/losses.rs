@@ -1,9 +1,9 @@
 //! What impacts dissipate.
 
+use crate::numbers::{kn, mm};
 use jostle::LawKind;
 use jostle::interface::Contact;
 use jostle::model::Gap;
-use crate::numbers::{kn, mm};
 
 /// What impacts of a gap dissipate, in words.
 pub(super) fn losses(gap: &Gap, contacts: &[&Contact]) -> String {

@@ -2,10 +2,10 @@
 
 use std::fmt::Write as _;
 
-use jostle::structure::StepEquations;
-use jostle::{GroundMotion, Plan, RiccatiSweep, Solver, System};
 use crate::numbers::grouped;
 use crate::style::{BOLD, styled};
+use jostle::structure::StepEquations;
+use jostle::{GroundMotion, Plan, RiccatiSweep, Solver, System};
 
 use super::decimals;
 

@@ -53,7 +53,10 @@ impl SpectrumMatch {
     /// # Errors
     /// [`RunError::Argument`] for a number outside its range, or if the spectrum cannot be matched.
     pub fn make(&self, target: &TargetSpectrum) -> Result<Synthesis, RunError> {
-        let step = self.record.as_ref().map_or(self.step, |own| own.motion.step());
+        let step = self
+            .record
+            .as_ref()
+            .map_or(self.step, |own| own.motion.step());
         let usual = [0.05_f64.max(4.0 * step), 6.0_f64.min(target.range()[1])];
         let matching = MatchSettings {
             periods: self.periods.unwrap_or(usual),
