@@ -137,7 +137,7 @@ class Table:
         import numpy as np
 
         values: Any = self._column(name)
-        whole = values.astype(float).filled(np.nan) if isinstance(values, np.ma.MaskedArray) else values
+        whole = cast(Any, values.astype(float)).filled(np.nan) if isinstance(values, np.ma.MaskedArray) else values
         return cast("npt.NDArray[Any]", whole)
 
     def __reduce__(self) -> tuple[Any, ...]:

@@ -7,6 +7,7 @@ import doctest
 import importlib
 import inspect
 import warnings
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -51,7 +52,7 @@ def test_errors_of_the_library_speak_of_python(tmp_path: Path) -> None:
     several = paper.changed(motion=["el-centro-1940-ns", "nanjing-artificial"])
     (tmp_path / "report.html").write_text("mine")
     result = jostle.run(paper)
-    wrong = [
+    wrong: list[Callable[[], object]] = [
         lambda: jostle.contact_advice(),
         lambda: jostle.contact_advice(mass="40 t", length=3),
         lambda: jostle.contact_advice(mass="40 t", poisson_ratio=0.7),
