@@ -444,12 +444,6 @@ pub(crate) fn quantity_text(number: f64, unit: &str) -> String {
 }
 
 impl TreeValue {
-    /// The value as JSON on one line.
-    #[must_use]
-    pub fn json(&self) -> String {
-        crate::rewrite::literal(&self.node(), Format::Json)
-    }
-
     pub(crate) fn node(&self) -> Node {
         let value = match self {
             Self::Text(text) => Value::Text(text.clone()),

@@ -67,13 +67,6 @@ pub(crate) fn named_files(py: Python<'_>, base: Base) -> PyResult<Vec<String>> {
     Ok(py.detach(|| tree.named_files()))
 }
 
-/// The value at a path as JSON; `None` if the model does not state it.
-#[pyfunction]
-pub(crate) fn stated(base: Base, path: &str) -> PyResult<Option<String>> {
-    let tree = tree_of(base).map_err(|error| input_error(&error))?;
-    Ok(tree.values(path).first().map(TreeValue::json))
-}
-
 fn value_of(json: &str) -> PyResult<TreeValue> {
     let text = format!("{{\"value\": {json}}}");
     let tree = ModelTree::parse_with("value", &text, Format::Json, Files::held(BTreeMap::new()));

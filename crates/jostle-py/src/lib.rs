@@ -26,7 +26,7 @@ static MEMORY: mimalloc::MiMalloc = mimalloc::MiMalloc;
 #[pyo3::pymodule]
 mod _jostle {
     #[pymodule_export]
-    use super::base::{as_toml, named_files, rewritten, stated};
+    use super::base::{as_toml, named_files, rewritten};
     #[pymodule_export]
     use super::collide::{collide, contact_advice, contact_laws};
     #[pymodule_export]
