@@ -11,7 +11,9 @@ Examples:
 """
 
 from ._animation import Animation
+from ._answers import Answers
 from ._builders import Frame, Gap, Given, Link, Shear, Soil, SpaceFrame, Wall
+from ._check import Check
 from ._collide import Collision, ContactLaw, collide, collide_all, contact_laws
 from ._compare import Comparison, compare
 from ._contact_advice import ContactAdvice, LateralRule, StiffnessEstimate, StiffnessRange, WaveEstimate, contact_advice
@@ -26,8 +28,10 @@ from ._errors import (
     ModelWarning,
     StudyWarning,
 )
+from ._export import Script
 from ._jostle import __version__
 from ._matrices import Matrices
+from ._method import MethodSurvey, method, schema, template
 from ._model import Model
 from ._modes import BuildingModes, modes
 from ._motion import Motion, Spectrum
@@ -36,6 +40,9 @@ from ._own_law import Experiment, experiment
 from ._pushover import CapacityCurve, pushover
 from ._result import BuildingResult, Contact, Corner, Floor, LinkedFloors, Result
 from ._run import run
+from ._section import SectionAnswer, section
+from ._selection import DesignSpectrum, Selection
+from ._size import SizeAnswer, size
 from ._study import (
     AngleStudy,
     CriticalGap,
@@ -54,9 +61,11 @@ __all__ = [
     "AnalysisError",
     "AngleStudy",
     "Animation",
+    "Answers",
     "BuildingModes",
     "BuildingResult",
     "CapacityCurve",
+    "Check",
     "Collision",
     "Comparison",
     "Contact",
@@ -64,6 +73,7 @@ __all__ = [
     "ContactLaw",
     "Corner",
     "CriticalGap",
+    "DesignSpectrum",
     "Experiment",
     "Fault",
     "Floor",
@@ -79,6 +89,7 @@ __all__ = [
     "Link",
     "LinkedFloors",
     "Matrices",
+    "MethodSurvey",
     "MissingFileError",
     "Model",
     "ModelError",
@@ -86,7 +97,11 @@ __all__ = [
     "Motion",
     "Result",
     "RuleGap",
+    "Script",
+    "SectionAnswer",
+    "Selection",
     "Shear",
+    "SizeAnswer",
     "Soil",
     "SpaceFrame",
     "Spectrum",
@@ -111,8 +126,13 @@ __all__ = [
     "experiment",
     "from_opensees",
     "import_opensees",
+    "method",
     "modes",
     "pushover",
     "run",
     "run_suite",
+    "schema",
+    "section",
+    "size",
+    "template",
 ]

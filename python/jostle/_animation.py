@@ -18,7 +18,14 @@ _STAGE_ONLY = (
 
 
 class Animation:
-    """The animation of a report. A notebook displays it without a network."""
+    """The animation of a report. A notebook displays it without a network.
+
+    Examples:
+        >>> import jostle
+        >>> path = jostle.run("paper").animate().save("moving.html")
+        >>> open("moving.html").read(15)
+        '<!DOCTYPE html>'
+    """
 
     def __init__(self, page: str) -> None:
         self._page = page.replace("</head>", _STAGE_ONLY, 1)

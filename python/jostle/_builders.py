@@ -141,6 +141,15 @@ class Frame(Part):
 
     Raises:
         TypeError: an unknown keyword, with the nearest known one.
+
+    Examples:
+        >>> import jostle
+        >>> frame = jostle.Frame(
+        ...     "A", storeys=2, storey_height="3.2 m", spans=["6 m"], concrete="C30", beam_mass="24 kN/m",
+        ...     column={"width": "450 mm", "depth": "450 mm"}, beam={"width": "300 mm", "depth": "550 mm"},
+        ... )
+        >>> len(jostle.Model([frame]).periods())
+        3
     """
 
     _with_units = tuple(FrameUnits.__annotations__)
@@ -275,6 +284,12 @@ class Shear(Part):
 
     Raises:
         TypeError: an unknown keyword, with the nearest known one.
+
+    Examples:
+        >>> import jostle
+        >>> tower = jostle.Shear("A", mass_t=[40, 30], stiffness_mn_m=[60, 50], storey_height="3 m")
+        >>> len(jostle.Model([tower]).periods())
+        2
     """
 
     _with_units = tuple(ShearUnits.__annotations__)
@@ -398,6 +413,16 @@ class SpaceFrame(Part):
 
     Raises:
         TypeError: an unknown keyword, with the nearest known one.
+
+    Examples:
+        >>> import jostle
+        >>> beam = {"width": "300 mm", "depth": "500 mm"}
+        >>> frame = jostle.SpaceFrame(
+        ...     "A", storeys=1, storey_height_m=3, lines_x_m=[0, 6], lines_y_m=[0, 5], mass_t=60, elastic_modulus_gpa=30,
+        ...     column={"size": ["450 mm", "400 mm"]}, beam_x=beam, beam_y=beam,
+        ... )
+        >>> len(jostle.Model([frame]).periods())
+        2
     """
 
     _with_units = tuple(SpaceFrameUnits.__annotations__)
@@ -529,6 +554,12 @@ class Given(Part):
 
     Raises:
         TypeError: an unknown keyword, with the nearest known one.
+
+    Examples:
+        >>> import jostle
+        >>> block = jostle.Given("A", mass=["40 t", "30 t"], periods=[0.3, 0.1], shapes=[[0.6, 1.0], [1.0, -0.8]])
+        >>> jostle.Model([block]).periods().round(6).tolist()
+        [0.3, 0.1]
     """
 
     _with_units = tuple(GivenUnits.__annotations__)
@@ -636,6 +667,11 @@ class Gap(Part):
 
     Raises:
         TypeError: an unknown keyword, with the nearest known one.
+
+    Examples:
+        >>> import jostle
+        >>> jostle.Gap(width_mm=20, law="hertz-damp").to_dict()["width"]
+        '20 mm'
     """
 
     _with_units = tuple(GapUnits.__annotations__)
@@ -722,6 +758,11 @@ class Link(Part):
 
     Raises:
         TypeError: an unknown keyword, with the nearest known one.
+
+    Examples:
+        >>> import jostle
+        >>> jostle.Link(["A", "B"], damping_kn_s_m=400).to_dict()["damping"]
+        '400 kN.s/m'
     """
 
     _with_units = tuple(LinkUnits.__annotations__)
@@ -780,6 +821,11 @@ class Wall(Part):
 
     Raises:
         TypeError: an unknown keyword, with the nearest known one.
+
+    Examples:
+        >>> import jostle
+        >>> jostle.Wall("street", mass="20 t", stiffness="200 MN/m").to_dict()["stiffness"]
+        '200 MN/m'
     """
 
     def __init__(
@@ -820,6 +866,11 @@ class Soil(Part):
 
     Raises:
         TypeError: an unknown keyword, with the nearest known one.
+
+    Examples:
+        >>> import jostle
+        >>> jostle.Soil(shear_wave_velocity="200 m/s", density="1800 kg/m3").to_dict()["density"]
+        '1800 kg/m3'
     """
 
     def __init__(

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import json
-import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from . import _jostle
+from ._answers import Answers
 from ._errors import AnalysisError, ModelError
-from ._units import Quantity, in_si, number
+from ._units import Quantity, in_si, option_text
 
 if TYPE_CHECKING:
     from ._builders import _Law
@@ -26,6 +26,12 @@ class ContactLaw:
         force: ``force(indentation, rate, impact_speed)`` [N] of the indentation [m] > 0, its rate [m/s] (positive while
             closing) and the impact speed [m/s]; a positive force pushes the masses apart.
         name: name in tables.
+
+    Examples:
+        >>> import jostle
+        >>> law = jostle.ContactLaw(lambda indentation, rate, speed: 8e7 * indentation, name="spring")
+        >>> round(jostle.collide(law, m1="40 t", m2="60 t", speed="0.4 m/s").realised_restitution, 3)
+        1.0
     """
 
     force: Callable[[float, float, float], float]
@@ -52,6 +58,12 @@ class Collision:
         indentation: indentation at them [m].
         rate: its rate [m/s].
         force: force [N].
+
+    Examples:
+        >>> import jostle
+        >>> collision = jostle.collide(m1="40 t", m2="60 t", speed="0.4 m/s")
+        >>> bool(collision.force.max() <= collision.peak_force)
+        True
     """
 
     law: str
@@ -81,7 +93,13 @@ class Collision:
 
 
 def contact_laws() -> list[dict[str, Any]]:
-    """The contact laws: ``law``, ``variant``, ``stiffness_unit`` and whether it is ``dissipative``."""
+    """The contact laws: ``law``, ``variant``, ``stiffness_unit`` and whether it is ``dissipative``.
+
+    Examples:
+        >>> import jostle
+        >>> "hertz-damp" in str(jostle.contact_laws())
+        True
+    """
     laws: list[dict[str, Any]] = json.loads(_jostle.contact_laws())
     return laws
 
@@ -123,6 +141,11 @@ def collide(
     Raises:
         ModelError: a value outside its range; the message gives the range. Both ``damping`` and ``restitution``.
         AnalysisError: a user-defined law whose contact does not end.
+
+    Examples:
+        >>> import jostle
+        >>> round(jostle.collide("hertz", m1="40 t", m2="60 t", speed="0.4 m/s").realised_restitution, 3)
+        1.0
     """
     if isinstance(law, ContactLaw):
         masses = [in_si(name, value, "mass") for name, value in (("m1", m1), ("m2", m2))]
@@ -155,12 +178,17 @@ def collide_all(
     stiffness: Quantity | None = None,
     restitution: float = 0.65,
     restitution_is: str = "input",
-) -> list[Collision]:
+) -> Answers[Collision]:
     """Returns the same collision under every law, with equal secant stiffness at the greatest elastic Hertz indentation.
 
     Laws that cannot realise the restitution are omitted. Arguments as for :func:`collide`.
+
+    Examples:
+        >>> import jostle
+        >>> len(jostle.collide_all(m1="40 t", m2="60 t", speed="0.4 m/s")) > 5
+        True
     """
-    return _collide(
+    return Answers(_collide(
         None,
         m1=m1,
         m2=m2,
@@ -168,7 +196,7 @@ def collide_all(
         stiffness=stiffness,
         restitution=restitution,
         restitution_is=restitution_is,
-    )
+    ))
 
 
 def _collide(law: str | None, **given: object) -> list[Collision]:
@@ -176,22 +204,11 @@ def _collide(law: str | None, **given: object) -> list[Collision]:
     for name, value in given.items():
         if value is None:
             continue
-        plain = number(value)
-        if isinstance(value, bool) or (plain is None and not isinstance(value, str)):
-            raise TypeError(
-                f"{name}: expected a text with a unit or a number in SI, found {type(value).__name__}"
-            )
-        options[name] = value if isinstance(value, str) else repr(plain)
-    try:
-        found = _jostle.collide(law, options)
-    except ModelError as error:
-        raise ModelError(_as_keyword(str(error))) from None
+        if isinstance(value, (list, tuple)):
+            raise TypeError(f"{name}: expected a text with a unit or a number in SI, found {type(value).__name__}")
+        options[name] = option_text(name, value)
+    found = _jostle.collide(law, options)
     return [_collision(json.loads(numbers), curve) for numbers, curve in found]
-
-
-def _as_keyword(text: str) -> str:
-    """Options of the command line as keywords of Python."""
-    return re.sub(r"--([a-z0-9-]+)", lambda option: option[1].replace("-", "_"), text)
 
 
 def _collision(numbers: dict[str, Any], curve: npt.NDArray[np.float64]) -> Collision:

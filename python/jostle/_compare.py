@@ -16,7 +16,19 @@ from ._tree import text_of
 
 
 class Comparison:
-    """A model on the recorded motion of a shake table, compared with what was measured there."""
+    """A model on the recorded motion of a shake table, compared with what was measured there.
+
+    Examples:
+        >>> import jostle
+        >>> model = jostle.Model([jostle.Shear("A", mass=["40 t"], stiffness=["20 MN/m"], storey_height="3 m")])
+        >>> rows = [f"{0.01 * k:.2f}\\t{0.1 * (-1) ** (k // 50)}\\t{0.5 * (-1) ** (k // 50)}" for k in range(200)]
+        >>> with open("test.asc", "w") as file:
+        ...     _ = file.write("Test\\n2\\n3\\nTime\\tA0\\tD1\\nsec\\tg\\tmm\\n6\\n" + "\\n".join(rows) + "\\n")
+        >>> columns = [{"measured": "D1", "computed": "A.floor1.displacement_m"}]
+        >>> found = jostle.compare(model, "test.asc", {"table_acceleration": "A0", "column": columns})
+        >>> found.score("A.floor1.displacement_m")["peak_measured"]
+        0.0005
+    """
 
     _core: _jostle.Comparison
     _folder: Path | None
@@ -64,6 +76,11 @@ class Comparison:
     def __repr__(self) -> str:
         return f"<Comparison {self.summary['title']!r}: {len(self.summary['columns'])} histories>"
 
+    def _repr_html_(self) -> str:
+        from ._draw import comparison_html
+
+        return comparison_html(self)
+
     def __reduce__(self) -> tuple[Any, ...]:
         raise TypeError("a Comparison cannot be pickled; send comparison.summary")
 
@@ -90,6 +107,17 @@ def compare(
         ModelError: the model, the data or the map is wrong.
         AnalysisError: the run failed.
         FileExistsError: the folder contains a file of such a name that jostle did not write.
+
+    Examples:
+        >>> import jostle
+        >>> model = jostle.Model([jostle.Shear("A", mass=["40 t"], stiffness=["20 MN/m"], storey_height="3 m")])
+        >>> rows = [f"{0.01 * k:.2f}\\t{0.1 * (-1) ** (k // 50)}\\t{0.5 * (-1) ** (k // 50)}" for k in range(200)]
+        >>> with open("test.asc", "w") as file:
+        ...     _ = file.write("Test\\n2\\n3\\nTime\\tA0\\tD1\\nsec\\tg\\tmm\\n6\\n" + "\\n".join(rows) + "\\n")
+        >>> columns = [{"measured": "D1", "computed": "A.floor1.displacement_m"}]
+        >>> found = jostle.compare(model, "test.asc", {"table_acceleration": "A0", "column": columns})
+        >>> found.score("A.floor1.displacement_m")["peak_measured"]
+        0.0005
     """
     folder = None if out is None else Path(out)
     if folder is not None:

@@ -9,10 +9,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from . import _jostle
-from ._collide import _as_keyword
-from ._errors import ModelError
+from ._answers import Answers
 from ._model import Model
-from ._units import Quantity, number
+from ._units import Quantity, option_text
 
 
 @dataclass(frozen=True)
@@ -23,6 +22,12 @@ class StiffnessRange:
         value: recommended value.
         low: lowest plausible value.
         high: highest plausible value.
+
+    Examples:
+        >>> import jostle
+        >>> (advice,) = jostle.contact_advice(mass="40 t")
+        >>> advice.hertz.low <= advice.hertz.value <= advice.hertz.high
+        True
     """
 
     value: float
@@ -43,6 +48,12 @@ class StiffnessEstimate:
         is_valid: whether its assumptions hold here.
         source: where it comes from.
         validity: what it assumes.
+
+    Examples:
+        >>> import jostle
+        >>> (advice,) = jostle.contact_advice(mass="40 t")
+        >>> advice.estimates[0].family
+        'hertz'
     """
 
     name: str
@@ -64,6 +75,12 @@ class WaveEstimate:
         peak_force: greatest force [N].
         duration: time in contact [s].
         restitution: apparent restitution of the centres of mass [–].
+
+    Examples:
+        >>> import jostle
+        >>> (advice,) = jostle.contact_advice(mass="40 t", length=12, width=10, thickness="150 mm")
+        >>> advice.wave.duration > 0
+        True
     """
 
     transit: tuple[float, float]
@@ -81,6 +98,12 @@ class LateralRule:
         lateral: force on its struck floor ÷ displacement of that floor [N/m].
         low: ten times that [N/m].
         high: a hundred times that [N/m].
+
+    Examples:
+        >>> import jostle
+        >>> (advice,) = jostle.contact_advice("paper")
+        >>> advice.lateral.low < advice.lateral.high
+        True
     """
 
     of: str
@@ -106,6 +129,12 @@ class ContactAdvice:
         lateral: what the habit of many studies gives for linear laws; ``None`` without a model.
         restitution: recommended restitution [–].
         notes: what was assumed, and what to heed.
+
+    Examples:
+        >>> import jostle
+        >>> (advice,) = jostle.contact_advice(mass="40 t")
+        >>> advice.restitution.value
+        0.65
     """
 
     between: tuple[str, str]
@@ -121,6 +150,11 @@ class ContactAdvice:
     restitution: StiffnessRange
     notes: tuple[str, ...]
 
+    def _repr_html_(self) -> str:
+        from ._draw import advice_html
+
+        return advice_html(self)
+
 
 def contact_advice(
     model: Model | str | os.PathLike[str] | None = None,
@@ -134,7 +168,7 @@ def contact_advice(
     poisson_ratio: float = 0.2,
     density: Quantity | Sequence[Quantity] = 2500.0,
     speed: Quantity = 0.4,
-) -> list[ContactAdvice]:
+) -> Answers[ContactAdvice]:
     """Returns stiffness and restitution for the contacts of a model, or of two floors: ``jostle contact-advice``.
 
     A value with two entries is of the left and the right floor.
@@ -153,9 +187,15 @@ def contact_advice(
 
     Raises:
         ModelError: a value is missing or outside its range; the model is wrong.
+
+    Examples:
+        >>> import jostle
+        >>> (advice,) = jostle.contact_advice(mass=["40 t", "60 t"], length=12, width=10, thickness="150 mm")
+        >>> advice.linear.low < advice.linear.high
+        True
     """
-    if model is not None and not isinstance(model, Model):
-        model = Model.load(model)
+    if model is not None:
+        model = Model.from_any(model)
     options: dict[str, str] = {}
     given: dict[str, Any] = {
         "mass": mass,
@@ -170,26 +210,9 @@ def contact_advice(
     }
     for name, value in given.items():
         if value is not None:
-            options[name] = _as_option(name, value)
-    try:
-        found = _jostle.contact_advice(None if model is None else model._core, options)
-    except ModelError as error:
-        raise ModelError(_as_keyword(str(error))) from None
-    return [_advice(one) for one in json.loads(found)]
-
-
-def _as_option(name: str, value: Any) -> str:
-    """A value as the text of an option: two entries with a comma."""
-    if isinstance(value, str):
-        return value
-    plain = None if isinstance(value, bool) else number(value)
-    if plain is not None:
-        return repr(plain)
-    if isinstance(value, Sequence) and len(value) == 2:
-        return ", ".join(_as_option(name, entry) for entry in value)
-    raise TypeError(
-        f"{name}: expected a text with a unit, a number in SI, or two of them, found {type(value).__name__}"
-    )
+            options[name] = option_text(name, value)
+    found = _jostle.contact_advice(None if model is None else model._core, options)
+    return Answers(_advice(one) for one in json.loads(found))
 
 
 def _advice(one: dict[str, Any]) -> ContactAdvice:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import html
 import math
+import os
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -11,9 +12,18 @@ if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
+    from ._check import Check
+    from ._compare import Comparison
+    from ._contact_advice import ContactAdvice
     from ._model import Model
     from ._modes import BuildingModes
+    from ._motion import Spectrum
     from ._result import Contact, Result
+    from ._section import SectionAnswer
+    from ._selection import Selection
+    from ._size import SizeAnswer
+    from ._study import CriticalGap, Study, StudyResult
+    from ._suite import Suite
     from ._table import Table
 
 #: A label, instants and values.
@@ -367,3 +377,210 @@ def _svg_text(
 
 def _text(value: object) -> str:
     return html.escape(str(value))
+
+
+def _framed(title: str, *parts: str) -> str:
+    """A title above tables and pictures."""
+    return f'<div style="{_FONT};overflow-x:auto"><b>{_text(title)}</b>{"".join(parts)}</div>'
+
+
+def text_html(text: str) -> str:
+    """Text as printed on a terminal."""
+    return f'<pre style="overflow-x:auto">{_text(text)}</pre>'
+
+
+def gap_html(gap: CriticalGap) -> str:
+    """The smallest gap beside those of rules, and force over gap."""
+    import numpy as np
+
+    rows = [("smallest gap without pounding", f"{1e3 * gap.gap:.2f}", "0", "")]
+    if gap.reversed_gap is not None:
+        rows.append(("the same, motion reversed", f"{1e3 * gap.reversed_gap:.2f}", "", ""))
+    for rule in gap.rules:
+        count = "" if rule.impact_count is None else f"{rule.impact_count}"
+        force = "" if rule.peak_force is None else f"{1e-3 * rule.peak_force:.1f}"
+        rows.append((rule.rule, f"{1e3 * rule.gap:.2f}", count, force))
+    table = _rows(("rule", "gap [mm]", "impacts", "peak force [kN]"), rows)
+    if gap.curve:
+        widths = 1e3 * np.array([point.width for point in gap.curve])
+        forces = 1e-3 * np.array([point.peak_force for point in gap.curve])
+        picture = history_svg("Peak force over gap", "kN", [("force", widths, forces)], abscissa=" mm")
+    else:
+        picture = bars_svg("Gap", "mm", [(row[0], float(row[1])) for row in rows])
+    return _framed(f"{'–'.join(gap.between)} under {gap.motion}, {gap.pga:.4g} m/s²", table, picture)
+
+
+def suite_html(suite: Suite) -> str:
+    """Every record, its greatest force and drift, and the governing values."""
+    tree = suite.summary
+    shown = [own for own in tree["quantities"] if own["name"].endswith((".peak_force_n", ".drift_peak"))][:6]
+    heads = ("record", *(own["name"] for own in shown))
+    rows = [
+        (name, *("" if own["values"][at] is None else f"{own['values'][at]:.4g}" for own in shown))
+        for at, name in enumerate(suite.records)
+    ]
+    rows += [("governing", *(f"{own['governing']:.4g}" for own in shown))]
+    picture = ""
+    if shown:
+        values = [(name, own) for name, own in zip(suite.records, shown[0]["values"]) if own is not None]
+        picture = bars_svg(shown[0]["name"], "SI", values)
+    return _framed(tree["title"], f"<div>{_text(suite.rule)}</div>", _rows(heads, rows), picture)
+
+
+def study_html(study: Study) -> str:
+    """What varies."""
+    rows = [(text,) for text in study.varied]
+    return _framed(f"{study.title}: {study.cases} cases", _rows(("varied",), rows))
+
+
+def study_result_html(result: StudyResult) -> str:
+    """The first cases, and peak force case by case."""
+    import numpy as np
+
+    study = result.study
+    if not result.complete:
+        return _framed(f"{study.title}: {study.cases} cases, not all finished", _text(os.fspath(result.folder)))
+    inputs = [name for name in study.columns if name in _columns_shown(study.columns)]
+    columns = {name: result[name] for name in inputs}
+    rows = [[_cell(_item(values[at])) for values in columns.values()] for at in range(min(study.cases, _SHOWN))]
+    more = study.cases - len(rows)
+    tail = f'<div style="opacity:.75">… {more} more cases</div>' if more > 0 else ""
+    picture = ""
+    if "peak_force_n" in study.columns:
+        forces = 1e-3 * np.nan_to_num(result["peak_force_n"])
+        cases = np.arange(len(forces), dtype=float)
+        picture = history_svg("Peak force", "kN", [("Peak force", cases, forces)], abscissa="")
+    return _framed(f"{study.title}: {study.cases} cases", _rows(inputs, rows), tail, picture)
+
+
+def _columns_shown(names: Sequence[str]) -> set[str]:
+    """The inputs, which come first, and the greatest answers."""
+    end = names.index("status") if "status" in names else 3
+    return {*names[1 : max(end, 2)][:6], "impact_count", "peak_force_n"}
+
+
+def _item(value: Any) -> object:
+    return value.item() if hasattr(value, "item") else value
+
+
+def spectrum_html(spectrum: Spectrum) -> str:
+    """Pseudo-acceleration and displacement over the period."""
+    labels = [f"{100 * damping:.3g} %" for damping in spectrum.damping]
+    kinds = (("Pseudo-acceleration", "m/s²", spectrum.pseudo_acceleration), ("Displacement", "m", spectrum.displacement))
+    pictures = (
+        history_svg(title, unit, [(label, spectrum.periods, row) for label, row in zip(labels, rows)])
+        for title, unit, rows in kinds
+        if len(spectrum.periods)
+    )
+    rows = []
+    for label, periods, values in zip(labels, [spectrum.periods] * len(labels), spectrum.pseudo_acceleration):
+        at = int(values.argmax()) if len(values) else 0
+        if len(values):
+            rows.append((label, f"{values[at]:.4g}", f"{periods[at]:.4g}"))
+    return _framed("Response spectra", _rows(("damping", "greatest [m/s²]", "at period [s]"), rows), *pictures)
+
+
+def comparison_html(comparison: Comparison) -> str:
+    """Scores of all histories."""
+    rows = []
+    for column in comparison.summary["columns"]:
+        score = column["score"]
+        rows.append((column["computed"], column["measured"], *(_cell(value) for value in score.values())))
+    keys = list(comparison.summary["columns"][0]["score"]) if rows else []
+    heads = ("computed", "measured", *(key.replace("_", " ") for key in keys))
+    return _framed(comparison.summary["title"], _rows(heads, rows))
+
+
+def advice_html(advice: ContactAdvice) -> str:
+    """Estimates of stiffness, and the recommended values."""
+    rows = [
+        (own.name, own.family, f"{own.stiffness:.3e}", f"{1e-3 * own.peak_force:.1f}", f"{1e3 * own.duration:.2f}")
+        for own in advice.estimates
+    ]
+    heads = ("estimate", "family", "stiffness [N/m^1.5, N/m]", "peak force [kN]", "duration [ms]")
+    known = [("hertz [N/m^1.5]", advice.hertz), ("linear [N/m]", advice.linear), ("restitution", advice.restitution)]
+    wanted = [(name, f"{r.value:.3g}", f"{r.low:.3g}", f"{r.high:.3g}") for name, r in known if r is not None]
+    picture = bars_svg("Peak force", "kN", [(own.name, 1e-3 * own.peak_force) for own in advice.estimates])
+    notes = "".join(f'<div style="opacity:.75">{_text(note)}</div>' for note in advice.notes)
+    title = "–".join(advice.between)
+    return _framed(title, _rows(("recommended", "value", "low", "high"), wanted), _rows(heads, rows), picture, notes)
+
+
+def selection_html(selection: Selection) -> str:
+    """Rules and motions."""
+    rules = [("yes" if own["met"] else "no", own["found"], own["asked"], own["clause"]) for own in selection.rules]
+    rows = [(own["name"], f"{own['pga_m_s2']:.4g}", *(f"{r:.3f}" for r in own["ratios"])) for own in selection.motions]
+    heads = ("motion", "peak [m/s²]", *(f"÷ code at {period:g} s" for period in selection.tree["periods_s"]))
+    picture = bars_svg("Base shear ÷ code", "–", [(own["name"], own["base_shear_ratio"]) for own in selection.motions])
+    title = selection.tree["code"] + (": met" if selection.passes else ": not met")
+    return _framed(title, _rows(("met", "found", "asked", "clause"), rules), _rows(heads, rows), picture)
+
+
+def section_html(answer: SectionAnswer) -> str:
+    """Cracking and yield, and moment over curvature."""
+    import numpy as np
+
+    rows: list[tuple[str, ...]] = []
+    curves: list[Curve] = []
+    for at, own in enumerate(answer.tree):
+        for kind in ("formula", "fibre"):
+            side = own[kind].get("positive")
+            if side is not None:
+                moments = (side["cracking_moment_nm"], side["yield_moment_nm"])
+                turns = (side["cracking_rotation_rad"], side["yield_rotation_rad"])
+                numbers = (f"{1e-3 * moments[0]:.1f}", f"{1e3 * turns[0]:.3f}", f"{1e-3 * moments[1]:.1f}", f"{1e3 * turns[1]:.3f}")
+                rows.append((own["name"], kind, *numbers))
+        if "error" not in own["fibre"] and len(curves) < 4:
+            curvature, moment = answer.curve(at)
+            curves.append((own["name"], np.asarray(curvature), 1e-3 * moment))
+    heads = ("section", "by", "cracks [kN.m]", "[mrad]", "yields [kN.m]", "[mrad]")
+    picture = history_svg("Moment over curvature", "kN.m", curves, abscissa=" 1/m") if curves else ""
+    return _framed("Sections", _rows(heads, rows), picture)
+
+
+def size_html(answer: SizeAnswer) -> str:
+    """The best trial, and the objective trial by trial."""
+    import numpy as np
+
+    tree = answer.summary
+    best = tree["best"]
+    rows = [] if best is None else [(own["key"], own["text"]) for own in best["inputs"]]
+    found = "no trial keeps the conditions" if best is None else f"{best['objective']:.6g}"
+    rows.append((f"least {tree['minimise']}", found))
+    rows += [("keeps", condition) for condition in tree["keep"]]
+    front = [own for own in tree["trade_off"] if len(own["points"]) > 1]
+    picture = ""
+    if front:
+        points = np.array(front[0]["points"], dtype=float)
+        order = np.argsort(points[:, 0])
+        curve = (tree["minimise"], points[order, 0] - min(0.0, points[:, 0].min()), points[order, 1])
+        picture = history_svg(f"{tree['minimise']} against {front[0]['keep']}", "SI", [curve], abscissa="")
+    return _framed(tree["title"], _rows(("", "value"), rows), picture)
+
+
+def check_html(check: Check) -> str:
+    """Findings, warnings and the text."""
+    rows = [(own["grade"], own["where"], own["text"], own["remedy"]) for own in check.findings]
+    rows += [("warning", "", text, "") for text in check.warnings] + [("note", "", text, "") for text in check.notes]
+    site = check.site or ""
+    return _framed("Check", _rows(("grade", "where", "text", "remedy"), rows), site, text_html(str(check)))
+
+
+def bars_svg(title: str, unit: str, values: Sequence[tuple[str, float]]) -> str:
+    """Named values as horizontal bars."""
+    if not values:
+        return ""
+    most = max((value for _, value in values), default=0.0) or 1.0
+    left, width, step = 240, 760, 18
+    parts = [_svg_text(left, 14, f"{title} [{unit}]", "start", 12)]
+    for at, (name, value) in enumerate(values):
+        y = 26 + at * step
+        length = max(0.0, (width - left - 80) * value / most)
+        parts.append(f'<rect x="{left}" y="{y}" width="{length:.1f}" height="11" fill="{colour(at)}"/>')
+        parts.append(_svg_text(left - 8, y + 10, name[:38], "end", 11, 0.85))
+        parts.append(_svg_text(left + length + 6, y + 10, f"{value:.4g}", "start", 11, 0.85))
+    height = 34 + len(values) * step
+    return (
+        f'<svg viewBox="0 0 {width} {height}" width="{width}" role="img" '
+        f'style="max-width:100%;display:block;{_FONT}">{"".join(parts)}</svg>'
+    )

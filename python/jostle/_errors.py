@@ -23,6 +23,14 @@ class Fault:
         remedy: the remedy, if known.
         line: line of the model file, from 1; ``None`` for models made in Python.
         column: column on that line, from 1.
+
+    Examples:
+        >>> import jostle
+        >>> try:
+        ...     jostle.Model([jostle.Shear("a", mass="40 kg/m", storeys=2, storey_height=3)])
+        ... except jostle.ModelError as error:
+        ...     print(error.faults[0].path)
+        building[0].stiffness
     """
 
     path: str
@@ -33,7 +41,13 @@ class Fault:
 
 
 class JostleError(Exception):
-    """Base class of all errors of jostle."""
+    """Base class of all errors of jostle.
+
+    Examples:
+        >>> import jostle
+        >>> issubclass(jostle.ModelError, jostle.JostleError)
+        True
+    """
 
 
 class ModelError(JostleError, ValueError):
@@ -41,6 +55,14 @@ class ModelError(JostleError, ValueError):
 
     Attributes:
         faults: all faults of the model; empty if the error concerns a single argument.
+
+    Examples:
+        >>> import jostle
+        >>> try:
+        ...     jostle.run("paper", gap="3 kg")
+        ... except jostle.ModelError as error:
+        ...     print(error)
+        gap: expected a length (such as "3.2 m"), found "3 kg"
     """
 
     faults: tuple[Fault, ...]
@@ -58,6 +80,14 @@ class MissingFileError(ModelError, FileNotFoundError):
 
     Attributes:
         filename: the path as given.
+
+    Examples:
+        >>> import jostle
+        >>> try:
+        ...     jostle.Model.load("lost.toml")
+        ... except jostle.MissingFileError as error:
+        ...     print(error.filename)
+        lost.toml
     """
 
     def __init__(self, message: str = "", filename: str = "", faults: Sequence[FaultParts] = ()) -> None:
@@ -74,6 +104,11 @@ class AnalysisError(JostleError, RuntimeError):
 
     Attributes:
         result: the results up to the failure; ``None`` if there are none.
+
+    Examples:
+        >>> import jostle
+        >>> issubclass(jostle.AnalysisError, RuntimeError)
+        True
     """
 
     result: Result | None
@@ -84,16 +119,44 @@ class AnalysisError(JostleError, RuntimeError):
 
 
 class JostleWarning(UserWarning):
-    """Base class of all warnings: a result may not be as intended."""
+    """Base class of all warnings: a result may not be as intended.
+
+    Examples:
+        >>> import jostle
+        >>> issubclass(jostle.ModelWarning, jostle.JostleWarning)
+        True
+    """
 
 
 class ModelWarning(JostleWarning):
-    """A model is valid but unusual."""
+    """A model is valid but unusual.
+
+    Examples:
+        >>> import jostle
+        >>> import warnings
+        >>> with warnings.catch_warnings(record=True) as caught:
+        ...     warnings.simplefilter("always")
+        ...     model = jostle.Model.paper_example().set("gap[0].width", "3 m")
+        >>> issubclass(caught[0].category, jostle.ModelWarning)
+        True
+    """
 
 
 class StudyWarning(JostleWarning):
-    """A folder of results contained a damaged file or one of another study; it was moved to ``set-aside``."""
+    """A folder of results contained a damaged file or one of another study; it was moved to ``set-aside``.
+
+    Examples:
+        >>> import jostle
+        >>> issubclass(jostle.StudyWarning, jostle.JostleWarning)
+        True
+    """
 
 
 class InterruptedWarning(JostleWarning):
-    """Ctrl-C stopped a run; the result covers the time until then."""
+    """Ctrl-C stopped a run; the result covers the time until then.
+
+    Examples:
+        >>> import jostle
+        >>> issubclass(jostle.InterruptedWarning, UserWarning)
+        True
+    """

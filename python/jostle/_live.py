@@ -8,7 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, Any
 
 from . import _jostle
-from ._model import Model
+from ._model import Base, Model
 from ._run import run
 
 try:
@@ -93,9 +93,9 @@ class LiveWidget(anywidget.AnyWidget, metaclass=traitlets.MetaHasTraits):
     _esm = _SCRIPT
     _page = traitlets.Unicode().tag(sync=True)
 
-    def __init__(self, engine: _jostle.Live, folder: str, title: str) -> None:
+    def __init__(self, engine: _jostle.Live, base: Base, title: str) -> None:
         self._engine = engine
-        self._folder = folder
+        self._base = base
         #: Values of the model by path, to read and to set.
         self.values = Values(self)
         self._found: tuple[str, Result] | None = None
@@ -110,7 +110,8 @@ class LiveWidget(anywidget.AnyWidget, metaclass=traitlets.MetaHasTraits):
     @property
     def model(self) -> Model:
         """The model as it now stands."""
-        return Model.loads(self._engine.text, folder=self._folder)
+        name, _, is_json, folder, files = self._base
+        return Model._read((name, self._engine.text, is_json, folder, files))
 
     @property
     def result(self) -> Result:
@@ -177,8 +178,5 @@ class LiveWidget(anywidget.AnyWidget, metaclass=traitlets.MetaHasTraits):
 
 def widget(model: Model) -> LiveWidget:
     """The widget of a model."""
-    text, folder, changes = model._file()
-    engine = _jostle.Live("model", text, folder)
-    for path, typed in changes.items():
-        engine.set(path, typed)
-    return LiveWidget(engine, folder, model.title or "model")
+    base = model._base()
+    return LiveWidget(_jostle.Live(base), base, model.title or "model")

@@ -24,6 +24,12 @@ class Matrices:
         stiffness: K, P-Delta and base springs included, shape ``(n, n)``.
         driven_mass: mass on which the horizontal ground acceleration acts [kg], shape ``(n,)``.
         floors: degree of freedom of the horizontal displacement of every floor from the ground up.
+
+    Examples:
+        >>> import jostle
+        >>> tower = jostle.Shear("A", mass="40 t", stiffness="60 MN/m", storeys=2, storey_height="3 m")
+        >>> jostle.Model([tower]).matrices("A").stiffness.shape
+        (2, 2)
     """
 
     mass: npt.NDArray[np.float64]

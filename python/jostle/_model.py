@@ -6,22 +6,34 @@ import json
 import os
 import warnings
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
 from . import _jostle
 from ._builders import Building, Gap, Link, Part, Soil, Table, Wall
 from ._errors import MissingFileError, ModelError, ModelWarning
 from ._motion import Motion
-from ._tree import text_of
+from ._tree import text_of, value_text
 from ._units import Quantity, RunUnits, argument, in_si, refuse
 
 if TYPE_CHECKING:
+    from ._check import Check
+    from ._export import Script
     from ._live import LiveWidget
     from ._matrices import Matrices
     from typing_extensions import Unpack
 
     import numpy as np
     import numpy.typing as npt
+
+
+#: Name, text, whether it is JSON, folder, and files in memory by name.
+Base = tuple[str, str, bool, str, dict[str, str]]
+#: Keys of ``[motion]`` that say which motion it is and how it is scaled.
+_OF_MOTION = (
+    "record", "kind", "amplitude", "period", "centre", "unit", "step", "column", "component", "format", "record_scale",
+    "remove_mean", "read", "pga", "scale", "match", "reverse", "duration", "angle", "across",
+)  # fmt: skip
 
 
 class Model:
@@ -45,6 +57,13 @@ class Model:
 
     Raises:
         ModelError: all faults at once, with the message of the command line.
+
+    Examples:
+        >>> import jostle
+        >>> tower = jostle.Shear("A", mass="40 t", stiffness="60 MN/m", storeys=2, storey_height="3 m")
+        >>> model = jostle.Model([tower], motion=jostle.Motion.el_centro(), title="A tower")
+        >>> model.set("building.A.mass", "50 t").buildings
+        ['A']
     """
 
     _core: _jostle.Model
@@ -87,7 +106,7 @@ class Model:
         elif motion is not None and not isinstance(motion, Motion):
             tree["motion"] = motion
         given = motion if isinstance(motion, Motion) else None
-        self._build("read", ("model", text_of(tree), True, os.getcwd(), False), given)
+        self._build("read", ("model", text_of(tree), True, os.getcwd(), False, None), given)
 
     def _build(self, how: str, arguments: tuple[Any, ...], motion: Motion | None = None) -> None:
         core = getattr(_jostle.Model, how)(*arguments)
@@ -97,14 +116,24 @@ class Model:
         self._core = core if motion is None else core.changed(motion=motion._core)
 
     @classmethod
-    def load(cls, path: str | os.PathLike[str]) -> Model:
+    def load(cls, path: str | os.PathLike[str], *, accept_unusual: bool = False) -> Model:
         """Reads a model file: JSON if its name ends in ``.json``, else TOML.
+
+        Args:
+            path: the file.
+            accept_unusual: accepts values outside their usual ranges, as ``accept_unusual = true`` of the file.
 
         Raises:
             MissingFileError: there is no such file; a ``ModelError`` and a ``FileNotFoundError``.
             ModelError: all faults of the file at once, each with its line and a remedy.
         """
         name = os.fspath(path)
+        is_json = name.lower().endswith(".json")
+        if accept_unusual and os.path.isfile(name):
+            with open(name, encoding="utf-8-sig") as file:
+                folder = os.path.dirname(os.path.abspath(name))
+                base: Base = (name, file.read(), is_json, folder, {})
+            return cls._read(base, [("analysis.accept_unusual", "true")])
         model = cls.__new__(cls)
         try:
             model._build("load", (name,))
@@ -114,8 +143,7 @@ class Model:
             raise MissingFileError(str(error), name, error.args[1]) from None
         # A pickled model brings its text along; the records stay where they are.
         text, folder = model._core.text, os.path.dirname(os.path.abspath(name))
-        is_json = name.lower().endswith(".json")
-        model._recipe = ("read", (name, text, is_json, folder, True), None, None, None, None, None)
+        model._recipe = ("read", (name, text, is_json, folder, True, None), None, None, None, None, None)
         return model
 
     @classmethod
@@ -158,7 +186,7 @@ class Model:
             raise TypeError(f"text: expected a text, found {type(text).__name__}")
         is_json = text.lstrip().startswith("{")
         model = cls.__new__(cls)
-        model._build("read", (name, text, is_json, os.path.abspath(folder), True))
+        model._build("read", (name, text, is_json, os.path.abspath(folder), True, None))
         return model
 
     @classmethod
@@ -170,7 +198,7 @@ class Model:
             folder: folder of the records; the current folder by default.
         """
         model = cls.__new__(cls)
-        model._build("read", ("model", text_of(tree), True, os.path.abspath(folder), False))
+        model._build("read", ("model", text_of(tree), True, os.path.abspath(folder), False, None))
         return model
 
     @classmethod
@@ -205,7 +233,7 @@ class Model:
         *,
         gap: Quantity | None = None,
         pga: Quantity | None = None,
-        motion: Motion | str | os.PathLike[str] | None = None,
+        motion: Motion | str | os.PathLike[str] | Sequence[Motion | str | os.PathLike[str]] | None = None,
         angle: Quantity | None = None,
         **units: Unpack[RunUnits],
     ) -> Model:
@@ -215,7 +243,8 @@ class Model:
             gap: width of every gap, a length ≥ 0; also ``gap_mm=20``.
             pga: scales the ground motion to this peak, > 0; also ``pga_g=0.2``.
             motion: a :class:`Motion` is used as it is; a record by name or path keeps the scaling of the model,
-                as ``--record`` of the command line does.
+                as on the command line. A list of one or the other gives a model with several records, for
+                :func:`run_suite`, :func:`critical_gap` and :class:`Study`; waves given by a formula become records then.
             angle: angle in plan from x to the motion, counter-clockwise, of buildings with a plan: ``"30 deg"``, or
                 radians.
 
@@ -227,6 +256,11 @@ class Model:
         peak = argument("pga", pga, "acceleration", extra)
         turn = None if angle is None else in_si("angle", angle, "number")
         refuse("changed", extra, ["gap", "pga", "motion", "angle", *RunUnits.__annotations__])
+        if motion is not None and not isinstance(motion, (Motion, str, os.PathLike)):
+            several = self._with_records(list(motion))
+            rest: dict[str, Any] = {"gap": width, "pga": peak, "angle": turn}
+            rest = {name: value for name, value in rest.items() if value is not None}
+            return several.changed(**rest) if rest else several
         given = motion if isinstance(motion, Motion) else None
         record = None if motion is None or given is not None else os.fspath(cast(str, motion))
         model = type(self).__new__(type(self))
@@ -235,6 +269,150 @@ class Model:
         )
         model._recipe = (self._recipe, (), given, width, peak, record, turn)
         return model
+
+    def set(self, path: str, value: object) -> Model:
+        """Returns the model with one value of its model file changed; the new model can vary in studies.
+
+        Args:
+            path: ``"gap[0].width"``, ``"gap[*].width"``, ``"building.J1.damping.ratio"``, ``"output.members"``, … as in
+                studies; tables that are absent are made.
+            value: text with unit, number in SI, flag, list, dict, NumPy array or pint quantity; ``None`` removes the key.
+
+        Raises:
+            ModelError: the path leads nowhere, or the value is wrong.
+        """
+        if not isinstance(path, str):
+            raise TypeError(f"path: expected a text, found {type(path).__name__}")
+        return self._read(self._base(), [(path, None if value is None else value_text(value, path))])
+
+    @classmethod
+    def _read(cls, base: Base, edits: Sequence[tuple[str, str | None]] = ()) -> Model:
+        """The model of a text, with values put in."""
+        name, text, is_json, folder, files = base
+        if edits:
+            text = _jostle.rewritten(base, list(edits))
+        model = cls.__new__(cls)
+        model._build("read", (name, text, is_json, folder, False, files))
+        return model
+
+    def _base(self) -> Base:
+        """The model with all its changes as the text of a model file, and its motions as files in memory."""
+        how, arguments, motion, gap, pga, record, angle = self._recipe
+        if isinstance(how, tuple):
+            base = _rebuild(*how)._base()
+        elif how == "builtin":
+            base = (str(arguments[0]), self._core.text, False, "", {})
+        else:
+            name, text, is_json, folder, _, files = arguments
+            base = (name, text, is_json, folder, dict(files or {}))
+        edits: list[tuple[str, str | None]] = []
+        if gap is not None:
+            for at, widths in enumerate(self._core.widths()):
+                edits.append((f"gap[{at}].width", json.dumps(widths[0] if len(widths) == 1 else widths)))
+        if motion is not None:
+            table, files = motion._as_table(set(base[4]))
+            base[4].update(files)
+            edits += [(f"motion.{key}", None) for key in _OF_MOTION]
+            edits += [(f"motion.{key}", json.dumps(value)) for key, value in table.items()]
+        if record is not None:
+            edits.append(("motion.record", json.dumps(_placed(record))))
+        if pga is not None:
+            edits.append(("motion.pga", json.dumps(pga)))
+        if angle is not None:
+            edits.append(("motion.angle", json.dumps(angle)))
+        if not edits:
+            return base
+        return (base[0], _jostle.rewritten(base, edits), *base[2:])
+
+    def _with_records(self, motions: Sequence[Motion | str | os.PathLike[str]]) -> Model:
+        """The model with a list of records."""
+        if not motions:
+            raise ModelError("motion: the list is empty")
+        base = self._base()
+        own = [motion for motion in motions if isinstance(motion, Motion)]
+        if own and len(own) != len(motions):
+            raise ModelError("motion: give either Motion objects or records by name; Motion.read(name) reads a record")
+        names: list[str] = []
+        edits: list[tuple[str, str | None]] = []
+        for motion in motions:
+            if isinstance(motion, Motion):
+                table, files = motion._baked()._as_table(set(base[4]))
+                base[4].update(files)
+                names.append(table["record"])
+            else:
+                names.append(_placed(os.fspath(motion)))
+        if own:
+            edits = [(f"motion.{key}", None) for key in _OF_MOTION if key not in ("angle", "across")]
+        edits.append(("motion.record", json.dumps(names)))
+        return self._read(base, edits)
+
+    def to_toml(self) -> str:
+        """The text of the model as a model file in TOML, with all its changes; comments of a TOML file stay.
+
+        A :class:`Motion` object of the model is named there as a record; :meth:`save` writes that file.
+        """
+        return _jostle.as_toml(self._base())
+
+    def save(self, path: str | os.PathLike[str], *, force: bool = False) -> Path:
+        """Writes the model as a TOML file, and beside it the records and matrices that it names.
+
+        Args:
+            path: the file, ``.toml``.
+            force: true replaces files that exist.
+
+        Returns:
+            The path.
+
+        Raises:
+            FileExistsError: a file exists; nothing is written.
+        """
+        target = Path(path)
+        if target.suffix.lower() == ".json":
+            raise ModelError(f"{target}: models are saved as TOML; name the file {target.with_suffix('.toml').name}")
+        base = self._base()
+        files = {name: text.encode() for name, text in base[4].items()}
+        folder = Path(base[3])
+        for name in _jostle.named_files(base):
+            source = folder / name
+            if name in files or os.path.isabs(name) or not source.is_file() or folder == target.parent.absolute():
+                continue
+            if ".." in Path(name).parts:
+                raise ModelError(f"{name}: a file outside the folder of the model; set its absolute path before saving")
+            files[name] = source.read_bytes()
+        written = {target: _jostle.as_toml(base).encode(), **{target.parent / name: data for name, data in files.items()}}
+        for place, data in written.items():
+            if not force and place.exists() and place.read_bytes() != data:
+                raise FileExistsError(f"{place} exists already; pass force=True to replace it")
+        for place, data in written.items():
+            place.parent.mkdir(parents=True, exist_ok=True)
+            place.write_bytes(data)
+        return target
+
+    def check(self) -> Check:
+        """Checks the model without running it: masses, periods, contacts, findings, expected work.
+
+        Raises:
+            ModelError: the ground motion cannot be used, or a run would lose its digits.
+        """
+        from ._check import Check
+
+        return Check(json.loads(self._core.check()))
+
+    def export(self, path: str | os.PathLike[str] | None = None, *, to: str = "openseespy", force: bool = False) -> Script:
+        """The model for another program: a script for OpenSeesPy, or NumPy archives of matrices.
+
+        Args:
+            path: file for the script, or folder for the matrices, which need one.
+            to: ``"openseespy"`` or ``"matrices"``.
+            force: true replaces files that jostle did not write.
+
+        Raises:
+            ModelError: the model has what the other program lacks, field by field.
+            FileExistsError: a file exists and jostle did not write it.
+        """
+        from ._export import export
+
+        return export(self, path, to, force)
 
     @property
     def title(self) -> str:
@@ -291,35 +469,10 @@ class Model:
 
         Raises:
             ImportError: ``anywidget`` is missing; ``pip install "jostle[live]"`` installs it.
-            ModelError: the motion is an object and not a record that a model file can name.
         """
         from ._live import widget
 
         return widget(self)
-
-    def _file(self) -> tuple[str, str, dict[str, str]]:
-        """Text of the model file, its folder, and the values that were changed since, by path."""
-        how, arguments, motion, gap, pga, record, angle = self._recipe
-        if motion is not None:
-            raise ModelError(
-                "live() needs a motion that a model file can name: write its acceleration to a "
-                "record file, and name that file as the record",
-                [],
-            )
-        if isinstance(how, tuple):
-            text, folder, changes = _rebuild(*how)._file()
-        else:
-            text, changes = self._core.text, {}
-            folder = os.fspath(arguments[3]) if how == "read" else ""
-        if gap is not None:
-            changes["gap[*].width"] = f"{gap!r} m"
-        if pga is not None:
-            changes["motion.pga"] = f"{pga!r} m/s2"
-        if record is not None:
-            changes["motion.record"] = record
-        if angle is not None:
-            changes["motion.angle"] = repr(angle)
-        return text, folder, changes
 
     def __repr__(self) -> str:
         return f"<Model {self.title!r}: {', '.join(self.buildings)}>"
@@ -351,6 +504,11 @@ def _rebuild(
     model._core = core.changed(gap=gap, pga=pga, motion=given, record=record, angle=angle)
     model._recipe = (how, arguments, motion, gap, pga, record, angle)
     return model
+
+
+def _placed(record: str) -> str:
+    """A record from anywhere: its absolute path, or a built-in name as it is."""
+    return os.path.abspath(record) if os.path.exists(record) else record
 
 
 def _table(part: object) -> object:

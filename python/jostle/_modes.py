@@ -28,6 +28,11 @@ class BuildingModes:
         lateral: whether the mode is lateral (at least 1 % of the mass horizontally), shape ``(n,)``.
         floor_shapes: horizontal shapes at the floors from the ground up, the greatest ±1 [–], shape ``(n, f)``.
         lateral_periods: periods of the lateral modes, at most ``count`` [s].
+
+    Examples:
+        >>> import jostle
+        >>> jostle.modes(jostle.Model.paper_example(), count=3)["J1"].periods.round(3)
+        array([0.841, 0.271, 0.155])
     """
 
     name: str
@@ -62,6 +67,11 @@ def modes(model: Model, count: int = 10) -> dict[str, BuildingModes]:
 
     Raises:
         AnalysisError: the modes were not found.
+
+    Examples:
+        >>> import jostle
+        >>> list(jostle.modes(jostle.Model.paper_example(), count=2))
+        ['J1', 'J2']
     """
     if not isinstance(model, Model):
         raise TypeError(f"model: expected a Model, found {type(model).__name__}")

@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import json
 import os
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, cast
 
 from . import _jostle
-from ._errors import MissingFileError, ModelError
+from ._errors import JostleWarning, MissingFileError, ModelError
 from ._units import MotionUnits, Quantity, argument, in_si, refuse
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
+
+    from ._selection import DesignSpectrum, Selection
 
     import numpy as np
     import numpy.typing as npt
@@ -32,6 +36,12 @@ class Spectrum:
         total_acceleration: [m/s²], shape ``(d, n)``.
         inelastic: one dict for each pair: ``damping``, ``ductility``, ``yield_acceleration_m_s2``, ``reduction`` and
             ``displacement_m``.
+
+    Examples:
+        >>> import jostle
+        >>> spectrum = jostle.Motion.el_centro().spectrum([0.5, 1.0], damping=[0.02, 0.05])
+        >>> spectrum.pseudo_acceleration.shape
+        (2, 2)
     """
 
     periods: npt.NDArray[np.float64]
@@ -41,6 +51,11 @@ class Spectrum:
     pseudo_acceleration: npt.NDArray[np.float64]
     total_acceleration: npt.NDArray[np.float64]
     inelastic: list[dict[str, Any]]
+
+    def _repr_html_(self) -> str:
+        from ._draw import spectrum_html
+
+        return spectrum_html(self)
 
 
 def _spectrum(tree: dict[str, Any]) -> Spectrum:
@@ -73,9 +88,17 @@ class Motion:
 
     Raises:
         ModelError: too few values, values that are not finite or beyond 100 m/s², an unusable step or unit.
+
+    Examples:
+        >>> import jostle
+        >>> motion = jostle.Motion.el_centro().scaled(pga="0.2 g")
+        >>> round(motion.pga, 3)
+        1.961
     """
 
     _core: _jostle.Motion
+    #: How well an artificial motion matches its spectrum: ``misfit``, ``worst_period_s``, …; ``None`` of others.
+    matched: dict[str, Any] | None = None
 
     def __init__(
         self,
@@ -87,6 +110,8 @@ class Motion:
     ) -> None:
         import numpy as np
 
+        if hasattr(acceleration, "dimensionality"):  # a quantity of pint has its own unit
+            acceleration, unit = cast(Any, acceleration).to("m/s**2").magnitude, "m/s2"
         values = np.ascontiguousarray(acceleration, dtype=np.float64)
         if values.ndim != 1:
             raise TypeError(f"acceleration: expected one row of numbers, found shape {values.shape}")
@@ -108,6 +133,9 @@ class Motion:
         column: int | None = None,
         component: str | int | None = None,
         read: Mapping[str, Any] | None = None,
+        format: str | None = None,
+        record_scale: float | None = None,
+        remove_mean: bool | None = None,
     ) -> Motion:
         """Reads a record in a supported format, or returns a built-in one by its name.
 
@@ -119,6 +147,9 @@ class Motion:
             component: channel of a file with several: its name, a direction such as ``"N-S"``, or its number.
             read: how the lines of a text file are read, as ``read`` in model files: ``skip``, ``last``, ``per_line``,
                 ``content`` (``"values"``, ``"pairs"`` or ``"columns"``) and ``widths``, such as ``{"per_line": 8}``.
+            format: format of the file, if it is recognised wrongly.
+            record_scale: factor on the numbers of the file, for example the size of one count.
+            remove_mean: true removes the mean of the record.
 
         Raises:
             MissingFileError: neither a file nor a built-in record; a ``ModelError`` and a ``FileNotFoundError``.
@@ -135,7 +166,9 @@ class Motion:
         lines = (skip, last, per_line, content, None if widths is None else list(widths))
         channel = None if component is None else str(component)
         try:
-            return cls._of(_jostle.Motion.record(name, unit, seconds, column, channel, lines))
+            return cls._of(_jostle.Motion.record(
+                    name, unit, seconds, column, channel, lines, format, record_scale, remove_mean
+                ))
         except ModelError as error:
             if os.path.lexists(name) or "there is no record" not in str(error):
                 raise
@@ -206,6 +239,303 @@ class Motion:
                 None if duration is None else _positive("duration", duration),
             )
         )
+
+    @staticmethod
+    def builtin() -> dict[str, str]:
+        """Built-in motions: name and description."""
+        return dict(_jostle.motion_list())
+
+    @classmethod
+    def synth(
+        cls,
+        target: DesignSpectrum,
+        *,
+        seed: int = 1,
+        duration: Quantity = 40.0,
+        step: Quantity = 0.005,
+        pga: Quantity | None = None,
+        periods: tuple[Quantity, Quantity] | None = None,
+        damping: float = 0.05,
+        tolerance: float = 0.05,
+    ) -> Motion:
+        """An artificial motion, sines under an envelope, matched to a design spectrum; ``motion.matched`` says how well.
+
+        Args:
+            target: the spectrum.
+            seed: seed of the phases.
+            duration: length, > 0.
+            step: time step, > 0.
+            pga: peak acceleration; by default that of the code for time histories, or of the spectrum at T = 0.
+            periods: first and last matched period; by default from 0.05 s, or four steps, to 6 s, or the end of the spectrum.
+            damping: fraction of critical.
+            tolerance: largest difference from the spectrum.
+
+        Raises:
+            ModelError: a number outside its range, or the spectrum cannot be matched.
+        """
+        numbers = (_positive("step", step), _positive("duration", duration), float(damping), float(tolerance))
+        return cls._matched_to(target, None, numbers, seed, pga, periods)
+
+    def match(
+        self,
+        target: DesignSpectrum,
+        *,
+        pga: Quantity | None = None,
+        periods: tuple[Quantity, Quantity] | None = None,
+        damping: float = 0.05,
+        tolerance: float = 0.05,
+    ) -> Motion:
+        """This motion matched to a design spectrum; step and duration are kept. Arguments as for :meth:`synth`.
+
+        Raises:
+            ModelError: a number outside its range, or the spectrum cannot be matched.
+        """
+        return self._matched_to(target, self._core, (0.005, 40.0, float(damping), float(tolerance)), 1, pga, periods)
+
+    @classmethod
+    def _matched_to(
+        cls,
+        target: DesignSpectrum,
+        record: _jostle.Motion | None,
+        numbers: tuple[float, float, float, float],
+        seed: int,
+        pga: Quantity | None,
+        periods: tuple[Quantity, Quantity] | None,
+    ) -> Motion:
+        peak = None if pga is None else in_si("pga", pga, "acceleration")
+        ends = None if periods is None else [in_si("periods", period, "time") for period in periods]
+        if ends is not None and len(ends) != 2:
+            raise ValueError(f"periods: expected the first and the last one, found {len(ends)}")
+        return cls._made(*_jostle.match_spectrum(target._words, record, numbers, seed, peak, ends))
+
+    @classmethod
+    def _made(cls, core: _jostle.Motion, facts: str, warning: str | None) -> Motion:
+        motion = cls._of(core)
+        motion.matched = json.loads(facts)
+        if warning is not None:
+            warnings.warn(warning, JostleWarning, stacklevel=4)
+        return motion
+
+    @classmethod
+    def recipe(cls, name: str) -> Motion:
+        """An artificial motion with a name, such as ``"nanjing-artificial"``, made again from its recipe."""
+        return cls._made(*_jostle.recipe(name))
+
+    @classmethod
+    def noise(
+        cls,
+        *,
+        pga: Quantity,
+        seed: int = 1,
+        duration: Quantity = 30.0,
+        step: Quantity = 0.005,
+        frequency: Quantity = 2.5,
+        ground_damping: float = 0.6,
+        corner: Quantity = 0.25,
+        corner_damping: float = 0.6,
+    ) -> Motion:
+        """Filtered white noise (Kanai and Tajimi, Clough and Penzien).
+
+        Args:
+            pga: peak acceleration, > 0.
+            seed: seed of the noise.
+            duration: length, > 0.
+            step: time step, > 0.
+            frequency: frequency of the ground filter [Hz].
+            ground_damping: its damping.
+            corner: frequency of the second filter [Hz]; 0 disables it.
+            corner_damping: its damping.
+        """
+        numbers = (
+            _positive("step", step),
+            _positive("duration", duration),
+            in_si("pga", pga, "acceleration"),
+            in_si("frequency", frequency, "frequency"),
+            float(ground_damping),
+            in_si("corner", corner, "frequency"),
+            float(corner_damping),
+        )
+        return cls._of(_jostle.noise(numbers, seed))
+
+    @classmethod
+    def pulse(
+        cls,
+        *,
+        shape: str,
+        velocity: Quantity,
+        period: Quantity,
+        gamma: float = 2.0,
+        phase: float = 0.0,
+        before: Quantity = 1.0,
+        after: Quantity = 5.0,
+        step: Quantity = 0.005,
+    ) -> Motion:
+        """A near-fault velocity pulse.
+
+        Args:
+            shape: ``"mavroeidis"``, ``"makris-a"``, ``"makris-b"``, ``"makris-c1"``, ``"makris-c2"``, …
+            velocity: peak velocity, > 0.
+            period: period of the pulse, > 0.
+            gamma: oscillations of a mavroeidis pulse, above 1.
+            phase: its phase [rad].
+            before: time at rest before the pulse.
+            after: time at rest after it.
+            step: time step, > 0.
+        """
+        numbers = (
+            in_si("velocity", velocity, "speed"),
+            _positive("period", period),
+            float(gamma),
+            in_si("phase", phase, "number"),
+            in_si("before", before, "time"),
+            in_si("after", after, "time"),
+            _positive("step", step),
+        )
+        return cls._of(_jostle.pulse(shape, numbers))
+
+    @staticmethod
+    def select(
+        target: DesignSpectrum,
+        *,
+        periods: Sequence[Quantity],
+        natural: Sequence[Motion | str | os.PathLike[str]] = (),
+        artificial: Sequence[Motion | str | os.PathLike[str]] = (),
+        mass_ratios: Sequence[float] = (),
+        damping: float = 0.05,
+        pga: Quantity | None = None,
+        unscaled: bool = False,
+    ) -> Selection:
+        """Checks a set of motions by the rules of a code.
+
+        Args:
+            target: design spectrum of the code.
+            periods: main periods of the structure; the longest is T1.
+            natural: recorded motions.
+            artificial: artificial motions.
+            mass_ratios: effective mass ratio of each period; by default equal ones.
+            damping: fraction of critical.
+            pga: peak of every motion; by default that of the code for time histories.
+            unscaled: true leaves the motions as they are.
+
+        Raises:
+            ModelError: no motions, or a number outside its range.
+        """
+        from ._selection import Selection
+
+        def cores(motions: Sequence[Motion | str | os.PathLike[str]]) -> list[_jostle.Motion]:
+            return [(own if isinstance(own, Motion) else Motion.read(own))._core for own in motions]
+
+        seconds = [in_si("periods", period, "time") for period in periods]
+        peak = None if pga is None else in_si("pga", pga, "acceleration")
+        ratios = [float(ratio) for ratio in mass_ratios]
+        return Selection(
+            *_jostle.select(
+                target._words, cores(natural), cores(artificial), seconds, ratios, float(damping), peak, bool(unscaled)
+            )
+        )
+
+    def processed(
+        self,
+        *,
+        start: Quantity | None = None,
+        stop: Quantity | None = None,
+        detrend: int | None = None,
+        detrend_velocity: int | None = None,
+        high_pass: Quantity | None = None,
+        low_pass: Quantity | None = None,
+        order: int = 4,
+        resample: Quantity | None = None,
+        pad_before: Quantity | None = None,
+        pad_after: Quantity | None = None,
+        at_rest: bool = False,
+        scale: float | None = None,
+        pga: Quantity | None = None,
+    ) -> Motion:
+        """The motion after these steps, which are taken in this order.
+
+        Args:
+            start: keep from this time on.
+            stop: keep until this time.
+            detrend: subtract a polynomial of this degree fitted to the acceleration.
+            detrend_velocity: subtract the derivative of a polynomial of this degree fitted to the velocity.
+            high_pass: corner of a high-pass Butterworth filter without phase shift [Hz].
+            low_pass: corner of a low-pass one [Hz].
+            order: order of both filters: 2, 4, 6 or 8.
+            resample: new time step.
+            pad_before: time at rest before the motion.
+            pad_after: time at rest after it.
+            at_rest: true corrects the motion so that velocity and displacement end at zero.
+            scale: factor.
+            pga: peak acceleration.
+
+        Raises:
+            ModelError: a number outside its range.
+        """
+        given: dict[str, tuple[Quantity | None, str]] = {
+            "from": (start, "time"),
+            "to": (stop, "time"),
+            "high_pass": (high_pass, "frequency"),
+            "low_pass": (low_pass, "frequency"),
+            "resample": (resample, "time"),
+            "pad_before": (pad_before, "time"),
+            "pad_after": (pad_after, "time"),
+            "scale": (scale, "number"),
+            "pga": (pga, "acceleration"),
+        }
+        numbers = {name: in_si(name, value, kind) for name, (value, kind) in given.items() if value is not None}
+        for name, whole in (("detrend", detrend), ("detrend_velocity", detrend_velocity), ("order", order)):
+            if whole is not None:
+                if isinstance(whole, bool) or int(whole) != whole or whole < 0:
+                    raise ValueError(f"{name}: expected a whole number, found {whole!r}")
+                numbers[name] = float(whole)
+        return self._of(_jostle.processed(self._core, {**numbers, "at_rest": float(at_rest)}))
+
+    def measures(self) -> dict[str, Any]:
+        """Peaks, durations and intensities as ``jostle motion show`` prints them; names contain units."""
+        return cast("dict[str, Any]", json.loads(self._core.measures()))
+
+    def save(self, path: str | os.PathLike[str], *, force: bool = False) -> Path:
+        """Writes the motion, scale included, as ``.at2`` (g, eight digits) or ``.csv`` (m/s², all digits).
+
+        Raises:
+            FileExistsError: the file exists; ``force=True`` replaces it.
+        """
+        self._core.write(os.fspath(path), force)
+        return Path(path)
+
+    def report(self, path: str | os.PathLike[str], *, force: bool = False) -> Path:
+        """Writes a page with charts of the motion.
+
+        Raises:
+            FileExistsError: the file exists and jostle did not write it.
+        """
+        _jostle.write_text(os.fspath(path), self._core.page(), "page", force)
+        return Path(path)
+
+    def _baked(self) -> Motion:
+        """The values as they are used, as a record; a wave given by a formula with 200 points in a period."""
+        return Motion(self.acceleration, step=self.step or self._core.drawn_step, name=self.name)
+
+    def _as_table(self, taken: set[str]) -> tuple[dict[str, Any], dict[str, str]]:
+        """``[motion]`` of a model file, and the files that it names."""
+        name, _, numbers, pga, factor, reverse, duration = self._core.state()
+        table: dict[str, Any] = {}
+        files: dict[str, str] = {}
+        text = self._core.csv()
+        if text is not None:
+            plain = "".join(c if c.isalnum() or c in "-_ " else "_" for c in name).strip() or "motion"
+            file, count = f"{plain}.csv", 1
+            while file in taken:
+                count += 1
+                file = f"{plain}-{count}.csv"
+            table["record"], files[file] = file, text
+        elif len(numbers) == 2:
+            table.update(kind="sine", amplitude=numbers[0], period=numbers[1])
+        else:
+            table.update(kind="ricker", amplitude=numbers[0], period=numbers[1], centre=numbers[2])
+        scaling = {"pga": pga, "scale": factor, "reverse": reverse or None, "duration": duration}
+        table.update({key: value for key, value in scaling.items() if value is not None})
+        return table, files
 
     def scaled(
         self,

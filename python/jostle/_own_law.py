@@ -29,6 +29,16 @@ class Experiment:
         displacement: floors by building, from the ground up [m], each of shape ``(t, floors)``.
         contact_force: forces of the contacts, gap by gap, from the lowest up [N], shape ``(t, c)``.
         closing: closing of each contact [m], shape ``(t, c)``; contact starts when it exceeds the width of the gap.
+
+    Examples:
+        >>> import jostle
+        >>> law = jostle.ContactLaw(lambda indentation, rate, speed: 8e7 * indentation)
+        >>> soft = jostle.Shear("soft", mass=["40 t"], stiffness=["8 MN/m"], storey_height="3 m")
+        >>> stiff = jostle.Shear("stiff", mass=["60 t"], stiffness=["60 MN/m"], storey_height="3 m")
+        >>> pulse = jostle.Motion.ricker(amplitude="3 m/s2", period="0.6 s", duration="1 s")
+        >>> pair = jostle.Model([soft, stiff], jostle.Gap("5 mm"), motion=pulse)
+        >>> jostle.experiment(pair, law, step="1 ms").peak_force > 0
+        True
     """
 
     time: npt.NDArray[np.float64]
@@ -57,6 +67,16 @@ def experiment(model: Model, law: ContactLaw, *, step: Quantity = 1e-4) -> Exper
     Raises:
         ModelError: a building that may yield, or is too large.
         AnalysisError: the contact forces do not converge.
+
+    Examples:
+        >>> import jostle
+        >>> law = jostle.ContactLaw(lambda indentation, rate, speed: 8e7 * indentation)
+        >>> soft = jostle.Shear("soft", mass=["40 t"], stiffness=["8 MN/m"], storey_height="3 m")
+        >>> stiff = jostle.Shear("stiff", mass=["60 t"], stiffness=["60 MN/m"], storey_height="3 m")
+        >>> pulse = jostle.Motion.ricker(amplitude="3 m/s2", period="0.6 s", duration="1 s")
+        >>> pair = jostle.Model([soft, stiff], jostle.Gap("5 mm"), motion=pulse)
+        >>> jostle.experiment(pair, law, step="1 ms").peak_force > 0
+        True
     """
     import numpy as np
 

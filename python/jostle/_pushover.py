@@ -6,8 +6,7 @@ import json
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from ._collide import _as_keyword
-from ._errors import ModelError
+from ._answers import Answers
 from ._model import Model
 from ._units import Quantity, in_si
 
@@ -31,6 +30,12 @@ class CapacityCurve:
         events: at each point, hinges that crack or yield.
         end: reason for the end of the curve.
         tree: all results, as in ``jostle pushover --json``.
+
+    Examples:
+        >>> import jostle
+        >>> (curve,) = jostle.pushover(jostle.Model.example("paper-inelastic"), building="J1")
+        >>> curve.base_shear.shape == curve.roof_drift.shape
+        True
     """
 
     building: str
@@ -63,7 +68,7 @@ def pushover(
     pattern: str = "first-mode",
     direction: str = "right",
     drift: Quantity = 0.02,
-) -> list[CapacityCurve]:
+) -> Answers[CapacityCurve]:
     """Computes capacity curves of buildings, from corner to corner of their hinges.
 
     Args:
@@ -75,6 +80,12 @@ def pushover(
 
     Raises:
         ModelError: an invalid argument.
+
+    Examples:
+        >>> import jostle
+        >>> curves = jostle.pushover(jostle.Model.example("paper-inelastic"), drift=0.01)
+        >>> [curve.building for curve in curves]
+        ['J1', 'J2']
     """
     if not isinstance(model, Model):
         raise TypeError(f"model: expected a Model, found {type(model).__name__}")
@@ -82,11 +93,8 @@ def pushover(
         if not isinstance(value, str):
             raise TypeError(f"{name}: expected a text, found {type(value).__name__}")
     ratio = in_si("drift", drift, "number")
-    try:
-        text = model._core.pushover(building, pattern, direction, ratio)
-    except ModelError as error:
-        raise ModelError(_as_keyword(str(error))) from None
-    return [_curve(tree) for tree in json.loads(text)["curves"]]
+    text = model._core.pushover(building, pattern, direction, ratio)
+    return Answers(_curve(tree) for tree in json.loads(text)["curves"])
 
 
 def _curve(tree: dict[str, Any]) -> CapacityCurve:

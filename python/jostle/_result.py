@@ -50,6 +50,12 @@ class Floor:
         rotation: counter-clockwise seen from above [rad].
         rotation_rate: its rate [rad/s].
         rotation_acceleration: the rate of that [rad/s²].
+
+    Examples:
+        >>> import jostle
+        >>> result = jostle.run("paper")
+        >>> result.floor("J1", -1).displacement.shape == result.time.shape
+        True
     """
 
     building: str
@@ -79,6 +85,16 @@ class Corner:
         displacement: relative to the ground [m].
         velocity: relative to the ground [m/s].
         total_acceleration: ground included [m/s²], for small rotations.
+
+    Examples:
+        >>> import jostle
+        >>> def tower(name, x):
+        ...     plan = [[x, 0], [x + 12, 0], [x + 12, 8], [x, 8]]
+        ...     stiffness = {"x": "60 MN/m", "y": "50 MN/m", "torsion": "4 GN.m"}
+        ...     return jostle.Shear(name, mass=["90 t"], stiffness=[stiffness], storey_height="3 m", plan=plan)
+        >>> model = jostle.Model([tower("A", 0.0), tower("B", 12.02)], jostle.Gap(), motion=jostle.Motion.el_centro().lasting("5 s"))
+        >>> jostle.run(model).building("A").corner(3).at
+        (12.0, 8.0)
     """
 
     building: str
@@ -91,7 +107,14 @@ class Corner:
 
 
 class BuildingResult:
-    """Histories of one building: ``result.building("A").corner(3)``."""
+    """Histories of one building: ``result.building("A").corner(3)``.
+
+    Examples:
+        >>> import jostle
+        >>> result = jostle.run("paper")
+        >>> result.building("J1").floor(-1).floor
+        5
+    """
 
     _result: Result
     _at: int
@@ -174,6 +197,12 @@ class Contact:
         force: contact force on the instants of ``result.time``, positive in compression [N], shape ``(n,)``.
         peak_force: greatest force [N].
         impact_count: number of impacts.
+
+    Examples:
+        >>> import jostle
+        >>> result = jostle.run("paper", gap="10 mm")
+        >>> max(contact.impact_count for contact in result.contacts) > 0
+        True
     """
 
     between: tuple[str, str]
@@ -198,6 +227,15 @@ class LinkedFloors:
         peak_force: force of greatest magnitude, with its sign [N].
         peak_stroke: greatest change of length, either sign [m].
         dissipated: energy dissipated in the damper [J].
+
+    Examples:
+        >>> import jostle
+        >>> tower = jostle.Shear("A", mass="40 t", stiffness="60 MN/m", storeys=2, storey_height="3 m")
+        >>> other = jostle.Shear("B", mass="40 t", stiffness="90 MN/m", storeys=2, storey_height="3 m")
+        >>> link = jostle.Link(["A", "B"], damping="400 kN.s/m")
+        >>> pair = jostle.Model([tower, other], jostle.Gap("20 mm"), links=link, motion=jostle.Motion.el_centro())
+        >>> jostle.run(pair).links[0].dissipated > 0
+        True
     """
 
     between: tuple[str, str]
@@ -215,6 +253,12 @@ class Result:
     """Summary, histories and impacts of a run.
 
     Histories are read-only NumPy views of one table.
+
+    Examples:
+        >>> import jostle
+        >>> result = jostle.run("paper", gap="10 mm")
+        >>> len(result.impacts) == result.summary["gaps"][0]["impact_count"]
+        True
     """
 
     _core: _jostle.Run
@@ -482,18 +526,19 @@ class Result:
             return Result._of(self._model, twin, self._interval)
         return Result._of(self._model, self._twin, self._interval)
 
-    def _page(self) -> str:
+    def _page(self, method: bool = False) -> str:
         """The page of the report, compared with a run without contact only if there is one already."""
         twin = self.__dict__.get("without_contact")
-        return self._core.report(self._twin if twin is None else twin._core)
+        return self._core.report(self._twin if twin is None else twin._core, method)
 
-    def report(self, path: str | os.PathLike[str], *, force: bool = False) -> Path:
+    def report(self, path: str | os.PathLike[str], *, method: bool = False, force: bool = False) -> Path:
         """Writes the report: one HTML page with animation, histories and tables, which opens offline.
 
         The page includes a comparison with a run without contact, which is computed if it does not exist yet.
 
         Args:
             path: file to write; an earlier page of jostle is replaced.
+            method: adds how accurate each solver formulation is on these buildings.
             force: true replaces other files too.
 
         Returns:
@@ -504,10 +549,12 @@ class Result:
             OSError: the file cannot be written; it is then as it was before.
         """
         _ = self.without_contact
-        self._core.write(path, self._page(), force)
+        self._core.write(path, self._page(method), force)
         return Path(path)
 
-    def save(self, folder: str | os.PathLike[str], *, report: bool = True, force: bool = False) -> Path:
+    def save(
+        self, folder: str | os.PathLike[str], *, report: bool = True, method: bool = False, force: bool = False
+    ) -> Path:
         """Writes ``summary.json``, tables of histories, buildings, floors and impacts, and ``report.html``, as ``jostle run`` does.
 
         Models that yield also get ``hinges.parquet``.
@@ -515,6 +562,7 @@ class Result:
         Args:
             folder: created if it does not exist.
             report: false omits the report and its run without contact.
+            method: adds to the report how accurate each solver formulation is on these buildings.
             force: true replaces files of these names even if jostle did not write them.
 
         Returns:
@@ -528,7 +576,7 @@ class Result:
         twin = self._twin
         if report and twin is None and self.without_contact is not None:
             twin = self.without_contact._core
-        self._core.save(folder, report, twin)
+        self._core.save(folder, report, twin, method)
         return Path(folder)
 
     def to_excel(self, path: str | os.PathLike[str], *, force: bool = False) -> Path:

@@ -82,6 +82,12 @@ def run(
         ModelError: model, motion or an argument is wrong; :class:`MissingFileError` if the model file does not exist.
         TypeError: an unknown keyword, with the nearest known one.
         AnalysisError: a step failed; ``error.result`` has the results up to then.
+
+    Examples:
+        >>> import jostle
+        >>> result = jostle.run("paper", gap="10 mm", pga="0.1 g")
+        >>> result.completed
+        True
     """
     for key in units:
         if not any(split(key, (name,)) for name in ("gap", "pga")):

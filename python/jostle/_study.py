@@ -15,6 +15,8 @@ from typing import TYPE_CHECKING, Any, cast
 
 from . import _jostle
 from ._errors import AnalysisError, ModelError, ModelWarning, StudyWarning
+from ._answers import Answers
+from ._model import Base as _Base
 from ._model import Model
 from ._progress import Observer, ProgressLine
 from ._tree import text_of
@@ -31,10 +33,6 @@ class _CaseLine(ProgressLine):
         if self._is_due():
             part = min(max(time / max(duration, 1.0), 0.0), 1.0)
             self._draw(part, f"{time:.0f} of {duration:.0f} cases")
-
-
-#: Name, text, whether it is JSON, folder.
-_Base = tuple[str, str, bool, str]
 
 
 class Study:
@@ -54,10 +52,16 @@ class Study:
 
     Raises:
         ModelError: all faults at once, each with its location.
+
+    Examples:
+        >>> import jostle
+        >>> study = jostle.Study("paper", [{"name": "gap", "path": "gap[0].width", "values": ["20 mm", "40 mm"]}])
+        >>> study.cases
+        2
     """
 
     _core: _jostle.Study
-    _recipe: tuple[str, str, bool, str, _Base | None]
+    _recipe: tuple[str, str, bool, str, _Base | None, bool]
 
     def __init__(
         self,
@@ -75,24 +79,32 @@ class Study:
             tree["design"] = dict(design)
         base: _Base | None = None
         if isinstance(model, Model):
-            base = _base_of(model)
+            base = model._base()
         elif isinstance(model, Mapping):
             tree["model"] = dict(model)
         else:
             tree["base"] = os.fspath(model)
         self._build("study", text_of(tree, "study"), True, os.getcwd(), base)
 
-    def _build(self, name: str, text: str, is_json: bool, folder: str, base: _Base | None) -> None:
-        self._recipe = (name, text, is_json, folder, base)
-        self._core = _jostle.Study.read(name, text, is_json, folder, base)
+    def _build(
+        self, name: str, text: str, is_json: bool, folder: str, base: _Base | None, any_build: bool = False
+    ) -> None:
+        self._recipe = (name, text, is_json, folder, base, any_build)
+        self._core = _jostle.Study.read(name, text, is_json, folder, base, any_build)
         for warning in self._core.warnings:
             warnings.warn(warning, ModelWarning, stacklevel=3)
 
     @classmethod
     def load(
-        cls, path: str | os.PathLike[str], *, model: Model | None = None
+        cls, path: str | os.PathLike[str], *, model: Model | None = None, any_build: bool = False
     ) -> Study:
-        """Reads a study file, JSON if its name ends in ``.json``, else TOML; ``model`` replaces its base model."""
+        """Reads a study file, JSON if its name ends in ``.json``, else TOML.
+
+        Args:
+            path: the file.
+            model: replaces the base model of the file.
+            any_build: continues folders that another build of jostle began.
+        """
         name = os.fspath(path)
         try:
             text = Path(name).read_text(encoding="utf-8")
@@ -100,14 +112,41 @@ class Study:
             raise ModelError(f"{name}: cannot be read: {error}") from None
         study = cls.__new__(cls)
         folder = os.path.dirname(os.path.abspath(name))
-        base = None if model is None else _base_of(model)
-        study._build(name, text, name.lower().endswith(".json"), folder, base)
+        base = None if model is None else model._base()
+        study._build(name, text, name.lower().endswith(".json"), folder, base, any_build)
+        return study
+
+    @classmethod
+    def ready_made(cls, name: str, model: Model | str | os.PathLike[str] | Mapping[str, Any] = "paper") -> Study:
+        """A ready-made study of a model, as ``jostle study NAME MODEL``.
+
+        Args:
+            name: ``"gap-sweep"``, ``"ida"``, ``"fragility"``, ``"sensitivity"``, ``"tornado"``, ``"table2"`` or ``"angles"``.
+            model: the model, its file, the name of a built-in model, or a tree.
+
+        Raises:
+            ModelError: there is no such study, or the model has nothing to vary.
+        """
+        base = Model.from_any(model)._base()
+        if name not in _jostle.ready_made_names():
+            known = ", ".join(_jostle.ready_made_names())
+            raise ModelError(f"name: there is no ready-made study {name!r}; there are {known}")
+        text, notes = _jostle.ready_made(name, base)
+        study = cls.__new__(cls)
+        study._build(name, text, False, os.getcwd(), base)
+        for note in notes:
+            warnings.warn(note, ModelWarning, stacklevel=2)
         return study
 
     @property
     def title(self) -> str:
         """Title."""
         return self._core.title
+
+    @property
+    def varied(self) -> list[str]:
+        """What varies, in sentences."""
+        return self._core.varied
 
     @property
     def cases(self) -> int:
@@ -214,6 +253,11 @@ class Study:
     def __repr__(self) -> str:
         return f"<Study {self.title!r}: {self.cases} cases>"
 
+    def _repr_html_(self) -> str:
+        from ._draw import study_html
+
+        return study_html(self)
+
     def __reduce__(self) -> tuple[Any, ...]:
         return (_rebuild, self._recipe)
 
@@ -228,6 +272,13 @@ class StudyResult:
     Attributes:
         study: the study.
         folder: its folder.
+
+    Examples:
+        >>> import jostle
+        >>> study = jostle.Study("paper", [{"name": "gap", "path": "gap[0].width", "values": ["20 mm", "150 mm"]}])
+        >>> result = study.run("out", report=False)
+        >>> (result["impact_count"] > 0).tolist()
+        [True, False]
     """
 
     study: Study
@@ -259,6 +310,11 @@ class StudyResult:
             return np.array(texts[name], dtype=object)
         return np.array(numbers[name], dtype=float)
 
+    def _repr_html_(self) -> str:
+        from ._draw import study_result_html
+
+        return study_result_html(self)
+
     def to_pandas(self) -> Any:
         """The table as a ``pandas.DataFrame``."""
         pandas: Any = import_module("pandas")
@@ -279,6 +335,18 @@ class WorstAngle:
         angle: from x to the motion, counter-clockwise [rad].
         value: the greatest value [SI].
         case: number of its case.
+
+    Examples:
+        >>> import jostle
+        >>> def tower(name, x):
+        ...     plan = [[x, 0], [x + 12, 0], [x + 12, 8], [x, 8]]
+        ...     stiffness = {"x": "60 MN/m", "y": "50 MN/m", "torsion": "4 GN.m"}
+        ...     return jostle.Shear(name, mass=["90 t"], stiffness=[stiffness], storey_height="3 m", plan=plan)
+        >>> model = jostle.Model([tower("A", 0.0), tower("B", 12.02)], jostle.Gap(), motion=jostle.Motion.el_centro().lasting("5 s"))
+        >>> angles = jostle.angles(model, "out", step="90 deg", report=False)
+        >>> worst = angles.worst("peak_force_n")
+        >>> worst.quantity
+        'peak_force_n'
     """
 
     quantity: str
@@ -289,7 +357,19 @@ class WorstAngle:
 
 @dataclass(frozen=True)
 class AngleStudy(StudyResult):
-    """The folder of a study over the angle of incidence."""
+    """The folder of a study over the angle of incidence.
+
+    Examples:
+        >>> import jostle
+        >>> def tower(name, x):
+        ...     plan = [[x, 0], [x + 12, 0], [x + 12, 8], [x, 8]]
+        ...     stiffness = {"x": "60 MN/m", "y": "50 MN/m", "torsion": "4 GN.m"}
+        ...     return jostle.Shear(name, mass=["90 t"], stiffness=[stiffness], storey_height="3 m", plan=plan)
+        >>> model = jostle.Model([tower("A", 0.0), tower("B", 12.02)], jostle.Gap(), motion=jostle.Motion.el_centro().lasting("5 s"))
+        >>> angles = jostle.angles(model, "out", step="90 deg", report=False)
+        >>> angles.worst("peak_force_n").case in range(4)
+        True
+    """
 
     @property
     def angle(self) -> npt.NDArray[np.float64]:
@@ -312,7 +392,7 @@ class AngleStudy(StudyResult):
 
 
 def angles(
-    model: Model | str | os.PathLike[str],
+    model: Model | str | os.PathLike[str] | Mapping[str, Any],
     out: str | os.PathLike[str],
     *,
     step: Quantity = "5 deg",
@@ -341,17 +421,27 @@ def angles(
     Raises:
         ModelError: the model is wrong, or in one plane; the range is none.
         OSError: a file cannot be written; finished cases are kept.
+
+    Examples:
+        >>> import jostle
+        >>> def tower(name, x):
+        ...     plan = [[x, 0], [x + 12, 0], [x + 12, 8], [x, 8]]
+        ...     stiffness = {"x": "60 MN/m", "y": "50 MN/m", "torsion": "4 GN.m"}
+        ...     return jostle.Shear(name, mass=["90 t"], stiffness=[stiffness], storey_height="3 m", plan=plan)
+        >>> model = jostle.Model([tower("A", 0.0), tower("B", 12.02)], jostle.Gap(), motion=jostle.Motion.el_centro().lasting("5 s"))
+        >>> angles = jostle.angles(model, "out", step="90 deg", report=False)
+        >>> len(angles.angle)
+        4
     """
     import math
 
     def degrees(name: str, value: Quantity) -> float:
         return math.degrees(in_si(name, value, "number"))
 
-    if not isinstance(model, Model):
-        model = Model.load(model)
+    model = Model.from_any(model)
     first = degrees("start", start)
     last = first + 360.0 if stop is None else degrees("stop", stop)
-    base = _base_of(model)
+    base = model._base()
     text, notes = _jostle.incidence(base, first, last, degrees("step", step), list(quantities))
     study = Study.__new__(Study)
     study._build("angles", text, False, os.getcwd(), base)
@@ -374,6 +464,12 @@ class RuleGap:
         code: name of the code as in ``[codes]``; ``None`` for general rules.
         inputs: inputs that the rule used, with defaults marked.
         setbacks: distances of both buildings from the property line between them [m], of rules for such lines.
+
+    Examples:
+        >>> import jostle
+        >>> (gap,) = jostle.critical_gap("paper", outcomes=False, tolerance="1 mm", codes=["en1998"])
+        >>> [rule.rule for rule in gap.rules]
+        ['ABS', 'SRSS', '0.7 SRSS', 'DDC', 'EN 1998-1']
     """
 
     rule: str
@@ -396,6 +492,12 @@ class GapPoint:
         peak_force: greatest contact force in the gap [N].
         first_impact: first impact [s]; ``None`` without one.
         met: whether the run met its tolerance; ``None`` without an estimate.
+
+    Examples:
+        >>> import jostle
+        >>> (gap,) = jostle.critical_gap("paper", outcomes=False, tolerance="1 mm", curve=3)
+        >>> [point.impact_count > 0 for point in gap.curve]
+        [True, True, False]
     """
 
     width: float
@@ -420,6 +522,12 @@ class CriticalGap:
         left_out: rules that cannot be applied, and the keys of ``[codes]`` that they need.
         curve: force and impacts over the gap, from zero to ``gap``; empty unless asked for.
         reversed_gap: smallest gap without an impact under the motion with the other sign [m].
+
+    Examples:
+        >>> import jostle
+        >>> (gap,) = jostle.critical_gap("paper", outcomes=False, tolerance="1 mm")
+        >>> gap.between, round(gap.gap, 3)
+        (('J1', 'J2'), 0.137)
     """
 
     between: tuple[str, str]
@@ -433,18 +541,23 @@ class CriticalGap:
     curve: tuple[GapPoint, ...] = ()
     reversed_gap: float | None = None
 
+    def _repr_html_(self) -> str:
+        from ._draw import gap_html
+
+        return gap_html(self)
+
 
 def critical_gap(
-    model: Model | str | os.PathLike[str],
+    model: Model | str | os.PathLike[str] | Mapping[str, Any],
     *,
     motions: Sequence[Any] | None = None,
-    pga: float | str | None = None,
-    tolerance: float = 1e-4,
+    pga: Quantity | None = None,
+    tolerance: Quantity = 1e-4,
     system: str | None = None,
     codes: Sequence[str] = (),
     outcomes: bool = True,
     curve: int = 0,
-) -> list[CriticalGap]:
+) -> Answers[CriticalGap]:
     """Returns the smallest gap without pounding, by bracketing with runs, compared with ABS, SRSS, DDC and codes.
 
     Args:
@@ -465,18 +578,24 @@ def critical_gap(
     Raises:
         ModelError: model, motion or an argument is wrong.
         AnalysisError: a run failed.
+
+    Examples:
+        >>> import jostle
+        >>> (gap,) = jostle.critical_gap("paper", outcomes=False, tolerance="1 mm")
+        >>> gap.gap < gap.closing_without_contact + 0.002
+        True
     """
     if curve and not 2 <= curve <= 10000:
         raise ModelError(f"curve: must be 0 or 2 to 10000, found {curve}")
-    if not isinstance(model, Model):
-        model = Model.load(model)
-    found: list[CriticalGap] = []
+    model = Model.from_any(model)
+    width = in_si("tolerance", tolerance, "length")
+    found: Answers[CriticalGap] = Answers()
     own: Sequence[str | None] = model.records or [None]
     for motion in own if motions is None else motions:
         one = model
         if motion is not None or pga is not None:
             one = model.changed(motion=motion, pga=pga)
-        for gap in json.loads(_jostle.critical_gaps(one._core, tolerance, system, list(codes), outcomes, curve)):
+        for gap in json.loads(_jostle.critical_gaps(one._core, width, system, list(codes), outcomes, curve)):
             rules = tuple(
                 RuleGap(
                     rule["rule"],
@@ -516,17 +635,6 @@ def critical_gap(
     return found
 
 
-def _base_of(model: Model) -> _Base:
-    """The text of a model, to vary it."""
-    how, arguments, motion, gap, pga, record, angle = model._recipe
-    if not isinstance(how, str) or not (motion is gap is pga is record is angle is None):
-        raise ModelError("model: a changed model cannot vary; give the original, and the changes as lists of one value")
-    if how == "builtin":
-        return (arguments[0], model._core.text, False, "")
-    name, text, is_json, folder, *_ = arguments
-    return (str(name), str(text), bool(is_json), str(folder))
-
-
 #: The study that this process computes parts of, by its bytes.
 _shared: dict[bytes, Study] = {}
 
@@ -551,8 +659,10 @@ def _remark(text: str) -> None:
     warnings.warn(text, StudyWarning, stacklevel=4)
 
 
-def _rebuild(name: str, text: str, is_json: bool, folder: str, base: _Base | None) -> Study:
+def _rebuild(
+    name: str, text: str, is_json: bool, folder: str, base: _Base | None, any_build: bool = False
+) -> Study:
     study = Study.__new__(Study)
-    study._recipe = (name, text, is_json, folder, base)
-    study._core = _jostle.Study.read(name, text, is_json, folder, base)
+    study._recipe = (name, text, is_json, folder, base, any_build)
+    study._core = _jostle.Study.read(name, text, is_json, folder, base, any_build)
     return study

@@ -6,7 +6,7 @@ import contextlib
 import json
 import os
 import warnings
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -15,6 +15,7 @@ from typing import Any, cast
 from . import _jostle
 from ._errors import JostleWarning
 from ._model import Model
+from ._motion import Motion
 from ._progress import Observer, ProgressLine
 from ._table import Table
 
@@ -43,6 +44,13 @@ class Governing:
         p16: 16 % quantile.
         p84: 84 % quantile.
         governing: the mean or the greatest value, by the rule of the suite.
+
+    Examples:
+        >>> import jostle
+        >>> suite = jostle.run_suite("paper", motions=["el-centro-1940-ns", "nanjing-artificial"], report=False)
+        >>> drift = suite["J1.drift_peak"]
+        >>> drift.minimum <= drift.mean <= drift.maximum
+        True
     """
 
     name: str
@@ -59,7 +67,14 @@ class Governing:
 
 
 class Suite:
-    """Results of a model under several records."""
+    """Results of a model under several records.
+
+    Examples:
+        >>> import jostle
+        >>> suite = jostle.run_suite("paper", motions=["el-centro-1940-ns", "nanjing-artificial"], report=False)
+        >>> len(suite.table)
+        2
+    """
 
     _core: _jostle.Suite
     _folder: Path | None
@@ -128,6 +143,11 @@ class Suite:
     def __repr__(self) -> str:
         return f"<Suite {self.summary['title']!r}: {len(self.records)} records>"
 
+    def _repr_html_(self) -> str:
+        from ._draw import suite_html
+
+        return suite_html(self)
+
     def __reduce__(self) -> tuple[Any, ...]:
         raise TypeError("a Suite cannot be pickled; send suite.summary")
 
@@ -136,6 +156,7 @@ def run_suite(
     model: Model | str | os.PathLike[str] | Mapping[str, Any],
     out: str | os.PathLike[str] | None = None,
     *,
+    motions: Sequence[Motion | str | os.PathLike[str]] | None = None,
     governing: str | None = None,
     report: bool = True,
     sensitivity: bool = False,
@@ -151,6 +172,8 @@ def run_suite(
     Args:
         model: a model with several records, ``motion={"record": ["a.at2", "b.at2"]}``, or its file or tree.
         out: folder for the files of the suite and of every record; ``None`` writes nothing.
+        motions: :class:`Motion` objects, used as they are, or records by name or path, with the scaling of the model; by
+            default the records of the model.
         governing: rule for the governing values: ``"gb50011"``, ``"en1998"``, ``"asce7"``, ``"mean"`` or ``"maximum"``; by
             default that of the model, else that of the code to whose spectrum the motions are matched, else
             ``"maximum"``.
@@ -164,9 +187,18 @@ def run_suite(
     Raises:
         ModelError: the model, one of its records or an argument is wrong.
         FileExistsError: the folder contains a file of such a name that jostle did not write.
+
+    Examples:
+        >>> import jostle
+        >>> suite = jostle.run_suite("paper", motions=["el-centro-1940-ns", "nanjing-artificial"], report=False)
+        >>> suite.records
+        ['el-centro-1940-ns', 'nanjing-artificial']
     """
     if jobs is not None and jobs < 1:
         raise ValueError(f"jobs: must be at least 1, found {jobs}")
+    model = Model.from_any(model)
+    if motions is not None:
+        model = model.changed(motion=list(motions))
     folder = None if out is None else Path(out)
     if folder is not None:
         os.makedirs(folder, exist_ok=True)
@@ -174,7 +206,7 @@ def run_suite(
     with line as shown:
         observer = shown or (progress if callable(progress) else None)
         core = _jostle.run_suite(
-            Model.from_any(model)._core,
+            model._core,
             None if folder is None else os.path.abspath(folder),
             governing,
             bool(report),

@@ -8,7 +8,7 @@ import os
 from collections.abc import Iterable, Mapping
 
 from ._errors import ModelError
-from ._units import number
+from ._units import number, without_pint
 
 #: Deeper nesting has no place in a model.
 _DEEPEST = 32
@@ -28,10 +28,20 @@ def text_of(tree: object, name: str = "model") -> str:
     return json.dumps(_plain(tree, "", name, _DEEPEST, left), allow_nan=False)
 
 
+def value_text(value: object, path: str) -> str:
+    """JSON text of one value of a model file.
+
+    Raises:
+        ModelError: a value that a model file cannot contain.
+    """
+    return json.dumps(_plain(value, path, "model", _DEEPEST, [_MOST]), allow_nan=False)
+
+
 def _plain(value: object, path: str, name: str, depth: int, left: list[int]) -> object:
     left[0] -= 1
     if left[0] < 0:
         raise _fault(name, path, "the model has too many values")
+    value = without_pint(value)
     if value is None or isinstance(value, bool):
         return value
     if isinstance(value, str):

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import difflib
 import math
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from numbers import Integral, Real
-from typing import TYPE_CHECKING, Any, TypedDict, Union
+from typing import TYPE_CHECKING, Any, Protocol, TypedDict, Union
 
 from . import _jostle
 from ._errors import ModelError
@@ -15,8 +15,19 @@ if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
-#: A text with a unit, or a number in SI.
-Quantity = Union[str, float]
+
+class PhysicalQuantity(Protocol):
+    """A number, or an array, with a unit, as of the package pint."""
+
+    @property
+    def magnitude(self) -> Any: ...
+    @property
+    def dimensionality(self) -> Any: ...
+    def to(self, other: Any = None) -> Any: ...
+
+
+#: A text with a unit, a number in SI, or a quantity of pint.
+Quantity = Union[str, float, PhysicalQuantity]
 #: A quantity, or one per storey or span.
 Quantities = Union[Quantity, "Iterable[Quantity]", "npt.NDArray[np.floating[Any]]"]
 #: Numbers in the unit of the keyword: one, or one per storey or span.
@@ -184,6 +195,32 @@ class GapUnits(TypedDict, total=False):
     stiffness_n_m1_5: float
 
 
+#: Exponents of mass, length and time, and the unit in SI as model files write it.
+_SI: dict[tuple[float, float, float], str] = {
+    (0, 1, 0): "m", (0, 0, 1): "s", (1, 0, 0): "kg", (0, 0, -1): "Hz",
+    (0, 1, -1): "m/s", (0, 1, -2): "m/s2",
+    (1, 1, -2): "N", (1, 0, -2): "N/m", (1, -0.5, -2): "N/m^1.5", (-1, 0, 2): "m/N",
+    (1, 2, -2): "N.m", (1, 0, -1): "N.s/m", (1, -1, -2): "Pa", (1, -1, 0): "kg/m", (1, -3, 0): "kg/m3",
+}  # fmt: skip
+_BASE = ("[mass]", "[length]", "[time]")
+
+
+def without_pint(value: object) -> Any:
+    """A quantity of pint as a text with its unit in SI, arrays as lists of such; anything else as it is."""
+    dimensions = getattr(value, "dimensionality", None)
+    if dimensions is None or not hasattr(value, "magnitude"):
+        return value
+    powers = {str(name): float(power) for name, power in dict(dimensions).items()}
+    quantity: Any = value
+    if not set(powers) <= set(_BASE):
+        raise ModelError(f"{value}: expected a quantity of mass, length and time")
+    mass, length, time = (powers.get(name, 0.0) for name in _BASE)
+    unit = _SI.get((mass, length, time), "")
+    si = " * ".join(f"{name}**{power}" for name, power in (("kilogram", mass), ("meter", length), ("second", time)))
+    magnitude = quantity.to(si if powers else "dimensionless").magnitude
+    return with_unit(magnitude, unit) if unit else magnitude
+
+
 def number(value: object) -> float | int | None:
     """A plain number from anything that is one, NumPy's included; ``None`` for anything else."""
     if isinstance(value, Integral):
@@ -195,6 +232,7 @@ def number(value: object) -> float | int | None:
 
 def in_si(name: str, value: object, kind: str) -> float:
     """An argument that is a text with a unit or a number in SI."""
+    value = without_pint(value)
     plain = number(value)
     if isinstance(value, bool) or (plain is None and not isinstance(value, str)):
         raise TypeError(
@@ -205,6 +243,25 @@ def in_si(name: str, value: object, kind: str) -> float:
         return _jostle.quantity(text, kind)
     except ModelError as error:
         raise ModelError(f"{name}: {error}") from None
+
+
+def option_text(name: str, value: object) -> str:
+    """A value as the text of an option: two entries with a comma.
+
+    Raises:
+        TypeError: anything but a text, a number, a quantity, or two of them.
+    """
+    value = without_pint(value)
+    if isinstance(value, str):
+        return value
+    plain = None if isinstance(value, bool) else number(value)
+    if plain is not None:
+        return repr(plain)
+    if isinstance(value, Sequence) and len(value) == 2:
+        return ", ".join(option_text(name, entry) for entry in value)
+    raise TypeError(
+        f"{name}: expected a text with a unit, a number in SI, or two of them, found {type(value).__name__}"
+    )
 
 
 def split(key: str, bases: Collection[str]) -> tuple[str, str] | None:

@@ -114,9 +114,12 @@ def test_changed_models_keep_their_changes() -> None:
     widget = model.live()
     assert jostle.run(widget.model).summary["gaps"] == jostle.run(model).summary["gaps"]
     widget.close()
-    given = jostle.Model.paper_example().changed(motion=model.motion)
-    with pytest.raises(jostle.ModelError, match="needs a motion that a model file can name"):
-        given.live()
+    sine = jostle.Motion.sine(amplitude="1 m/s2", period="0.6 s", duration="4 s")
+    for motion in (jostle.Motion.el_centro().scaled(pga="0.1 g").lasting("6 s"), sine):
+        given = jostle.Model.paper_example().changed(motion=motion)
+        widget = given.live()
+        assert jostle.run(widget.model).summary["gaps"] == jostle.run(given).summary["gaps"]
+        widget.close()
 
 
 def test_without_anywidget_the_error_names_the_command(monkeypatch: pytest.MonkeyPatch) -> None:

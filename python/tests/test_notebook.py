@@ -6,6 +6,7 @@ import html.parser
 import re
 import sys
 import types
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -62,6 +63,34 @@ def test_everything_shows_itself(towers: jostle.Model, result: jostle.Result) ->
     assert "+1.00" in shown(jostle.modes(towers)["soft"])
     assert "more rows" in shown(result.history)
     assert "<iframe" in shown(result.animate())
+
+
+def test_every_answer_shows_a_table_and_a_picture(
+    towers: jostle.Model, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    vary = [{"name": "gap", "path": "gap[0].width", "values": ["8 mm", "12 mm"]}]
+    target = jostle.DesignSpectrum("gb50011", intensity=8, site="II", group=1)
+    motions = [jostle.Motion.el_centro().lasting("6 s"), jostle.Motion.sine(amplitude=2, period=0.6, duration=4)]
+    both = [
+        *jostle.critical_gap(towers, tolerance="1 mm", outcomes=False),
+        *jostle.critical_gap(towers, tolerance="1 mm", outcomes=False, curve=4),
+        jostle.run_suite(towers, motions=motions, report=False),
+        jostle.Study(towers, vary).run("out", report=False),
+        jostle.Motion.el_centro().spectrum(damping=[0.02, 0.05]),
+        jostle.section(width=0.5, depth=0.5, bars="12 d20"),
+        jostle.size(towers, vary={"gap.width": ("5 mm", "90 mm")}, keep="impact_count <= 2", minimise="gap.width", trials=40),
+        *jostle.contact_advice(mass="40 t", length=12, width=10, thickness="150 mm"),
+        jostle.Motion.select(target, periods=[0.8], natural=motions[:1]),
+    ]
+    for thing in both:
+        page = shown(thing)
+        assert "<table>" in page and "<svg" in page, type(thing).__name__
+        assert "nan" not in page and "None" not in page, type(thing).__name__
+    for thing in (jostle.Study(towers, vary), towers.check(), jostle.method(towers), target):
+        assert shown(thing)
+    assert "<svg" in shown(jostle.critical_gap(towers, tolerance="1 mm", outcomes=False)), "a list of answers"
+    assert shown(jostle.pushover(jostle.Model.example("paper-inelastic"), drift=0.01)).count("<svg") == 2
 
 
 def test_names_are_only_names() -> None:

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use jostle_section::capacity::ShearRule;
 
+use crate::Described;
+
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "bash: jostle completions bash > ~/.local/share/bash-completion/completions/jostle\n\
@@ -30,6 +32,17 @@ pub(crate) struct SchemaArgs {
     /// Print which kind of building has which feature instead, as a table in Markdown
     #[arg(long, conflicts_with_all = ["results", "checks"])]
     pub(crate) combinations: bool,
+}
+
+impl SchemaArgs {
+    pub(crate) fn list(&self) -> Described {
+        match (self.combinations, self.checks, self.results) {
+            (true, ..) => Described::Combinations,
+            (_, true, _) => Described::Checks,
+            (.., true) => Described::Results,
+            _ => Described::Model,
+        }
+    }
 }
 
 /// A model, and options that change it.

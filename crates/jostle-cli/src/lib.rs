@@ -5,6 +5,7 @@ mod check;
 mod collide;
 mod combinations;
 mod command_line;
+mod command_list;
 mod compare;
 mod completions;
 mod contact_advice;
@@ -33,6 +34,8 @@ mod stop;
 mod study;
 mod suite;
 mod terminal;
+
+pub use command_list::command_list;
 
 use clap::CommandFactory;
 use command_line::{Args, Command};
@@ -65,21 +68,38 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
         Command::New(args) => starter::new(&args),
         Command::Completions(args) => completions::completions(&args, Args::command()),
         Command::Man(args) => man::man(&args, Args::command()),
-        Command::Schema(args) if args.combinations => terminal::print(&combinations::table()),
-        Command::Schema(args) if args.checks => terminal::print(&match args.markdown {
-            false => jostle_io::check_list(),
-            true => jostle_io::check_reference(),
-        }),
-        Command::Schema(args) => terminal::print(&match (args.results, args.markdown) {
-            (false, false) => jostle_io::model_schema(),
-            (false, true) => jostle_io::model_reference(),
-            (true, false) => jostle_io::quantity_list(),
-            (true, true) => jostle_io::quantity_reference(),
-        }),
+        Command::Schema(args) => terminal::print(&schema(args.list(), args.markdown)),
     };
     match done {
         Ok(()) => 0,
         Err(failure) => report(failure),
+    }
+}
+
+/// What `jostle schema` describes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Described {
+    /// Keys of the model file.
+    Model,
+    /// Quantities of the results.
+    Results,
+    /// Checks.
+    Checks,
+    /// Kinds of building and their features, always in Markdown.
+    Combinations,
+}
+
+/// The text of `jostle schema`: JSON, or a page in Markdown.
+#[must_use]
+pub fn schema(what: Described, markdown: bool) -> String {
+    match (what, markdown) {
+        (Described::Model, false) => jostle_io::model_schema(),
+        (Described::Model, true) => jostle_io::model_reference(),
+        (Described::Results, false) => jostle_io::quantity_list(),
+        (Described::Results, true) => jostle_io::quantity_reference(),
+        (Described::Checks, false) => jostle_io::check_list(),
+        (Described::Checks, true) => jostle_io::check_reference(),
+        (Described::Combinations, _) => combinations::table(),
     }
 }
 

@@ -19,7 +19,7 @@ use crate::printer::Printer;
 use crate::progress::StageBar;
 use crate::replace::Target;
 use crate::stop::stop_on_interrupt;
-use crate::{method, terminal};
+use crate::terminal;
 
 /// Time after which the speed of a run is known \[s\].
 const PATIENCE: f64 = 1.0;
@@ -239,7 +239,7 @@ fn follow_members(opened: &mut Opened, rules: &[String]) -> Result<(), Failure> 
 /// Surveys of the method for the report, if they were asked for.
 fn surveys(args: &RunArgs, ran: &Ran) -> Result<Vec<MethodSurvey>, Failure> {
     if args.method {
-        method::survey(&ran.prepared.system)
+        Ok(jostle_run::survey_methods(&ran.prepared.system)?)
     } else {
         Ok(Vec::new())
     }

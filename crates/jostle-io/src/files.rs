@@ -48,6 +48,8 @@ fn size(bytes: usize) -> String {
 pub struct Files {
     folder: PathBuf,
     allowed: Allowed,
+    /// Files in memory that come before those of the machine, by the name that the model has for them.
+    beside: Arc<BTreeMap<String, Vec<u8>>>,
     asked: Arc<Mutex<BTreeSet<String>>>,
 }
 
@@ -64,7 +66,7 @@ enum Allowed {
 impl PartialEq for Files {
     /// Whether the same names lead to the same files.
     fn eq(&self, other: &Self) -> bool {
-        self.folder == other.folder && self.allowed == other.allowed
+        self.folder == other.folder && self.allowed == other.allowed && self.beside == other.beside
     }
 }
 
@@ -85,7 +87,17 @@ impl Files {
         Self {
             folder: folder.to_owned(),
             allowed,
+            beside: Arc::default(),
             asked: Arc::default(),
+        }
+    }
+
+    /// The same with further files in memory, such as motions that a program has computed; they come first.
+    #[must_use]
+    pub fn with(&self, files: BTreeMap<String, Vec<u8>>) -> Self {
+        Self {
+            beside: Arc::new(files),
+            ..self.afresh()
         }
     }
 
@@ -100,7 +112,10 @@ impl Files {
         let names = names.iter();
         let named = names.filter_map(|name| self.folder.join(name).canonicalize().ok());
         let allowed = Allowed::Within(Arc::new((within, named.collect())));
-        Self::new(&self.folder, allowed)
+        Self {
+            beside: Arc::clone(&self.beside),
+            ..Self::new(&self.folder, allowed)
+        }
     }
 
     /// The same permissions; relative names start from this folder, itself relative to the present one.
@@ -146,13 +161,17 @@ impl Files {
     /// [`FileError`].
     pub fn read(&self, name: &str, most: usize) -> Result<Vec<u8>, FileError> {
         self.note(name);
-        match &self.allowed {
-            Allowed::Held(files) => match files.get(name) {
-                Some(bytes) if bytes.len() > most => Err(FileError::TooLarge { most }),
-                Some(bytes) => Ok(bytes.clone()),
-                None => Err(io::Error::from(io::ErrorKind::NotFound).into()),
-            },
-            _ => read_file(&self.place(name)?, most),
+        let held = match &self.allowed {
+            Allowed::Held(files) => files.get(name),
+            _ => None,
+        };
+        match self.beside.get(name).or(held) {
+            Some(bytes) if bytes.len() > most => Err(FileError::TooLarge { most }),
+            Some(bytes) => Ok(bytes.clone()),
+            None if matches!(self.allowed, Allowed::Held(_)) => {
+                Err(io::Error::from(io::ErrorKind::NotFound).into())
+            }
+            None => read_file(&self.place(name)?, most),
         }
     }
 
@@ -163,6 +182,7 @@ impl Files {
     pub(crate) fn has(&self, name: &str) -> Result<bool, FileError> {
         self.note(name);
         match &self.allowed {
+            _ if self.beside.contains_key(name) => Ok(true),
             Allowed::Held(files) => Ok(files.contains_key(name)),
             _ => Ok(self.place(name)?.exists()),
         }

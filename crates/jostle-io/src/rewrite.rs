@@ -39,6 +39,15 @@ impl ModelTree {
         })
     }
 
+    /// The tree as TOML: the text itself if it is TOML, else written anew, without comments.
+    #[must_use]
+    pub fn toml(&self) -> String {
+        match Format::of_text(self.text()) {
+            Format::Toml => self.text().to_owned(),
+            Format::Json => toml_text(&self.root),
+        }
+    }
+
     /// The text edited in place; `None` where that is not possible.
     fn edited(&self, path: &str, value: Option<&TreeValue>) -> Option<String> {
         let parts = parts(path).ok()?;

@@ -5,11 +5,11 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use jostle_io::{ComparisonMap, Format, MeasuredTable, Values};
-use jostle_run::{Measurements, RunError, earlier_comparison, prepare_comparison};
-use pyo3::exceptions::{PyFileExistsError, PyKeyboardInterrupt};
+use jostle_run::{Measurements, earlier_comparison, prepare_comparison};
+use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 
-use crate::error::{AnalysisError, argument_error, input_error, output_error};
+use crate::error::{argument_error, input_error, run_error};
 use crate::model::Model;
 use crate::table::Table;
 
@@ -19,18 +19,6 @@ const LOOK_UP: Duration = Duration::from_millis(50);
 /// Results of a comparison.
 #[pyclass(frozen, module = "jostle._jostle")]
 pub(crate) struct Comparison(jostle_run::Comparison);
-
-fn run_error(error: RunError) -> PyErr {
-    match error {
-        RunError::Input(error) => input_error(&error),
-        RunError::Output(error) => output_error(&error),
-        RunError::Analysis(text) => AnalysisError::new_err(text),
-        RunError::Kept(text) => {
-            PyFileExistsError::new_err(text.replace("add --force", "pass force=True"))
-        }
-        other => argument_error(other.to_string()),
-    }
-}
 
 /// Runs a model on the table motion of a file of measurements and compares. The map is a path, or the text of one as JSON.
 #[pyfunction]

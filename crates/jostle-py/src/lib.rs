@@ -2,6 +2,7 @@
 //!
 //! The user-facing part (units, keywords, drawings, tables) is written in Python, in `python/jostle`.
 
+mod base;
 mod collide;
 mod compare;
 mod describe;
@@ -16,6 +17,7 @@ mod run;
 mod study;
 mod suite;
 mod table;
+mod tools;
 
 #[global_allocator]
 static MEMORY: mimalloc::MiMalloc = mimalloc::MiMalloc;
@@ -23,6 +25,8 @@ static MEMORY: mimalloc::MiMalloc = mimalloc::MiMalloc;
 /// The compiled part of the package. It is internal and may change at any time.
 #[pyo3::pymodule]
 mod _jostle {
+    #[pymodule_export]
+    use super::base::{as_toml, named_files, rewritten};
     #[pymodule_export]
     use super::collide::{collide, contact_advice, contact_laws};
     #[pymodule_export]
@@ -40,11 +44,16 @@ mod _jostle {
     #[pymodule_export]
     use super::run::{Run, run};
     #[pymodule_export]
-    use super::study::{Study, critical_gaps, incidence};
+    use super::study::{Study, critical_gaps, incidence, ready_made, ready_made_names};
     #[pymodule_export]
     use super::suite::{Suite, run_suite};
     #[pymodule_export]
     use super::table::Table;
+    #[pymodule_export]
+    use super::tools::{
+        Sized, command_list, match_spectrum, motion_list, noise, processed, pulse, recipe, schema,
+        section, select, size, target, template, template_names, write_text,
+    };
 
     #[pymodule_export]
     #[allow(non_upper_case_globals, reason = "the name that Python expects")]

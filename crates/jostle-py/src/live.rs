@@ -1,7 +1,6 @@
 //! The engine of the live page, for a notebook.
 
 use std::ops::ControlFlow;
-use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -9,6 +8,7 @@ use jostle_live::{Answer, Engine, Local, widget_page};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
+use crate::base::{Base, tree_of};
 use crate::error::{argument_error, input_error};
 
 /// An open model whose requests are answered in this process.
@@ -27,10 +27,12 @@ impl Live {
 
 #[pymethods]
 impl Live {
-    /// Takes a model from its text; records are looked for in `base`.
+    /// Takes a model from its text and files.
     #[new]
-    fn new(name: &str, text: &str, base: PathBuf) -> PyResult<Self> {
-        let engine = Engine::from_text(name, text, &base).map_err(|error| input_error(&error))?;
+    fn new(base: Base) -> PyResult<Self> {
+        let tree = tree_of(base).map_err(|error| input_error(&error))?;
+        let engine = Engine::with_files(tree.name(), tree.text(), tree.files().clone())
+            .map_err(|error| input_error(&error))?;
         Ok(Self {
             local: Mutex::new(Local::new(engine)),
             stops: AtomicU64::new(0),

@@ -1,15 +1,18 @@
 //! Models: read, checked and assembled once, then shared.
 
+use std::collections::HashMap;
 use std::path::PathBuf;
 
-use jostle_io::{Format, Input, InputError, Overrides};
-use jostle_run::{Opened, Prepared, RunError};
+use jostle_io::{Input, InputError, Overrides};
+use jostle_run::{Opened, Prepared};
 use pyo3::prelude::*;
 
+use crate::base::tree_of;
 use crate::describe::describe;
-use crate::error::{AnalysisError, argument_error, input_error};
+use crate::error::{AnalysisError, argument_error, in_python, input_error, run_error};
 use crate::matrices::{Matrices, matrices};
 use crate::motion::Motion;
+use crate::tools::{Sections, section_answer};
 
 /// A model ready to run.
 #[pyclass(frozen, module = "jostle._jostle")]
@@ -26,11 +29,7 @@ impl Model {
 
     /// The model with its ground motion and steps; `force` runs it even where digits are expected to be lost.
     pub(crate) fn prepare(&self, force: bool) -> PyResult<Prepared> {
-        let prepared = self.opened.prepare().map_err(|error| match error {
-            RunError::Record(problem) => argument_error(format!("motion: {problem}")),
-            RunError::Input(error) => input_error(&error),
-            other => argument_error(other.to_string()),
-        })?;
+        let prepared = self.opened.prepare().map_err(run_error)?;
         if !force {
             let checked = prepared.check_digits(Some("force=True runs it anyway"));
             checked.map_err(|error| input_error(&error))?;
@@ -50,6 +49,7 @@ impl Model {
 
     /// Reads the text of a model file; errors show its lines only if it is a text that the user wrote.
     #[staticmethod]
+    #[pyo3(signature = (name, text, json, base, lines, files=None))]
     fn read(
         py: Python<'_>,
         name: &str,
@@ -57,9 +57,16 @@ impl Model {
         json: bool,
         base: PathBuf,
         lines: bool,
+        files: Option<HashMap<String, String>>,
     ) -> PyResult<Self> {
-        let format = if json { Format::Json } else { Format::Toml };
-        let read = || Self::assemble(jostle_io::read_model_text(name, text, format, &base)?);
+        let base = (
+            name.to_owned(),
+            text.to_owned(),
+            json,
+            base,
+            files.unwrap_or_default(),
+        );
+        let read = || Self::assemble(tree_of(base)?.input()?);
         py.detach(read).map_err(|mut error| {
             if !lines {
                 error.faults.iter_mut().for_each(|fault| fault.place = None);
@@ -122,7 +129,8 @@ impl Model {
 
     #[getter]
     fn warnings(&self) -> Vec<String> {
-        self.opened.input.warnings.clone()
+        let warnings = self.opened.input.warnings.iter();
+        warnings.map(|text| in_python(text)).collect()
     }
 
     /// The records that a run may choose from; empty unless there are several.
@@ -140,6 +148,60 @@ impl Model {
         py.detach(|| Motion::from_spec(spec))
             .map(Some)
             .or_else(|_| self.prepare(true).map(|_| None))
+    }
+
+    /// Widths of every gap: one, or one per contact.
+    fn widths(&self) -> Vec<Vec<f64>> {
+        let gaps = self.opened.input.model.gaps.iter();
+        gaps.map(|gap| gap.widths.clone()).collect()
+    }
+
+    /// What `jostle check` finds, as JSON.
+    fn check(&self, py: Python<'_>) -> PyResult<String> {
+        let found = py.detach(|| jostle_run::check(&self.opened));
+        let mut found = found.map_err(run_error)?;
+        found.text = in_python(&jostle_run::plain(&found.text));
+        for texts in [&mut found.warnings, &mut found.notes] {
+            texts.iter_mut().for_each(|text| *text = in_python(text));
+        }
+        serde_json::to_string(&found).map_err(|error| argument_error(error.to_string()))
+    }
+
+    /// The accuracy of every solver on the buildings: the text and the page of `jostle method`.
+    fn methods(&self, py: Python<'_>) -> PyResult<(String, String)> {
+        let surveys = py.detach(|| jostle_run::survey_methods(&self.opened.system));
+        let surveys = surveys.map_err(run_error)?;
+        let text = jostle_run::plain(&jostle_run::methods_text(&surveys));
+        let page = jostle_report::render_method(&self.opened.input.model.title, &surveys);
+        Ok((text, page))
+    }
+
+    /// Reinforced members: JSON, text and page of `jostle section`.
+    fn sections(&self, py: Python<'_>) -> PyResult<Sections> {
+        let input = &self.opened.input;
+        let found = py.detach(|| jostle_run::sections(input, "the model"));
+        Ok(section_answer(
+            &input.model.title,
+            &found.map_err(run_error)?,
+        ))
+    }
+
+    /// The script for OpenSeesPy, and how that program differs.
+    fn script(&self, py: Python<'_>) -> PyResult<(String, Vec<String>)> {
+        let exported = py.detach(|| jostle_run::export_script(&self.opened));
+        let exported = exported.map_err(run_error)?;
+        Ok((exported.text, exported.remarks))
+    }
+
+    /// Writes the matrices of every building into a folder; returns the files, the list of buildings last.
+    fn export_matrices(
+        &self,
+        py: Python<'_>,
+        folder: PathBuf,
+        force: bool,
+    ) -> PyResult<Vec<PathBuf>> {
+        py.detach(|| jostle_run::export_matrices(&self.opened, &folder, force))
+            .map_err(run_error)
     }
 
     /// Buildings and gaps as JSON.

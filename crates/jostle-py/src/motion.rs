@@ -1,22 +1,25 @@
 //! Ground motions.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use jostle::{GroundMotion, Wave};
 use jostle_io::{
-    Files, MotionError, MotionSource, MotionSpec, Record, RecordContent, RecordLayout,
-    RecordOptions, Scaling,
+    Files, MotionError, MotionSource, MotionSpec, Record, RecordContent, RecordFormat,
+    RecordLayout, RecordOptions, Scaling,
 };
+use jostle_motion::{Accelerogram, MotionFault, measures};
+use jostle_report::{MotionPage, render_motion};
+use jostle_run::NamedMotion;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
-use crate::error::argument_error;
+use crate::error::{argument_error, run_error};
 
 /// A ground motion: its source and scaling, and its values.
 #[pyclass(frozen, module = "jostle._jostle")]
 pub(crate) struct Motion {
     pub(crate) spec: MotionSpec,
-    motion: GroundMotion,
+    pub(crate) motion: GroundMotion,
 }
 
 impl Motion {
@@ -30,6 +33,34 @@ impl Motion {
             spec.source = MotionSource::Given(record);
         }
         Ok(Self { spec, motion })
+    }
+
+    /// Step and scaled values: the samples themselves, so that the bits are those of the command line.
+    pub(crate) fn samples(&self) -> (f64, Vec<f64>) {
+        let motion = &self.motion;
+        if let Wave::Sampled { step, acceleration } = &motion.wave {
+            let scaled = acceleration.iter().map(|value| motion.scale * value);
+            return (*step, scaled.collect());
+        }
+        let step = self.drawn_step();
+        let points = (motion.duration / step) as usize + 1;
+        let at = |k| motion.acceleration(k as f64 * step);
+        (step, (0..points).map(at).collect())
+    }
+
+    /// The same with its name.
+    pub(crate) fn named(&self) -> PyResult<NamedMotion> {
+        let (step, acceleration) = self.samples();
+        let motion = Accelerogram::new(step, acceleration);
+        Ok(NamedMotion {
+            name: self.motion.name.clone(),
+            motion: motion.map_err(|fault| argument_error(fault.to_string()))?,
+        })
+    }
+
+    pub(crate) fn of_named(name: &str, motion: &Accelerogram) -> PyResult<Self> {
+        let given = GroundMotion::sampled(name, motion.step(), motion.acceleration().to_vec());
+        Self::new(MotionSource::Given(given), None)
     }
 
     fn new(source: MotionSource, duration: Option<f64>) -> PyResult<Self> {
@@ -75,7 +106,11 @@ impl Motion {
 
     /// A built-in record, or a file.
     #[staticmethod]
-    #[pyo3(signature = (name, unit=None, step=None, column=None, component=None, lines=(None, None, None, None, None)))]
+    #[pyo3(signature = (name, unit=None, step=None, column=None, component=None, lines=(None, None, None, None, None), format=None, scale=None, remove_mean=None))]
+    #[allow(
+        clippy::too_many_arguments,
+        reason = "they are those of the Python function"
+    )]
     fn record(
         py: Python<'_>,
         name: &str,
@@ -84,7 +119,12 @@ impl Motion {
         column: Option<usize>,
         component: Option<String>,
         lines: StatedLines,
+        format: Option<&str>,
+        scale: Option<f64>,
+        remove_mean: Option<bool>,
     ) -> PyResult<Self> {
+        let format = format.map(RecordFormat::from_key).transpose();
+        let format = format.map_err(|error| argument_error(format!("format{error}")))?;
         let (skip, last, per_line, content, widths) = lines;
         let content = match content.as_deref() {
             None => None,
@@ -100,6 +140,9 @@ impl Motion {
             step,
             column,
             component,
+            format,
+            scale,
+            remove_mean,
             layout: RecordLayout {
                 skip,
                 last,
@@ -160,21 +203,8 @@ impl Motion {
         post_yield: f64,
         between: bool,
     ) -> PyResult<String> {
-        let motion = &self.motion;
         py.detach(|| {
-            let (step, acceleration) = match &motion.wave {
-                // The samples themselves, so that the bits are those of the command line.
-                Wave::Sampled { step, acceleration } => {
-                    let scaled = acceleration.iter().map(|value| motion.scale * value);
-                    (*step, scaled.collect())
-                }
-                _ => {
-                    let step = self.drawn_step();
-                    let points = (motion.duration / step) as usize + 1;
-                    let at = |k| motion.acceleration(k as f64 * step);
-                    (step, (0..points).map(at).collect())
-                }
-            };
+            let (step, acceleration) = self.samples();
             jostle_run::spectrum_json(
                 step,
                 acceleration,
@@ -186,6 +216,43 @@ impl Motion {
             )
         })
         .map_err(|error| argument_error(error.to_string()))
+    }
+
+    /// Measures as the JSON of `jostle motion show`.
+    fn measures(&self) -> PyResult<String> {
+        let NamedMotion { name, motion } = self.named()?;
+        let found = measures(&motion).map_err(|fault| argument_error(fault.to_string()))?;
+        Ok(jostle_run::measures_json(&name, &found).to_string())
+    }
+
+    /// The page of `jostle motion show`.
+    fn page(&self) -> PyResult<String> {
+        let NamedMotion { name, motion } = self.named()?;
+        let wrong = |fault: MotionFault| argument_error(fault.to_string());
+        let found = measures(&motion).map_err(wrong)?;
+        let page = MotionPage {
+            name: &name,
+            motion: &motion,
+            measures: &found,
+        };
+        render_motion(&page).map_err(wrong)
+    }
+
+    /// Writes a file in the format of its ending.
+    fn write(&self, path: PathBuf, force: bool) -> PyResult<()> {
+        let NamedMotion { name, motion } = self.named()?;
+        let written = jostle_run::write_motion(&path, force, &name, &motion);
+        written.map(drop).map_err(run_error)
+    }
+
+    /// The unscaled record as a CSV file with all digits; `None` of a formula.
+    fn csv(&self) -> Option<String> {
+        match &self.motion.wave {
+            Wave::Sampled { step, acceleration } => {
+                Some(jostle_io::csv_text(&self.motion.name, *step, acceleration))
+            }
+            _ => None,
+        }
     }
 
     /// The same motion with the given changes.

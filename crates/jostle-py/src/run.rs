@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
+use jostle::method::MethodSurvey;
 use jostle::stepping::Progress;
 use jostle::{Column, Pounding, RunEnd, Settings, Summary};
 use jostle_io::{
@@ -11,14 +12,14 @@ use jostle_io::{
     impact_columns, member_columns, member_history_columns, summary_json, write_atomically,
 };
 use jostle_run::{
-    Content, FileKind, Paper, Ran, Results, RunError, STORAGE, Stage, earlier_files, find_chromium,
-    may_write, print_pdf,
+    Content, FileKind, Paper, Ran, Results, STORAGE, Stage, earlier_files, find_chromium,
+    may_write, print_pdf, survey_methods,
 };
 use numpy::PyArray2;
-use pyo3::exceptions::{PyFileExistsError, PyKeyboardInterrupt};
+use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 
-use crate::error::{AnalysisError, argument_error, input_error, output_error};
+use crate::error::{argument_error, in_python, input_error, output_error, run_error};
 use crate::histories::Histories;
 use crate::model::Model;
 use crate::table::Table;
@@ -134,6 +135,7 @@ impl Run {
         &self,
         py: Python<'_>,
         without_contact: Option<&Self>,
+        methods: &[MethodSurvey],
         show: impl FnOnce(&Results<'_>) -> T + Send,
     ) -> T {
         let history = &self.histories.history;
@@ -149,9 +151,20 @@ impl Run {
                 summary: &summary,
                 history: Some(history),
                 without_contact: without,
-                methods: &[],
+                methods,
             })
         })
+    }
+}
+
+impl Run {
+    /// The accuracy of every solver on the buildings, if it is wanted.
+    fn methods(&self, py: Python<'_>, wanted: bool) -> PyResult<Vec<MethodSurvey>> {
+        if !wanted {
+            return Ok(Vec::new());
+        }
+        let system = &self.ran.prepared.system;
+        py.detach(|| survey_methods(system)).map_err(run_error)
     }
 }
 
@@ -179,13 +192,14 @@ impl Run {
     /// The warning if the run is expected to lose digits.
     #[getter]
     fn warning(&self) -> Option<String> {
-        self.ran.prepared.lost_digits()
+        self.ran.prepared.lost_digits().as_deref().map(in_python)
     }
 
     /// Warnings about the results.
     #[getter]
     fn doubts(&self) -> Vec<String> {
-        self.summary(None).warnings
+        let warnings = self.summary(None).warnings;
+        warnings.iter().map(|text| in_python(text)).collect()
     }
 
     /// One row per recorded quantity.
@@ -221,10 +235,16 @@ impl Run {
         jostle_report::verdict(&self.summary(None))
     }
 
-    /// The report page.
-    #[pyo3(signature = (without_contact=None))]
-    fn report(&self, py: Python<'_>, without_contact: Option<&Self>) -> PyResult<String> {
-        let report = self.with_results(py, without_contact, |results| results.report());
+    /// The report page; `method` adds the accuracy of every solver.
+    #[pyo3(signature = (without_contact=None, method=false))]
+    fn report(
+        &self,
+        py: Python<'_>,
+        without_contact: Option<&Self>,
+        method: bool,
+    ) -> PyResult<String> {
+        let methods = self.methods(py, method)?;
+        let report = self.with_results(py, without_contact, &methods, |own| own.report());
         Ok(report.unwrap_or_default())
     }
 
@@ -232,7 +252,7 @@ impl Run {
     #[staticmethod]
     #[pyo3(signature = (path, text, force=false))]
     fn write(py: Python<'_>, path: PathBuf, text: &str, force: bool) -> PyResult<()> {
-        may_write(&path, Some(FileKind::REPORT), force).map_err(must_stay)?;
+        may_write(&path, Some(FileKind::REPORT), force).map_err(run_error)?;
         py.detach(|| write_atomically(&path, text.as_bytes()))
             .map_err(|error| output_error(&error))
     }
@@ -263,37 +283,35 @@ impl Run {
             let known = Paper::NAMES.join(", ");
             argument_error(format!("paper: expected one of {known}, found {paper:?}"))
         })?;
-        may_write(&path, Some(FileKind::PDF), force).map_err(must_stay)?;
+        may_write(&path, Some(FileKind::PDF), force).map_err(run_error)?;
         let chromium = find_chromium().map_err(|error| argument_error(error.to_string()))?;
         py.detach(|| print_pdf(&chromium, page, &path, size))
-            .map_err(|error| match error {
-                RunError::Output(error) => output_error(&error),
-                RunError::Argument(text) => argument_error(text),
-                other => AnalysisError::new_err(other.to_string()),
-            })
+            .map_err(run_error)
     }
 
     /// Raises `FileExistsError` if a folder contains files with names of results that jostle did not write.
     #[staticmethod]
     #[pyo3(signature = (folder, force=false))]
     fn check_folder(folder: PathBuf, force: bool) -> PyResult<()> {
-        earlier_files(&folder, force).map(drop).map_err(must_stay)
+        earlier_files(&folder, force).map(drop).map_err(run_error)
     }
 
     /// Writes summary, tables and report into a folder that exists and was checked.
-    #[pyo3(signature = (folder, report, without_contact=None))]
+    #[pyo3(signature = (folder, report, without_contact=None, method=false))]
     fn save(
         &self,
         py: Python<'_>,
         folder: PathBuf,
         report: bool,
         without_contact: Option<&Self>,
+        method: bool,
     ) -> PyResult<()> {
+        let methods = self.methods(py, method)?;
         let content = Content {
             tables: true,
             report,
         };
-        self.with_results(py, without_contact, |results| {
+        self.with_results(py, without_contact, &methods, |results| {
             results.write(&folder, content)
         })
         .map_err(|error| output_error(&error))
@@ -350,14 +368,5 @@ impl Run {
     /// The impacts as a table, columns as in impacts.parquet.
     fn impact_table(&self) -> Table {
         Table::of_columns(impact_columns(&self.summary(None)))
-    }
-}
-
-fn must_stay(error: RunError) -> PyErr {
-    match error {
-        RunError::Output(error) => output_error(&error),
-        kept => {
-            PyFileExistsError::new_err(kept.to_string().replace("add --force", "pass force=True"))
-        }
     }
 }

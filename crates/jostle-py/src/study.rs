@@ -7,13 +7,14 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use jostle::separation::{Code, JointSystem};
-use jostle_io::{Format, InputError, ModelTree, StudyFile};
+use jostle_io::{InputError, StudyFile};
 use jostle_study::dataset::{missing_parts, read_columns};
 use jostle_study::{GapError, GapSettings, Incidence, Progress, RunSettings, StudyError};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyOSError};
 use pyo3::prelude::*;
 
-use crate::error::{AnalysisError, argument_error, input_error};
+use crate::base::{Base, format_of, tree_of};
+use crate::error::{AnalysisError, argument_error, in_python, input_error};
 use crate::model::Model;
 
 /// Interval at which a study checks for Ctrl-C and reports progress.
@@ -24,7 +25,7 @@ const LOOK_UP: Duration = Duration::from_millis(50);
 #[derive(Clone)]
 pub(crate) struct Study(Arc<jostle_study::Study>);
 
-fn study_error(error: &StudyError) -> PyErr {
+pub(crate) fn study_error(error: &StudyError) -> PyErr {
     match error {
         StudyError::Input(errors) => match &errors[..] {
             [only] => input_error(only),
@@ -45,7 +46,7 @@ type Columns = (
 impl Study {
     /// Reads the text of a study file; `base` is name, text, whether it is JSON, and folder of another base model.
     #[staticmethod]
-    #[pyo3(signature = (name, text, json, folder, base=None))]
+    #[pyo3(signature = (name, text, json, folder, base=None, any_build=false))]
     fn read(
         py: Python<'_>,
         name: &str,
@@ -53,6 +54,7 @@ impl Study {
         json: bool,
         folder: PathBuf,
         base: Option<Base>,
+        any_build: bool,
     ) -> PyResult<Self> {
         py.detach(|| {
             let file = base
@@ -62,7 +64,10 @@ impl Study {
             let study = file
                 .map_err(|error: InputError| StudyError::from(error))
                 .and_then(jostle_study::Study::new);
-            study.map(|study| Self(Arc::new(study)))
+            study.map(|mut study| {
+                study.any_build = any_build;
+                Self(Arc::new(study))
+            })
         })
         .map_err(|error| study_error(&error))
     }
@@ -74,7 +79,14 @@ impl Study {
 
     #[getter]
     fn warnings(&self) -> Vec<String> {
-        self.0.warnings.clone()
+        self.0.warnings.iter().map(|text| in_python(text)).collect()
+    }
+
+    /// What varies, in sentences.
+    #[getter]
+    fn varied(&self) -> Vec<String> {
+        let varied = jostle_study::varied(&self.0).into_iter();
+        varied.map(|one| one.text().to_string()).collect()
     }
 
     #[getter]
@@ -230,17 +242,6 @@ impl Study {
     }
 }
 
-/// Name, text, whether it is JSON, and folder of a model.
-type Base = (String, String, bool, PathBuf);
-
-fn format_of(json: bool) -> Format {
-    if json { Format::Json } else { Format::Toml }
-}
-
-fn tree_of((name, text, json, folder): Base) -> Result<ModelTree, InputError> {
-    ModelTree::parse(&name, &text, format_of(json), &folder)
-}
-
 /// Text of the study of the angle of incidence of a model, and what should be known about it. Angles are in degrees.
 #[pyfunction]
 pub(crate) fn incidence(
@@ -265,6 +266,24 @@ pub(crate) fn incidence(
     py.detach(|| jostle_study::incidence(tree_of(base)?, &wanted))
         .map(|(file, notes)| (file.text().to_owned(), notes))
         .map_err(|error| input_error(&error))
+}
+
+/// Text of a ready-made study of a model, and what it leaves out and why.
+#[pyfunction]
+pub(crate) fn ready_made(
+    py: Python<'_>,
+    name: &str,
+    base: Base,
+) -> PyResult<(String, Vec<String>)> {
+    py.detach(|| jostle_study::ready_made(name, Some(tree_of(base)?)))
+        .map(|(file, notes)| (file.text().to_owned(), notes))
+        .map_err(|error| input_error(&error))
+}
+
+/// Names of the ready-made studies.
+#[pyfunction]
+pub(crate) fn ready_made_names() -> Vec<&'static str> {
+    jostle_study::ready_made_names()
 }
 
 /// Lets Ctrl-C and the observer stop a study.

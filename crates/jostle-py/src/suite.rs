@@ -5,13 +5,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-use jostle_run::RunError;
 use jostle_study::suite::GoverningRule;
 use jostle_study::suite::{SuiteOptions, SuiteProgress, SuiteResults, earlier_suite_files};
-use pyo3::exceptions::{PyFileExistsError, PyKeyboardInterrupt};
+use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 
-use crate::error::{AnalysisError, argument_error, input_error, output_error};
+use crate::error::{AnalysisError, argument_error, run_error};
 use crate::model::Model;
 use crate::table::Table;
 
@@ -21,17 +20,6 @@ const LOOK_UP: Duration = Duration::from_millis(50);
 /// Results of a suite.
 #[pyclass(frozen, module = "jostle._jostle")]
 pub(crate) struct Suite(SuiteResults);
-
-fn run_error(error: RunError) -> PyErr {
-    match error {
-        RunError::Input(error) => input_error(&error),
-        RunError::Output(error) => output_error(&error),
-        RunError::Kept(text) => {
-            PyFileExistsError::new_err(text.replace("add --force", "pass force=True"))
-        }
-        other => argument_error(other.to_string()),
-    }
-}
 
 /// Runs a model under every one of its records. `observer` is called with the share that is done and 1.
 #[pyfunction]

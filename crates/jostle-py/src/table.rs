@@ -109,6 +109,52 @@ impl Table {
         self.names.clone()
     }
 
+    /// A table of columns, each with its kind as [`Self::kind`] names it.
+    #[staticmethod]
+    fn of(columns: Vec<(String, String, Bound<'_, PyAny>)>) -> PyResult<Self> {
+        let column = |(name, kind, values): (String, String, Bound<'_, PyAny>)| {
+            let values = match kind.as_str() {
+                "optional" => Values::Instant(values.extract()?),
+                "whole" => Values::Whole(values.extract()?),
+                "text" => Values::Text(values.extract()?),
+                _ => Values::Real(values.extract()?),
+            };
+            Ok((name, values))
+        };
+        let columns: PyResult<Vec<_>> = columns.into_iter().map(column).collect();
+        Ok(Self::of_columns(columns?))
+    }
+
+    /// The table of these rows, in this order.
+    fn taken(&self, py: Python<'_>, rows: Vec<usize>) -> PyResult<Self> {
+        fn pick<T: Clone>(values: &[T], rows: &[usize]) -> Vec<T> {
+            rows.iter()
+                .filter_map(|row| values.get(*row).cloned())
+                .collect()
+        }
+        let columns = match &self.columns {
+            Columns::Histories(histories) => {
+                let histories = histories.bind(py).try_readonly()?;
+                let count = self.rows(py).max(1);
+                let values = histories.as_slice()?.chunks(count);
+                values.map(|own| Values::Real(pick(own, &rows))).collect()
+            }
+            Columns::Own(columns) => columns
+                .iter()
+                .map(|values| match values {
+                    Values::Real(own) => Values::Real(pick(own, &rows)),
+                    Values::Instant(own) => Values::Instant(pick(own, &rows)),
+                    Values::Whole(own) => Values::Whole(pick(own, &rows)),
+                    Values::Text(own) => Values::Text(pick(own, &rows)),
+                })
+                .collect(),
+        };
+        Ok(Self {
+            names: self.names.clone(),
+            columns: Columns::Own(columns),
+        })
+    }
+
     /// What a column has: `real`, `optional` (numbers that may be absent), `whole` or `text`.
     fn kind(&self, index: usize) -> PyResult<&'static str> {
         match &self.columns {

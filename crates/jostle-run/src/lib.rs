@@ -8,6 +8,7 @@
 
 mod calculation;
 mod case_cache;
+mod check;
 mod checks_text;
 #[cfg(not(target_family = "wasm"))]
 mod claim;
@@ -18,6 +19,7 @@ mod contact_sensitivity;
 mod critical_gap;
 mod error;
 mod expectation;
+mod export;
 mod files;
 mod floor_spectra;
 mod floor_spectra_text;
@@ -26,7 +28,9 @@ mod gap_page;
 mod gap_runs;
 mod history_file;
 mod isolation_bounds;
+mod method;
 mod modes;
+mod motions;
 mod numbers;
 mod observer;
 mod opened;
@@ -37,6 +41,7 @@ mod pushover;
 mod replace;
 mod results;
 mod run;
+mod section;
 mod sections_text;
 mod shapes;
 mod spectra;
@@ -47,6 +52,7 @@ mod variants;
 mod workbook;
 
 pub use case_cache::{CaseCache, CaseError};
+pub use check::{Check, CheckedRecord, ExpectedWork, check};
 pub use checks_text::finding_with_remedy;
 #[cfg(not(target_family = "wasm"))]
 pub use claim::FolderClaim;
@@ -64,12 +70,18 @@ pub use critical_gap::{
 };
 pub use error::RunError;
 pub use expectation::{Expectation, Pace};
+pub use export::{export_matrices, export_script, may_write_script};
 pub use files::{Content, earlier_files};
 pub use floor_spectra::RunFloorSpectra;
 pub use gap_page::{earlier_gap_curves, gap_curve_csv, gap_curve_page, write_gap_curves};
 pub use gap_runs::{GapError, GapPoint};
 pub use history_file::STORAGE;
+pub use method::{methods_text, survey_methods};
 pub use modes::{ListedModes, floor_shape, list_modes, modes_json};
+pub use motions::{
+    NamedMotion, Noise, Processing, Pulse, Selection, SelectionRequest, SpectrumMatch, Synthesis,
+    made_by_recipe, measures_json, motion_in_short, motion_text, write_motion,
+};
 pub use numbers::{counted, counted_grouped, grouped, kn, mm};
 pub use observer::{Observer, Stage, stopped_by};
 pub use opened::{EXAMPLE, Opened, name_of, open, read};
@@ -79,6 +91,7 @@ pub use pushover::{checked_drift, chosen_buildings, pushed_buildings, pushover_j
 pub use replace::{FileKind, may_write};
 pub use results::Results;
 pub use run::Ran;
+pub use section::{SectionOptions, section, sections, sections_json, sections_text};
 pub use shapes::SharedShapes;
 pub use spectra::{Inelastic, accelerogram, spectra_json, spectrum_json};
 pub use style::{BOLD, DIM, LOUD, plain, styled};

@@ -80,7 +80,7 @@ impl Tool {
 
 fn check(files: &Files, arguments: Value) -> Result<String, Failure> {
     let asked: ModelArguments = read(arguments, &schema(&json!({})))?;
-    crate::check::report(&asked.open(files)?)
+    Ok(jostle_run::check(&asked.open(files)?)?.text)
 }
 
 #[derive(Deserialize)]

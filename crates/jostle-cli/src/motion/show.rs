@@ -2,23 +2,19 @@
 
 use std::fmt::Write;
 
-use jostle_motion::{
-    Accelerogram, Measures, Reading, STANDARD_GRAVITY, measures, response_spectrum, spaced_periods,
-};
+use jostle_motion::measures;
 use jostle_report::{MotionPage, render_motion};
-use serde_json::{Value, json};
+use jostle_run::{FileKind, NamedMotion, measures_json, motion_text};
 
 use super::args::ShowArgs;
-use super::source::{Named, wrong};
+use super::source::wrong;
 use crate::failure::Failure;
 use crate::replace::Target;
 use crate::terminal;
-use jostle_run::FileKind;
-use jostle_run::{BOLD, DIM, styled};
 
 pub(super) fn show(args: &ShowArgs) -> Result<(), Failure> {
     let target = Target::of_option(args.html.as_ref(), FileKind::REPORT, args.force)?;
-    let Named { name, motion } = args.record.open()?;
+    let NamedMotion { name, motion } = args.record.open()?;
     let measures = measures(&motion).map_err(wrong)?;
     if let Some(target) = &target {
         let page = MotionPage {
@@ -30,154 +26,11 @@ pub(super) fn show(args: &ShowArgs) -> Result<(), Failure> {
         target.write(&text)?;
     }
     if args.json {
-        return terminal::print(&format!("{:#}", as_json(&name, &measures)));
+        return terminal::print(&format!("{:#}", measures_json(&name, &measures)));
     }
-    let mut text = describe(&name, &motion, &measures)?;
+    let mut text = motion_text(&name, &motion, &measures)?;
     if let Some(path) = &args.html {
         let _ = writeln!(text, "\n  {}", path.display());
     }
     terminal::print(&text)
-}
-
-fn as_json(name: &str, m: &Measures) -> Value {
-    json!({
-        "name": name,
-        "points": m.points,
-        "step_s": m.step,
-        "duration_s": m.duration,
-        "pga_m_s2": m.pga.value,
-        "pga_at_s": m.pga.at,
-        "pgv_m_s": m.pgv.value,
-        "pgv_at_s": m.pgv.at,
-        "pgd_m": m.pgd.value,
-        "pgd_at_s": m.pgd.at,
-        "arias_m_s": m.arias,
-        "cav_m_s": m.cav,
-        "d5_95_s": m.d5_95[1] - m.d5_95[0],
-        "d5_75_s": m.d5_75[1] - m.d5_75[0],
-        "rms_m_s2": m.rms,
-        "predominant_period_s": m.predominant_period,
-        "mean_period_s": m.mean_period,
-        "housner_m": m.housner,
-    })
-}
-
-fn describe(name: &str, motion: &Accelerogram, m: &Measures) -> Result<String, Failure> {
-    let mut text = String::new();
-    // Writing to a string cannot fail.
-    let _ = writeln!(
-        text,
-        "{}  {} values, step {} s, {:.2} s",
-        styled(BOLD, name),
-        m.points,
-        m.step,
-        m.duration
-    );
-    let _ = writeln!(text, "  {}", picture(motion));
-    let end = format!("{:.0} s", m.duration);
-    let _ = writeln!(text, "  {}", styled(DIM, &format!("0{end:>71}")));
-    let mut row = |what: &str, value: String, note: String| {
-        let _ = writeln!(text, "  {what:<26}{value:<16}{}", styled(DIM, &note));
-    };
-    let at = |t: f64| format!("at {t:.2} s");
-    let gravity = m.pga.value / STANDARD_GRAVITY;
-    row(
-        "peak acceleration",
-        format!("{:.4} m/s²", m.pga.value),
-        format!("{gravity:.4} g, {}", at(m.pga.at)),
-    );
-    row(
-        "peak velocity",
-        format!("{:.4} m/s", m.pgv.value),
-        at(m.pgv.at),
-    );
-    row(
-        "peak displacement",
-        format!("{:.4} m", m.pgd.value),
-        at(m.pgd.at),
-    );
-    row(
-        "Arias intensity",
-        format!("{:.4} m/s", m.arias),
-        String::new(),
-    );
-    row(
-        "cumulative abs. velocity",
-        format!("{:.3} m/s", m.cav),
-        String::new(),
-    );
-    for (what, [from, to]) in [("duration 5–95 %", m.d5_95), ("duration 5–75 %", m.d5_75)] {
-        row(
-            what,
-            format!("{:.2} s", to - from),
-            format!("{from:.2} to {to:.2} s"),
-        );
-    }
-    row("rms in 5–95 %", format!("{:.4} m/s²", m.rms), String::new());
-    row(
-        "predominant period",
-        format!("{:.3} s", m.predominant_period),
-        "largest response, 5 %".into(),
-    );
-    row(
-        "mean period",
-        format!("{:.3} s", m.mean_period),
-        "of Fourier amplitudes".into(),
-    );
-    row(
-        "Housner intensity",
-        format!("{:.4} m", m.housner),
-        "PSV over 0.1–2.5 s, 5 %".into(),
-    );
-    let periods = [0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 4.0];
-    let spectrum = response_spectrum(motion, &periods, &[0.05], Reading::Steps).map_err(wrong)?;
-    let cells = |head: &str, values: &mut dyn Iterator<Item = String>| {
-        let values: String = values.map(|value| format!("{value:>7}")).collect();
-        format!("  {head:<14}{values}\n")
-    };
-    text.push('\n');
-    text += &cells("period s", &mut periods.iter().map(f64::to_string));
-    let curve = &spectrum.curves[0];
-    let psa = curve.pseudo_acceleration.iter();
-    text += &cells("PSA 5 % m/s²", &mut psa.map(|a| format!("{a:.3}")));
-    text += &cells(
-        "SD 5 % mm",
-        &mut curve.displacement.iter().map(|u| format!("{:.1}", 1e3 * u)),
-    );
-    text += &format!("  {}\n", sparkline(motion)?);
-    Ok(text)
-}
-
-const BARS: [char; 9] = [' ', '▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
-/// Characters of a picture.
-const WIDTH: usize = 72;
-
-fn bar(share: f64) -> char {
-    BARS[((share * 8.0).round().clamp(0.0, 8.0)) as usize]
-}
-
-/// Largest magnitudes over time.
-fn picture(motion: &Accelerogram) -> String {
-    let (a, peak) = (motion.acceleration(), motion.peak());
-    let part = |i: usize| {
-        let (first, last) = (
-            i * a.len() / WIDTH,
-            ((i + 1) * a.len() / WIDTH).max(i * a.len() / WIDTH + 1),
-        );
-        let largest = a[first..last.min(a.len())]
-            .iter()
-            .fold(0.0, |m: f64, a| m.max(a.abs()));
-        bar(largest / peak)
-    };
-    (0..WIDTH).map(part).collect()
-}
-
-/// Pseudo-acceleration over the logarithm of the period.
-fn sparkline(motion: &Accelerogram) -> Result<String, Failure> {
-    let periods = spaced_periods(0.05, 5.0, 48);
-    let spectrum = response_spectrum(motion, &periods, &[0.05], Reading::Steps).map_err(wrong)?;
-    let values = &spectrum.curves[0].pseudo_acceleration;
-    let largest = values.iter().fold(0.0, |m: f64, a| m.max(*a));
-    let bars: String = values.iter().map(|a| bar(a / largest)).collect();
-    Ok(format!("0.05 s {bars} 5 s"))
 }

@@ -2,26 +2,19 @@
 
 use std::path::Path;
 
-use jostle::GroundMotion;
 use jostle_io::{
     Dimension, MotionSource, MotionSpec, RecordContent, RecordFormat, RecordLayout, TargetWords,
-    at2_text, csv_text, parse_quantity, read_target_file, write_atomically,
+    parse_quantity, read_target_file,
 };
 use jostle_motion::{Accelerogram, MotionFault, TargetSpectrum};
 
 use super::args::{RecordArgs, TargetArgs};
 use crate::failure::Failure;
 use crate::terminal;
-use jostle_run::may_write;
-
-/// A motion with its name.
-pub(super) struct Named {
-    pub(super) name: String,
-    pub(super) motion: Accelerogram,
-}
+use jostle_run::NamedMotion;
 
 impl RecordArgs {
-    pub(super) fn open(&self) -> Result<Named, Failure> {
+    pub(super) fn open(&self) -> Result<NamedMotion, Failure> {
         let mut spec = MotionSpec::record(&self.record);
         let step = self
             .step
@@ -40,7 +33,7 @@ impl RecordArgs {
             options.remove_mean = self.remove_mean.then_some(true);
             options.layout = self.layout();
         }
-        resolve(&spec).map_err(|problem| Failure::Input(as_options(&problem)))
+        NamedMotion::resolve(&spec).map_err(|problem| Failure::Input(as_options(&problem)))
     }
 }
 
@@ -61,8 +54,8 @@ impl RecordArgs {
 }
 
 /// A motion by built-in name or path.
-pub(super) fn open(name: &str) -> Result<Named, Failure> {
-    resolve(&MotionSpec::record(name)).map_err(|problem| {
+pub(super) fn open(name: &str) -> Result<NamedMotion, Failure> {
+    NamedMotion::resolve(&MotionSpec::record(name)).map_err(|problem| {
         let asks = problem.contains(BESIDE);
         let problem = as_options(&problem);
         Failure::Input(if asks {
@@ -127,18 +120,6 @@ fn tables_as_options(problem: &str) -> String {
     text + rest
 }
 
-fn resolve(spec: &MotionSpec) -> Result<Named, String> {
-    let motion = spec.resolve().map_err(|error| error.to_string())?;
-    let GroundMotion { name, wave, .. } = motion;
-    match wave {
-        jostle::Wave::Sampled { step, acceleration } => Ok(Named {
-            name,
-            motion: Accelerogram::new(step, acceleration).map_err(|fault| fault.to_string())?,
-        }),
-        _ => Err(format!("{name} is no record")),
-    }
-}
-
 impl TargetArgs {
     pub(super) fn open(&self) -> Result<TargetSpectrum, Failure> {
         if let Some(path) = &self.target {
@@ -197,36 +178,8 @@ pub(super) fn write(
     name: &str,
     motion: &Accelerogram,
 ) -> Result<(), Failure> {
-    let extension = path
-        .extension()
-        .unwrap_or_default()
-        .to_string_lossy()
-        .to_lowercase();
-    let text = match extension.as_str() {
-        "at2" => at2_text(name, motion.step(), motion.acceleration()),
-        "csv" => csv_text(name, motion.step(), motion.acceleration()),
-        _ => {
-            let shown = path.display();
-            let problem =
-                format!("{shown}: a motion is written as .at2 or .csv; give the file such a name");
-            return Err(Failure::Input(problem));
-        }
-    };
-    if may_write(path, None, force)? {
+    if jostle_run::write_motion(path, force, name, motion)? {
         terminal::remark(&format!("replaced: {}", path.display()));
     }
-    write_atomically(path, text.as_bytes())?;
     Ok(())
-}
-
-/// One line about a motion.
-pub(super) fn in_short(motion: &Accelerogram) -> String {
-    format!(
-        "{} values, step {} s, {:.2} s, PGA {:.4} m/s² ({:.4} g)",
-        motion.points(),
-        motion.step(),
-        motion.duration(),
-        motion.peak(),
-        motion.peak() / jostle_motion::STANDARD_GRAVITY
-    )
 }

@@ -2,10 +2,10 @@
 
 use std::fmt::Write as _;
 
+use crate::numbers::counted;
 use jostle::hysteresis::{Hysteresis, HysteresisRule, Side};
 use jostle::model::{Hinges, PlanAxis, PlanSpring, Tiers};
 use jostle::{ColumnFibres, SpaceFrame, SpaceMember, SpacePlace};
-use jostle_run::counted;
 
 pub(super) fn describe_hinges(text: &mut String, hinges: &Hinges) -> std::fmt::Result {
     match hinges {

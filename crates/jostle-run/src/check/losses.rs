@@ -1,10 +1,10 @@
 //! What impacts dissipate.
 
+use crate::numbers::{kn, mm};
 use jostle::LawKind;
 use jostle::contact::FreeCollision;
 use jostle::interface::Contact;
 use jostle::model::Gap;
-use jostle_run::{kn, mm};
 
 /// Impact speed at which the rebound of a formula is computed \[m/s\].
 const SPEED: f64 = 0.5;

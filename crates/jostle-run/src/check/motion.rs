@@ -2,9 +2,10 @@
 
 use std::fmt::Write as _;
 
+use crate::numbers::grouped;
+use crate::style::{BOLD, styled};
 use jostle::structure::StepEquations;
 use jostle::{GroundMotion, Plan, RiccatiSweep, Solver, System};
-use jostle_run::{BOLD, grouped, styled};
 
 use super::decimals;
 

@@ -1,8 +1,8 @@
 //! Frames in words.
 
+use crate::numbers::counted;
 use jostle::hysteresis::{Hysteresis, HysteresisRule, Side};
 use jostle::{DiagonalKind, Frame, Section};
-use jostle_run::counted;
 
 /// Whether the columns of a frame shorten, and why; `None` if it is not known whether the file says so.
 pub(super) fn axial_of_columns(frame: &Frame, is_stated: Option<bool>) -> String {

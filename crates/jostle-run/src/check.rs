@@ -1,0 +1,816 @@
+//! A model without a run: masses, periods, contacts, findings and the expected work, as `jostle check` prints them.
+
+mod base;
+mod frames;
+mod hinges;
+mod losses;
+mod motion;
+
+use std::fmt::Write;
+
+use jostle::eigen::Mode;
+use jostle::hysteresis::Side;
+use jostle::judgement::Stated;
+use jostle::model::{Damping, Structure, Tiers, usual_damping_modes};
+use jostle::system::BuildingSystem;
+use jostle::{Building, LinkLaw, Model, SpaceMember, SpacePlace, System};
+
+use base::{describe_bearing_places, describe_bearings, describe_foundation};
+use frames::{axial_of_columns, diagonals, members, walls};
+use hinges::{describe_hinges, describe_yielding_in_plan};
+use jostle::results::summary::Finding;
+use jostle_report::{SitePlace, site_svg};
+use losses::losses;
+use motion::{describe_grounds, describe_work};
+use serde::Serialize;
+
+use crate::checks_text::finding_with_remedy;
+use crate::error::RunError;
+use crate::numbers::{counted, grouped, mm};
+use crate::opened::Opened;
+use crate::style::{BOLD, LOUD, styled};
+
+/// What is known of a model without running it.
+#[derive(Clone, Debug, Serialize)]
+pub struct Check {
+    /// All of it in words, as `jostle check` prints it.
+    pub text: String,
+    /// Warnings about valid but unusual values.
+    pub warnings: Vec<String>,
+    /// What was assumed where the model does not say.
+    pub notes: Vec<String>,
+    /// Checks of the model that are not passed, worst first.
+    pub findings: Vec<Finding>,
+    /// The records that a run may choose from; empty unless there are several.
+    pub records: Vec<CheckedRecord>,
+    /// What a run is expected to take; `None` without a ground motion, and for several records.
+    pub work: Option<ExpectedWork>,
+    /// Files that the model names.
+    pub files: Vec<String>,
+    /// The site from above as SVG; `None` of models in one plane.
+    pub site: Option<String>,
+}
+
+/// A record of a model that lists several.
+#[derive(Clone, Debug, Serialize)]
+pub struct CheckedRecord {
+    /// Name.
+    pub name: String,
+    /// Length \[s\].
+    pub duration_s: f64,
+    /// Peak ground acceleration, scale included \[m/s²\].
+    pub pga_m_s2: f64,
+    /// Regular steps.
+    pub steps: u64,
+    /// Their length \[s\].
+    pub step_s: f64,
+}
+
+/// What a run with its report is expected to take.
+#[derive(Clone, Debug, Serialize)]
+pub struct ExpectedWork {
+    /// Equations that advance a step.
+    pub solver: &'static str,
+    /// Regular steps, more during contact.
+    pub steps: u64,
+    /// Their length \[s\].
+    pub step_s: f64,
+    /// Time on this machine \[s\].
+    pub seconds: f64,
+    /// Memory \[bytes\].
+    pub memory_bytes: f64,
+    /// Size of `history.parquet` \[bytes\].
+    pub history_file_bytes: f64,
+}
+
+/// Checks a model without running it: masses, periods, contacts, findings, expected work.
+///
+/// # Errors
+/// The ground motion cannot be used, or a run would lose its digits or need more memory than there is.
+pub fn check(opened: &Opened) -> Result<Check, RunError> {
+    let mut text = String::new();
+    // Writing to a string cannot fail.
+    let _ = describe(
+        &mut text,
+        &opened.input.model,
+        &opened.system,
+        &opened.input.stated,
+    );
+    let mut warnings = opened.input.warnings.clone();
+    warnings.extend(jostle::results::foundation_warnings(&opened.system));
+    warnings.extend(jostle::results::friction_warnings(
+        &opened.input.model,
+        &opened.system,
+    ));
+    for warning in &warnings {
+        let _ = writeln!(text, "{} {warning}", styled(LOUD, "warning:"));
+    }
+    let notes = opened.input.assumptions();
+    for assumption in &notes {
+        let _ = writeln!(text, "{} {assumption}", styled(LOUD, "note:"));
+    }
+    if !(warnings.is_empty() && notes.is_empty()) {
+        text.push('\n');
+    }
+    let motion = match opened.input.records().is_empty() && opened.input.motion.is_some() {
+        true => Some(opened.plan()?),
+        false => None,
+    };
+    let findings = opened.findings(motion.as_ref().map(|(motion, _)| motion));
+    for finding in &findings {
+        let _ = writeln!(text, "{}", finding_with_remedy(finding));
+    }
+    if !findings.is_empty() {
+        text.push('\n');
+    }
+    let (mut listed, mut work, mut site) = (Vec::new(), None, None);
+    if opened.system.is_in_space() {
+        site = site_svg(
+            &opened.input.model,
+            &opened.system,
+            motion.as_ref().map(|(motion, _)| motion),
+            opened.input.north,
+        );
+    }
+    if !opened.input.records().is_empty() {
+        listed = records(opened, &mut text, &mut warnings)?;
+    } else if let Some((motion, plan)) = motion {
+        if let Err(refusal) = plan.check_digits(&opened.system) {
+            let problem = format!("{refusal}; jostle run --force runs it anyway");
+            return Err(opened.input.fault("analysis.solver", problem).into());
+        }
+        if let Some(warning) = opened.input.unusual_motion(&motion) {
+            let _ = writeln!(text, "{} {warning}", styled(LOUD, "warning:"));
+            warnings.push(warning);
+        }
+        let _ = describe_grounds(&mut text, &opened.system, &motion);
+        let _ = writeln!(text, "{}", styled(BOLD, "Expected work"));
+        let _ = describe_work(&mut text, &opened.system, &plan, motion.duration);
+        let prepared = opened.prepare()?;
+        let settings = prepared.settings(true);
+        prepared.check_histories(settings, true, Some("jostle run --force runs it anyway"))?;
+        let expected = prepared.expect(settings, true);
+        let seconds = prepared.expected_seconds(settings);
+        let _ = writeln!(text, "  {}\n", expected.text(seconds));
+        work = Some(ExpectedWork {
+            solver: plan.solver.name(),
+            steps: steps_of(motion.duration, plan.step),
+            step_s: plan.step,
+            seconds,
+            memory_bytes: expected.memory,
+            history_file_bytes: expected.history_file,
+        });
+    } else {
+        let _ = writeln!(
+            text,
+            "{} the model has no ground motion; a run needs one: add [motion], or --record",
+            styled(LOUD, "note:")
+        );
+    }
+    let files = opened.input.files();
+    if !files.is_empty() {
+        let _ = writeln!(text, "Files read: {}", files.join(", "));
+    }
+    text.push_str(match opened.input.motion {
+        Some(_) => "The model is valid.",
+        None => "The model is valid, without a ground motion.",
+    });
+    Ok(Check {
+        text,
+        warnings,
+        notes,
+        findings,
+        records: listed,
+        work,
+        files,
+        site,
+    })
+}
+
+/// Regular steps through a motion.
+fn steps_of(duration: f64, step: f64) -> u64 {
+    (duration / step).ceil() as u64
+}
+
+/// The records that a run may choose from; each of them is read.
+fn records(
+    opened: &Opened,
+    text: &mut String,
+    warnings: &mut Vec<String>,
+) -> Result<Vec<CheckedRecord>, RunError> {
+    let inputs = opened.input.each_record();
+    let mut listed = Vec::new();
+    let _ = writeln!(text, "{}", styled(BOLD, "Records"));
+    for input in &inputs {
+        let (motion, plan) = opened.plan_of(input)?;
+        let steps = steps_of(motion.duration, plan.step);
+        let _ = writeln!(
+            text,
+            "  {:30} {:>7.2} s {:>8.1} cm/s² {:>8} steps of {:.4} ms",
+            motion.name,
+            motion.duration,
+            100.0 * motion.peak(),
+            grouped(steps),
+            plan.step * 1e3
+        );
+        if let Some(warning) = input.unusual_motion(&motion) {
+            let warning = format!("{}: {warning}", motion.name);
+            let _ = writeln!(text, "{} {warning}", styled(LOUD, "warning:"));
+            warnings.push(warning);
+        }
+        listed.push(CheckedRecord {
+            pga_m_s2: motion.peak(),
+            duration_s: motion.duration,
+            name: motion.name,
+            steps,
+            step_s: plan.step,
+        });
+    }
+    let _ = writeln!(
+        text,
+        "{} a run uses one of them, chosen with --record; a study and \"jostle gap\" use all {}",
+        styled(LOUD, "note:"),
+        inputs.len()
+    );
+    Ok(listed)
+}
+
+/// Columns, beams and grid lines of a space frame.
+fn space_frame(tiers: &Tiers) -> String {
+    let Some(frame) = &tiers.space_frame else {
+        return String::new();
+    };
+    let is_column = |member: &&SpaceMember| matches!(member.place, SpacePlace::Column { .. });
+    let columns = frame.members.iter().filter(is_column).count();
+    let lines = |lines: &[f64]| {
+        let all = lines.iter().map(|line| format!("{line}"));
+        all.collect::<Vec<_>>().join(", ")
+    };
+    format!(
+        "space frame, {}, {} and {}\n  grid lines at x = {} m, at y = {} m",
+        counted(tiers.floors.len(), "storey"),
+        counted(columns, "column"),
+        counted(frame.members.len() - columns, "beam"),
+        lines(&frame.lines_x),
+        lines(&frame.lines_y)
+    )
+}
+
+fn describe(
+    text: &mut String,
+    model: &Model,
+    system: &System,
+    stated: &Stated,
+) -> std::fmt::Result {
+    writeln!(text, "{}\n", styled(BOLD, &model.title))?;
+    for (index, building) in system.structures().iter().enumerate() {
+        let kind = match &model.buildings[index].structure {
+            Structure::Frame(frame) => format!(
+                "frame, {}, {}{}",
+                counted(frame.storey_heights.len(), "storey"),
+                counted(frame.spans.len(), "span"),
+                members(frame) + &diagonals(frame)
+            ),
+            Structure::Shear(shear) => {
+                format!("shear building, {}", counted(shear.mass.len(), "storey"))
+            }
+            Structure::Tiers(tiers) if !tiers.frames.is_empty() => format!(
+                "{} at lines of a plan, {}",
+                counted(tiers.frames.len(), "frame"),
+                counted(tiers.floors.len(), "storey")
+            ),
+            Structure::Tiers(tiers) if tiers.space_frame.is_some() => space_frame(tiers),
+            Structure::Tiers(tiers) if tiers.matrices.is_some() => format!(
+                "given by matrices, {} in plan",
+                counted(tiers.floors.len(), "floor")
+            ),
+            Structure::Tiers(tiers) => format!(
+                "shear building with a plan, {}",
+                counted(tiers.floors.len(), "storey")
+            ),
+            Structure::Given(given) => {
+                format!(
+                    "given by matrices of {}, {}",
+                    counted(given.len(), "displacement"),
+                    counted(given.floors.len(), "floor")
+                )
+            }
+        };
+        let damping = &model.buildings[index].damping;
+        describe_building(text, building, damping, &kind)?;
+        match &model.buildings[index].structure {
+            Structure::Frame(frame) => {
+                let own = stated.buildings.get(index);
+                let is_stated = own.is_some_and(|own| own.axial);
+                writeln!(text, "  {}", axial_of_columns(frame, Some(is_stated)))?;
+                text.push_str(&walls(frame));
+            }
+            Structure::Tiers(tiers) => {
+                // Frames of one plan are as high; the file says it of each.
+                let mut lines: Vec<String> = tiers
+                    .frames
+                    .iter()
+                    .map(|own| axial_of_columns(&own.frame, None))
+                    .collect();
+                lines.dedup();
+                for line in lines {
+                    writeln!(text, "  {line}")?;
+                }
+            }
+            Structure::Shear(_) | Structure::Given(_) => {}
+        }
+        for line in special(&model.buildings[index]) {
+            writeln!(text, "  {line}")?;
+        }
+        if let Some(mat) = building.discretization.mat {
+            describe_bearings(text, &mat)?;
+            if let Some(own) = &building.mat_in_plan {
+                let given = matches!(
+                    &model.buildings[index].structure,
+                    Structure::Tiers(tiers) if !tiers.bearings.is_empty()
+                );
+                describe_bearing_places(text, &own.bearings, mat.weight, given)?;
+            }
+        }
+        if let Some(foundation) = building.foundation {
+            let mass = building.equations.total_mass();
+            let sticks = &building.discretization.stick_model;
+            let bed = sticks.foundation.as_ref().map(|own| &own.bed[..]);
+            describe_foundation(text, &foundation, mass, bed.unwrap_or_default())?;
+        }
+        if let Some(hinges) = &model.buildings[index].hinges {
+            describe_hinges(text, hinges)?;
+        }
+        if let Structure::Tiers(tiers) = &model.buildings[index].structure {
+            describe_yielding_in_plan(text, tiers)?;
+        }
+        for (name, hinge, unit) in [
+            (
+                "rocks",
+                model.buildings[index].base.rotational_hinge,
+                "kN.m",
+            ),
+            ("slides", model.buildings[index].base.horizontal_hinge, "kN"),
+        ] {
+            if let Some(hinge) = hinge {
+                let yielding = hinge.backbone().side(Side::Positive).yielding.force;
+                writeln!(
+                    text,
+                    "  base {name} by {}: yields at {:.0} {unit}",
+                    hinge.rule().name(),
+                    yielding * 1e-3
+                )?;
+            }
+        }
+        writeln!(text)?;
+    }
+    let places = SitePlace::of_system(model, system);
+    for (index, gap) in model.gaps.iter().enumerate() {
+        let contacts: Vec<_> = system
+            .contacts
+            .iter()
+            .filter(|contact| contact.gap == index)
+            .collect();
+        let heights: Vec<String> = contacts
+            .iter()
+            .map(|contact| {
+                height(
+                    contact.height,
+                    system.floors_of(&contact.ports),
+                    &model.buildings_beside(gap.between),
+                )
+            })
+            .collect();
+        let [left, right] = names(system, gap.between);
+        writeln!(text, "{}", styled(BOLD, &format!("{left} ↔ {right}")))?;
+        let widths: Vec<String> = contacts.iter().map(|contact| mm(contact.width)).collect();
+        if system.is_in_space() {
+            writeln!(
+                text,
+                "  gap {} mm, {} of {} points each",
+                mm(gap.width()),
+                counted(faces_among(&contacts), "face"),
+                gap.in_plan.points
+            )?;
+        } else {
+            writeln!(
+                text,
+                "  gap {} mm, {} at {} m",
+                if gap.widths.len() > 1 {
+                    widths.join(", ")
+                } else {
+                    mm(gap.width())
+                },
+                counted(contacts.len(), "contact"),
+                heights.join(", ")
+            )?;
+            for (contact, height) in contacts.iter().zip(&heights) {
+                let farther = contact.width - gap.width();
+                if gap.widths.len() == 1 && farther > 0.0 {
+                    writeln!(
+                        text,
+                        "  the faces at {height} m stand back: {farther:.2} m more"
+                    )?;
+                }
+            }
+        }
+        let unit = if gap.law.kind.is_hertzian() {
+            "N/m^1.5"
+        } else {
+            "N/m"
+        };
+        writeln!(
+            text,
+            "  {} with {:.3e} {unit}; {}",
+            gap.law.kind.name(),
+            gap.law.stiffness,
+            losses(gap, &contacts)
+        )?;
+        if system.is_in_space() {
+            describe_places(text, model, index, &places)?;
+            continue;
+        }
+        if let Some(contact) = contacts.last() {
+            let [left, right] = contact.ports.masses().map(|mass| {
+                if mass.is_finite() {
+                    format!("{:.1} t", mass * 1e-3)
+                } else {
+                    "a rigid wall".to_owned()
+                }
+            });
+            writeln!(
+                text,
+                "  colliding masses at the top {left} and {right}; an elastic impact at 0.5 m/s lasts {:.1} ms\n",
+                contact.law.elastic_duration(contact.effective_mass(), 0.5) * 1e3
+            )?;
+        }
+    }
+    for (index, link) in model.links.iter().enumerate() {
+        let own = system.links.iter().filter(|element| element.link == index);
+        let heights: Vec<String> = own
+            .map(|element| {
+                height(
+                    element.height,
+                    system.floors_of(&element.ports),
+                    &model.buildings_beside(link.between),
+                )
+            })
+            .collect();
+        let [left, right] = names(system, link.between);
+        let pair = if link.is_inside() {
+            left.to_owned()
+        } else {
+            format!("{left} — {right}")
+        };
+        let law = match link.law {
+            LinkLaw::Linear => String::new(),
+            law => format!("{} ", law.name()),
+        };
+        writeln!(text, "{}", styled(BOLD, &pair))?;
+        writeln!(
+            text,
+            "  {} at {} m, each with {}\n",
+            counted(heights.len(), &format!("{law}link")),
+            heights.join(", "),
+            parameters(link)
+        )?;
+    }
+    Ok(())
+}
+
+/// Numbers of a link, with units.
+fn parameters(link: &jostle::Link) -> String {
+    let exponent = match link.law {
+        LinkLaw::Viscous { exponent } => exponent,
+        LinkLaw::Linear
+        | LinkLaw::Maxwell
+        | LinkLaw::Friction { .. }
+        | LinkLaw::Yielding(_)
+        | LinkLaw::Cable { .. }
+        | LinkLaw::Stopper { .. } => 1.0,
+    };
+    let per_speed = if exponent == 1.0 {
+        "N.s/m".to_owned()
+    } else {
+        format!("N.(s/m)^{exponent}")
+    };
+    let (mut stiffness, mut own) = (link.stiffness, Vec::new());
+    match link.law {
+        LinkLaw::Linear | LinkLaw::Viscous { .. } | LinkLaw::Maxwell => {}
+        LinkLaw::Friction {
+            slip_force,
+            stick_stiffness,
+        } => {
+            stiffness = stick_stiffness;
+            own.push(format!("slip at {:.1} kN", slip_force * 1e-3));
+        }
+        LinkLaw::Yielding(hysteresis) => {
+            let backbone = hysteresis.backbone();
+            let yielding = backbone.side(Side::Positive).yielding;
+            stiffness = backbone.initial();
+            own.push(format!(
+                "yield at {:.1} kN, {}",
+                yielding.force * 1e-3,
+                hysteresis.rule().name()
+            ));
+        }
+        LinkLaw::Cable { slack } => own.push(format!("a slack of {:.1} mm", slack * 1e3)),
+        LinkLaw::Stopper { gap } => own.push(format!("a gap of {:.1} mm", gap * 1e3)),
+    }
+    let springs = [(stiffness, "N/m"), (link.damping, per_speed.as_str())];
+    let springs = springs.iter().filter(|(value, _)| *value > 0.0);
+    let springs = springs.map(|(value, unit)| format!("{value:.3e} {unit}"));
+    springs.chain(own).collect::<Vec<_>>().join(" and ")
+}
+
+/// Number of faces and corners.
+fn faces_among(contacts: &[&jostle::interface::Contact]) -> usize {
+    let mut faces: Vec<usize> = contacts
+        .iter()
+        .filter_map(|contact| Some(contact.plan?.face))
+        .collect();
+    faces.dedup();
+    faces.len()
+}
+
+/// Faces and corners between the plans of a gap, numbered as in the drawing of the site.
+fn describe_places(
+    text: &mut String,
+    model: &Model,
+    gap: usize,
+    places: &[SitePlace],
+) -> std::fmt::Result {
+    let own = places.iter().enumerate();
+    let own = own.filter(|(_, place)| place.gap_index == gap);
+    let rows: Vec<[String; 8]> = own
+        .map(|(number, place)| {
+            let [first, second] = place.parts_in_words(model);
+            [
+                (number + 1).to_string(),
+                place.kind.name().to_owned(),
+                first,
+                second,
+                place.floors_in_words(),
+                match place.overlap > 0.0 {
+                    true => format!("{:.3} m", place.overlap),
+                    false => "–".to_owned(),
+                },
+                place.gap_in_words(),
+                format!("{:+.3}, {:+.3}", place.normal[0], place.normal[1]),
+            ]
+        })
+        .collect();
+    let between = model.gaps[gap].between;
+    let [left, right] = between.map(|side| match (side, model.wall(side)) {
+        (_, Some(wall)) => &wall.name[..],
+        (Some(index), None) => model.buildings.get(index).map_or("", |own| &own.name),
+        (None, None) => "wall",
+    });
+    let heads = [
+        "no.", "kind", left, right, "floors", "length", "gap", "normal",
+    ];
+    let width = |column: usize| {
+        let cells = rows.iter().map(|row| row[column].chars().count());
+        cells
+            .chain([heads[column].chars().count()])
+            .max()
+            .unwrap_or(0)
+    };
+    let line = |text: &mut String, cells: [&str; 8], last: &str| {
+        let mut line = String::from(" ");
+        for (column, cell) in cells.into_iter().enumerate() {
+            let blanks = " ".repeat(width(column) - cell.chars().count());
+            // Numbers to the right, words to the left.
+            line += &match column {
+                0 | 5 | 6 => format!(" {blanks}{cell} "),
+                _ => format!(" {cell}{blanks} "),
+            };
+        }
+        writeln!(text, "{}", format!("{line} {last}").trim_end())
+    };
+    line(text, heads, "middle")?;
+    for (row, (_, place)) in rows.iter().zip(
+        places
+            .iter()
+            .enumerate()
+            .filter(|(_, place)| place.gap_index == gap),
+    ) {
+        let middle = format!("{:.3} m, {:.3} m", place.middle[0], place.middle[1]);
+        line(text, row.each_ref().map(|cell| &cell[..]), &middle)?;
+    }
+    writeln!(text)
+}
+
+/// Names of both sides.
+fn names(system: &System, between: [Option<usize>; 2]) -> [&str; 2] {
+    between.map(|side| system.side_name(side))
+}
+
+/// The height of a point, and which side is hit between its floors.
+fn height(height: f64, floors: [Option<usize>; 2], between: &[Option<usize>; 2]) -> String {
+    let [left, right] = [0, 1].map(|side| between[side].is_some() && floors[side].is_none());
+    let column = match [left, right] {
+        [false, false] => "",
+        [true, false] => " (left column)",
+        [false, true] => " (right column)",
+        [true, true] => " (columns)",
+    };
+    format!("{height:.2}{column}")
+}
+
+fn describe_building(
+    text: &mut String,
+    building: &BuildingSystem,
+    damping: &Damping,
+    kind: &str,
+) -> std::fmt::Result {
+    let equations = &building.equations;
+    let stick_model = &building.discretization.stick_model;
+    let lumps = stick_model
+        .nodes
+        .iter()
+        .filter(|node| node.mass() > 0.0)
+        .count();
+    writeln!(text, "{}  {kind}", styled(BOLD, &building.name))?;
+    writeln!(
+        text,
+        "  mass {:.3} t in {}, {} degrees of freedom",
+        equations.total_mass() * 1e-3,
+        counted(lumps, "lumped mass").replace("masss", "masses"),
+        equations.len()
+    )?;
+    let periods: Vec<String> = building
+        .lateral_modes()
+        .take(5)
+        .map(|mode: &Mode| decimals(mode.period(), 4))
+        .collect();
+    writeln!(text, "  lateral periods {} s", periods.join(", "))?;
+    let lateral = building.lateral_modes().count();
+    let damped = match damping {
+        Damping::AllModes { ratio } => format!("damping {} % in every mode", percent(*ratio)),
+        Damping::Rayleigh { .. } => "Rayleigh damping".to_owned(),
+        Damping::Ratio { ratio, modes } => {
+            let is_isolated = building.discretization.mat.is_some();
+            let named = match &modes[..] {
+                [] if is_isolated => &[1],
+                [] => usual_damping_modes(lateral),
+                modes => modes,
+            };
+            let modes: Vec<String> = named.iter().map(usize::to_string).collect();
+            let plural = if modes.len() == 1 { "" } else { "s" };
+            format!(
+                "Rayleigh damping {} % in lateral mode{plural} {}{}:",
+                percent(*ratio),
+                modes.join(" and "),
+                if is_isolated {
+                    " of the building fixed on its mat"
+                } else {
+                    ""
+                }
+            )
+        }
+    };
+    if let Damping::AllModes { .. } = damping {
+        return writeln!(text, "  {damped}");
+    }
+    writeln!(
+        text,
+        "  {damped} α = {} 1/s, β = {} s",
+        decimals(equations.alpha, 5),
+        decimals(equations.beta, 6)
+    )?;
+    let modes = building.lateral_modes().take(5);
+    let acting: Vec<String> = modes
+        .map(|mode| format!("{:.2}", 100.0 * building.damping_ratio(mode)))
+        .collect();
+    let before = if building.equations.springs.is_empty() {
+        ""
+    } else {
+        " before it yields"
+    };
+    writeln!(
+        text,
+        "  damping of its lateral modes{before} {} %",
+        acting.join(", ")
+    )
+}
+
+/// A ratio in per cent, rounded to two decimals.
+fn percent(ratio: f64) -> f64 {
+    (1e4 * ratio).round() / 1e2
+}
+
+/// A number with a given number of decimals, or with three digits if the decimals are too few or too many.
+fn decimals(value: f64, count: usize) -> String {
+    let least = 10f64.powi(2 - count as i32);
+    if value == 0.0 || (least..1e6).contains(&value) {
+        format!("{value:.count$}")
+    } else {
+        format!("{value:.2e}")
+    }
+}
+
+/// Special features of a building, one line each.
+fn special(building: &Building) -> Vec<String> {
+    let mut lines = Vec::new();
+    let list = |parts: &[(&str, Option<f64>, &str)]| {
+        let known = parts.iter().filter_map(|(name, value, unit)| {
+            let value = value.filter(|value| *value > 0.0)?;
+            Some(format!("{name} {} {unit}", short(value)))
+        });
+        known.collect::<Vec<_>>().join(", ")
+    };
+    let base = &building.base;
+    if !base.is_fixed() && base.isolation.is_none() && base.foundation.is_none() {
+        let springs = list(&[
+            ("rotation", base.rotational_stiffness, "N.m/rad"),
+            ("sideways", base.horizontal_stiffness, "N/m"),
+            ("vertical", base.vertical_stiffness, "N/m"),
+        ]);
+        let lifts = if base.uplift { "; feet lift off" } else { "" };
+        lines.push(format!("base on springs: {springs}{lifts}"));
+        let dashpots = list(&[
+            ("rotation", Some(base.rotational_damping), "N.m.s/rad"),
+            ("sideways", Some(base.horizontal_damping), "N.s/m"),
+            ("vertical", Some(base.vertical_damping), "N.s/m"),
+        ]);
+        if !dashpots.is_empty() {
+            lines.push(format!("base with dashpots: {dashpots}"));
+        }
+        if base.mass > 0.0 {
+            lines.push(format!("footings of {:.2} t", base.mass * 1e-3));
+        }
+    }
+    if building.gravity.preload {
+        lines.push("gravity: starts from the displacements under self weight".into());
+    }
+    if building.gravity.p_delta {
+        lines.push("P-Delta included, from the weight above".into());
+    }
+    if let Structure::Frame(frame) = &building.structure {
+        let columns = frame.all_columns().filter_map(|own| own.1.shear_rigidity);
+        let beams = frame.all_beams().filter_map(|own| own.1.shear_rigidity);
+        let shear = list(&[
+            ("columns from", columns.min_by(f64::total_cmp), "N"),
+            ("beams from", beams.min_by(f64::total_cmp), "N"),
+        ]);
+        if !shear.is_empty() {
+            lines.push(format!("members deform in shear, GA: {shear}"));
+        }
+        let joint = list(&[
+            ("rotation", frame.joint.rotational_stiffness, "N.m/rad"),
+            ("sideways", frame.joint.horizontal_stiffness, "N/m"),
+            ("vertical", frame.joint.vertical_stiffness, "N/m"),
+        ]);
+        if !joint.is_empty() {
+            lines.push(format!("beam ends on springs: {joint}"));
+        }
+    }
+    lines
+}
+
+/// A stiffness with three digits.
+fn short(value: f64) -> String {
+    format!("{value:.2e}")
+}
+
+#[cfg(test)]
+mod tests {
+    use jostle::{Base, Damping, Shear};
+
+    use super::*;
+
+    #[test]
+    fn what_is_special_gets_one_line_each() {
+        let mut building = Building {
+            name: "A".into(),
+            structure: Structure::Shear(Shear {
+                mass: vec![1e4],
+                stiffness: vec![1e7],
+                storey_heights: vec![3.0],
+            }),
+            damping: Damping::Rayleigh {
+                alpha: 0.0,
+                beta: 0.0,
+            },
+            ..Building::default()
+        };
+        assert_eq!(special(&building), Vec::<String>::new());
+        building.gravity.p_delta = true;
+        building.base = Base {
+            horizontal_stiffness: Some(5e8),
+            horizontal_damping: 2e6,
+            mass: 3e3,
+            ..Base::default()
+        };
+        assert_eq!(
+            special(&building),
+            [
+                "base on springs: sideways 5.00e8 N/m",
+                "base with dashpots: sideways 2.00e6 N.s/m",
+                "footings of 3.00 t",
+                "P-Delta included, from the weight above",
+            ]
+        );
+    }
+}
