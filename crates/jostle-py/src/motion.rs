@@ -150,7 +150,6 @@ impl Motion {
                 content,
                 widths: widths.unwrap_or_default(),
             },
-            ..RecordOptions::default()
         };
         let source = MotionSource::Record {
             name: name.to_owned(),
