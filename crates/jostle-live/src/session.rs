@@ -233,7 +233,7 @@ mod tests {
             scope.spawn(|| {
                 let (mut stream, _) = listener.accept().expect("a connection");
                 // The client may have gone first.
-                let _ = serve(&mut stream, &engine, &|| ending.load(Ordering::Relaxed));
+                let _ = serve(&stream, &engine, &|| ending.load(Ordering::Relaxed));
             });
             let stream = TcpStream::connect(address).expect("a connection");
             let patience = Some(Duration::from_secs(30));

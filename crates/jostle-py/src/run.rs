@@ -19,7 +19,9 @@ use numpy::PyArray2;
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 
-use crate::error::{argument_error, in_python, input_error, output_error, run_error};
+use crate::error::{
+    AnalysisError, argument_error, in_python, input_error, output_error, run_error,
+};
 use crate::histories::Histories;
 use crate::model::Model;
 use crate::table::Table;
@@ -267,7 +269,7 @@ impl Run {
         without_contact: Option<&Self>,
         force: bool,
     ) -> PyResult<()> {
-        may_write(&path, Some(FileKind::WORKBOOK), force).map_err(must_stay)?;
+        may_write(&path, Some(FileKind::WORKBOOK), force).map_err(run_error)?;
         let summary = self.summary(without_contact);
         let bytes = py.detach(|| jostle_run::workbook(&summary));
         let bytes = bytes.map_err(AnalysisError::new_err)?;

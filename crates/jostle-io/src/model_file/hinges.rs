@@ -359,7 +359,11 @@ const NUMBERS: [(&str, Dimension, &str); 4] = [
 fn read_numbers(reader: &mut Reader<'_>, view: &View<'_>) -> [Option<Option<f64>>; 4] {
     NUMBERS.map(|(key, dimension, _)| {
         let field = reader.get(view, key)?;
-        Some(reader.quantity(&field, dimension))
+        // Also where both sides have numbers of their own, so that a wrong sign is never silent.
+        Some(match dimension {
+            Dimension::Moment => reader.positive(&field, dimension),
+            _ => reader.quantity(&field, dimension),
+        })
     })
 }
 

@@ -661,7 +661,7 @@ fn said(tree: &ModelTree, all: bool) -> Result<Vec<String>, ()> {
 #[test]
 fn no_slip_of_a_unit_is_taken_in_silence() {
     let (mut silent, mut tried) = (Vec::new(), BTreeSet::new());
-    for (name, tree) in models_in(&[EXAMPLES]) {
+    for (name, tree) in models_in(&[EXAMPLES, MODELS]) {
         let before = said(&tree, false);
         let mut knobs = tree.knobs();
         knobs.retain(|knob| {

@@ -130,7 +130,7 @@ model.toml:25:11: gap[0].between: names the right neighbour first
      |           ^^^^^^^^^^
   help: the buildings stand, from left to right: "A", "B"
 
-model.toml:26:7: gap[0].law: "yea" is not known; available: linear, kelvin, kelvin-no-tension, modified-kelvin, hertz, hertz-damp, ye, jankowski, bilinear, restitution, rubber
+model.toml:26:7: gap[0].law: "yea" is not known; available: linear, kelvin, kelvin-no-tension, modified-kelvin, hertz, hertz-damp, ye, jankowski, bilinear, restitution, rubber, formula
   26 | law = "yea"
      |       ^^^^^
   help: did you mean "ye"?
@@ -442,7 +442,7 @@ fn contact_stiffness_must_suit_the_law() {
     );
     assert_single(
         &gap("law = \"hertz_damp\""),
-        "model.toml:22:7: gap[0].law: \"hertz_damp\" is not known; available: linear, kelvin, kelvin-no-tension, modified-kelvin, hertz, hertz-damp, ye, jankowski, bilinear, restitution, rubber",
+        "model.toml:22:7: gap[0].law: \"hertz_damp\" is not known; available: linear, kelvin, kelvin-no-tension, modified-kelvin, hertz, hertz-damp, ye, jankowski, bilinear, restitution, rubber, formula",
     );
 }
 

@@ -195,7 +195,7 @@ fn slips_of_units_are_never_silent() {
     let (mut tried, mut dice) = (0, Dice::new(1));
     // All of them in ./check-all.
     let share = if scanned(300) >= 10_000 { 1 } else { 24 };
-    for (name, text) in models(&[EXAMPLES]) {
+    for (name, text) in models(&[EXAMPLES, MODELS]) {
         for found in quantities(&text) {
             if dice.below(share) != 0 {
                 continue;

@@ -48,8 +48,9 @@ pub(super) fn check_given(faults: &mut Faults, path: &str, given: &Given, buildi
         Ok(()) if (1..=MOST).contains(&n) => check_definite(faults, at("stiffness"), given),
         Ok(()) => {}
     }
-    if let Err(problem) = check_matrix(&given.damping, n) {
-        faults.add(at("damping"), problem);
+    match check_matrix(&given.damping, n) {
+        Err(problem) => faults.add(at("damping"), problem),
+        Ok(()) => check_dissipates(faults, at("damping"), &given.damping, n),
     }
     let base = Base {
         elevation: 0.0,
@@ -107,6 +108,15 @@ pub(super) fn check_floor_matrices(
         faults.require(values.all(|value| value.is_finite()), at(field), || {
             "must be finite".into()
         });
+    }
+    if faults.0.len() == before {
+        let rows = matrices.damping.iter().enumerate();
+        let entries = rows.flat_map(|(row, own)| {
+            let own = own.iter().enumerate();
+            own.map(move |(column, &value)| (row, column, value))
+        });
+        let entries: Vec<MatrixEntry> = entries.collect();
+        check_dissipates(faults, at("damping"), &entries, n);
     }
     if faults.0.len() == before
         && let Some(place) = matrices.loose()
@@ -179,6 +189,33 @@ fn check_matrix(entries: &[MatrixEntry], n: usize) -> Result<(), String> {
         }
     }
     Ok(())
+}
+
+/// A pivot of C may be below zero by this part of its greatest entry: rounding \[–\].
+const ROUNDING: f64 = 1e-9;
+
+/// A damping matrix that gains energy in some motion is a slip of sign or of units of its entries.
+fn check_dissipates(faults: &mut Faults, path: String, damping: &[MatrixEntry], n: usize) {
+    let greatest = damping
+        .iter()
+        .fold(0.0_f64, |most, own| most.max(own.2.abs()));
+    if greatest == 0.0 || !(1..=MOST).contains(&n) {
+        return;
+    }
+    let diagonal = (0..n).map(|dof| (dof, dof, ROUNDING * greatest));
+    let entries: Vec<MatrixEntry> = damping.iter().copied().chain(diagonal).collect();
+    let places: Vec<(usize, usize)> = entries.iter().map(|entry| (entry.0, entry.1)).collect();
+    let pattern = Pattern::new(n, &places);
+    let mut factor = SparseFactor::default();
+    if let Err(NoPivot(dof)) = pattern.factorize(entries.iter().map(|entry| entry.2), &mut factor) {
+        faults.add(
+            path,
+            format!(
+                "must be positive semidefinite: displacement {} gains energy as it moves; check signs and units of its entries",
+                dof + 1
+            ),
+        );
+    }
 }
 
 fn check_definite(faults: &mut Faults, path: String, given: &Given) {

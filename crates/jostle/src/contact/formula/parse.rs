@@ -56,7 +56,7 @@ pub(super) fn parse(text: &str) -> Result<Formula, FormulaError> {
     // Whether a value ended just before, so that a sign or bracket may follow.
     let mut ended = false;
     while let Some((token, after)) = next(rest)? {
-        let place = || rest.chars().take(12).collect::<String>();
+        let place = || rest.trim_start().chars().take(12).collect::<String>();
         let value = matches!(token, Token::Number(_) | Token::Word(_) | Token::Open);
         if value && ended {
             return wrong(format!(

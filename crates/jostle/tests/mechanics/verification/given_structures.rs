@@ -169,6 +169,10 @@ fn bad_matrices_are_refused() {
             "rows up to 3 and the lower triangle",
         ),
         (
+            |g| g.damping.push((0, 0, -1e3)),
+            "building[1].damping: must be positive semidefinite: displacement 1 gains energy",
+        ),
+        (
             |g| g.damping.push((3, 0, 1.0)),
             "building[1].damping: has an entry in row 4",
         ),
