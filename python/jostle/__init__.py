@@ -29,6 +29,7 @@ from ._errors import (
     StudyWarning,
 )
 from ._export import Script
+from ._import import Imported, import_etabs, import_sap2000
 from ._jostle import __version__
 from ._matrices import Matrices
 from ._method import MethodSurvey, method, schema, template
@@ -82,6 +83,7 @@ __all__ = [
     "GapPoint",
     "Given",
     "Governing",
+    "Imported",
     "InterruptedWarning",
     "JostleError",
     "JostleWarning",
@@ -125,7 +127,9 @@ __all__ = [
     "critical_gap",
     "experiment",
     "from_opensees",
+    "import_etabs",
     "import_opensees",
+    "import_sap2000",
     "method",
     "modes",
     "pushover",

@@ -110,6 +110,7 @@ def collide(
     m1: Quantity,
     m2: Quantity,
     speed: Quantity,
+    formula: str | None = None,
     stiffness: Quantity | None = None,
     restitution: float | None = None,
     restitution_is: str = "input",
@@ -127,6 +128,7 @@ def collide(
         m1: mass [kg].
         m2: the other one; ``float("inf")`` is not accepted, use a large mass for a wall [kg].
         speed: closing speed at first contact, > 0 [m/s].
+        formula: instead of a law, the force as in :class:`Gap`: ``"k * d^1.5 * (1 + 0.6 * v / v0)"``.
         stiffness: in N/m^1.5 for the Hertz family, in N/m for the others; 2e9 N/m^1.5 by default.
         restitution: coefficient of restitution, 0 to 1; 0.65 by default.
         restitution_is: ``"input"``: it goes into the published formula; ``"realised"``: free masses rebound with it.
@@ -157,6 +159,7 @@ def collide(
         m1=m1,
         m2=m2,
         speed=speed,
+        formula=formula,
         stiffness=stiffness,
         restitution=restitution,
         restitution_is=restitution_is,

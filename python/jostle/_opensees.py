@@ -51,6 +51,13 @@ def from_opensees(
         ModelError: the model is empty, has no floors with mass, or its matrices cannot be those of a building; the message
             names nodes and remedy.
         ModelWarning: (a warning) what is not carried over, and what it means.
+
+    Examples:
+        >>> import jostle
+        >>> def pair(ops):  # openseespy.opensees, with a model in memory
+        ...     left = jostle.from_opensees(ops, units="kN, m", name="A")
+        ...     right = jostle.import_opensees("neighbour.py", side="left", name="B")
+        ...     return jostle.Model([left, right], jostle.Gap("50 mm"))
     """
     read = read_model(ops, direction, side, units, ports, plan, damping)
     for text in read.remarks:
@@ -88,6 +95,13 @@ def import_opensees(
         ImportError: OpenSeesPy is missing; ``pip install openseespy`` installs it.
         MissingFileError: there is no such script.
         ModelError: the script fails, or as in :func:`from_opensees`.
+
+    Examples:
+        >>> import jostle
+        >>> def pair(ops):  # openseespy.opensees, with a model in memory
+        ...     left = jostle.from_opensees(ops, units="kN, m", name="A")
+        ...     right = jostle.import_opensees("neighbour.py", side="left", name="B")
+        ...     return jostle.Model([left, right], jostle.Gap("50 mm"))
     """
     read = run_script(script, direction, side, units, ports, plan, damping)
     for text in read.remarks:

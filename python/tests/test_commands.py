@@ -50,6 +50,15 @@ TARGET = {
         )
     },
 }  # fmt: skip
+IMPORT = {
+    "FILES": "files",
+    **{
+        f"--{key.replace('_', '-')}": key
+        for key in (
+            "to", "direction", "by", "gap", "case", "diaphragm", "unit_force", "unit_moment", "units", "force",
+        )
+    },
+}  # fmt: skip
 WRITTEN = {"--out": "Motion.save:path", "--force": "Motion.save:force"}
 
 #: Command: its function in Python, and for each argument a keyword of it, another function's (``function:keyword``), a
@@ -73,6 +82,7 @@ TABLE: dict[str, tuple[str, dict[str, str]] | Why] = {
             "--solver": "Model.set:analysis.solver",
             "--pdf": "Result.pdf:path",
             "--paper": "Result.pdf:paper",
+            "--xlsx": "Result.to_excel:path",
             "--governing": "run_suite:governing",
             "--jobs": "run_suite:jobs",
             "--json": OBJECT,
@@ -85,6 +95,7 @@ TABLE: dict[str, tuple[str, dict[str, str]] | Why] = {
         "collide",
         {
             "--law": "law",
+            "--formula": "formula",
             "--all": Why("collide_all takes no law"),
             "--m1": "m1",
             "--m2": "m2",
@@ -104,6 +115,22 @@ TABLE: dict[str, tuple[str, dict[str, str]] | Why] = {
             "--force": FILES,
         },
     ),
+    "import etabs": ("import_etabs", IMPORT),
+    "import sap2000": ("import_sap2000", IMPORT),
+    "import opensees": (
+        "import_opensees",
+        {
+            "SCRIPT": "script",
+            "--to": "Model.save:path",
+            "--name": "name",
+            "--direction": "direction",
+            "--side": "side",
+            "--units": "units",
+            "--port": "ports",
+            "--force": "Model.save:force",
+        },
+    ),
+    "mcp": Why("an assistant starts it as a program"),
     "compare": (
         "compare",
         {

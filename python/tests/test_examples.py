@@ -6,6 +6,7 @@ import ast
 import doctest
 import importlib
 import inspect
+import shutil
 import warnings
 from collections.abc import Callable
 from pathlib import Path
@@ -20,6 +21,8 @@ NAMES = [name for name in jostle.__all__ if name != "__version__"]
 
 @pytest.mark.parametrize("name", NAMES)
 def test_every_name_has_an_example_that_runs(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for folder in ("etabs", "sap2000"):
+        shutil.copytree(ROOT / "examples" / folder, tmp_path / folder)
     monkeypatch.chdir(tmp_path)
     text = inspect.getdoc(getattr(jostle, name)) or ""
     test = doctest.DocTestParser().get_doctest(text, {}, name, None, 0)

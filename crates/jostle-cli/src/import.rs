@@ -94,11 +94,25 @@ enum WayName {
 }
 
 pub(crate) fn import(command: &ImportCommand) -> Result<(), Failure> {
-    let (program, args) = match command {
-        ImportCommand::Etabs(args) => (Program::Etabs, args),
-        ImportCommand::Sap2000(args) => (Program::Sap2000, args),
-        ImportCommand::Opensees(args) => return import_opensees::import(args),
-    };
+    match command {
+        ImportCommand::Etabs(args) => terminal::print(&tables(Program::Etabs, args)?),
+        ImportCommand::Sap2000(args) => terminal::print(&tables(Program::Sap2000, args)?),
+        ImportCommand::Opensees(args) => import_opensees::import(args),
+    }
+}
+
+/// Imports the files of tables and text models; returns what is printed.
+pub(crate) fn imported(command: &ImportCommand) -> Result<String, Failure> {
+    match command {
+        ImportCommand::Etabs(args) => tables(Program::Etabs, args),
+        ImportCommand::Sap2000(args) => tables(Program::Sap2000, args),
+        ImportCommand::Opensees(_) => Err(Failure::Input(
+            "Python imports OpenSees by itself".to_owned(),
+        )),
+    }
+}
+
+fn tables(program: Program, args: &TableArgs) -> Result<String, Failure> {
     let options = args.options()?;
     let mut contents = Vec::new();
     for path in &args.files {
@@ -148,8 +162,8 @@ impl TableArgs {
     }
 }
 
-/// Writes the model and prints what was read, what was left out, and periods beside those of the source.
-fn write(args: &TableArgs, imported: &Imported) -> Result<(), Failure> {
+/// Writes the model and says what was read, what was left out, and periods beside those of the source.
+fn write(args: &TableArgs, imported: &Imported) -> Result<String, Failure> {
     let beside = |name: &str| args.to.with_file_name(name);
     may_write(&args.to, Some(MODEL), args.force)?;
     for (name, _) in &imported.files {
@@ -191,7 +205,7 @@ fn write(args: &TableArgs, imported: &Imported) -> Result<(), Failure> {
     }
     let shown = args.to.display();
     let _ = writeln!(text, "{shown} is ready. Next:\n  jostle check {shown}");
-    terminal::print(&text)
+    Ok(text)
 }
 
 /// Periods of the model beside those of the source: of one direction one by one, else the nearest.

@@ -37,7 +37,7 @@ mod terminal;
 
 pub use command_list::command_list;
 
-use clap::CommandFactory;
+use clap::{CommandFactory, Parser};
 use command_line::{Args, Command};
 use failure::Failure;
 
@@ -100,6 +100,19 @@ pub fn schema(what: Described, markdown: bool) -> String {
         (Described::Checks, false) => jostle_io::check_list(),
         (Described::Checks, true) => jostle_io::check_reference(),
         (Described::Combinations, _) => combinations::table(),
+    }
+}
+
+/// Imports files of ETABS or SAP2000 as `jostle import` does, with its arguments from the program on; returns what it prints.
+///
+/// # Errors
+/// What is wrong with the arguments or the files.
+pub fn import(arguments: impl IntoIterator<Item = String>) -> Result<String, String> {
+    let words = ["jostle", "import"].map(str::to_owned);
+    let args = Args::try_parse_from(words.into_iter().chain(arguments));
+    match args.map_err(|error| error.to_string())?.command {
+        Command::Import(command) => import::imported(&command).map_err(|error| error.to_string()),
+        _ => Err("expected a program to import from".to_owned()),
     }
 }
 

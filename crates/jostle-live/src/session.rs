@@ -231,7 +231,7 @@ mod tests {
         let ending = AtomicBool::new(false);
         std::thread::scope(|scope| {
             scope.spawn(|| {
-                let (mut stream, _) = listener.accept().expect("a connection");
+                let (stream, _) = listener.accept().expect("a connection");
                 // The client may have gone first.
                 let _ = serve(&stream, &engine, &|| ending.load(Ordering::Relaxed));
             });

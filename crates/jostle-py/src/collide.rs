@@ -60,6 +60,7 @@ fn put(options: &mut CollideOptions, name: &str, value: String) -> PyResult<()> 
         "restitution" => options.restitution = value,
         "restitution_is" => options.restitution_is = value,
         "damping" => options.damping = Some(value),
+        "formula" => options.formula = Some(value),
         "variant" => options.variant = value,
         "yield_share" => options.yield_share = value,
         "design_speed" => options.design_speed = Some(value),

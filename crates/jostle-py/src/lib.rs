@@ -51,7 +51,7 @@ mod _jostle {
     use super::table::Table;
     #[pymodule_export]
     use super::tools::{
-        Sized, command_list, match_spectrum, motion_list, noise, processed, pulse, recipe, schema,
+        Sized, command_list, import_tables, match_spectrum, motion_list, noise, processed, pulse, recipe, schema,
         section, select, size, target, template, template_names, write_text,
     };
 

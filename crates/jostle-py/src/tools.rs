@@ -442,6 +442,13 @@ pub(crate) fn schema(what: &str, markdown: bool) -> PyResult<String> {
     Ok(jostle_cli::schema(described, markdown))
 }
 
+/// Imports files of ETABS or SAP2000; `arguments` are those of `jostle import`. Returns what it prints.
+#[pyfunction]
+pub(crate) fn import_tables(py: Python<'_>, arguments: Vec<String>) -> PyResult<String> {
+    py.detach(|| jostle_cli::import(arguments))
+        .map_err(|problem| argument_error(in_python(&problem)))
+}
+
 /// All commands with their arguments, as JSON.
 #[pyfunction]
 pub(crate) fn command_list() -> String {
