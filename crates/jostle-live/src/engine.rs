@@ -201,7 +201,7 @@ impl Engine {
     /// The tree of a text with changes made.
     pub(crate) fn tree(&self, run: &Run) -> Result<ModelTree, Trouble> {
         #[cfg(test)]
-        assert_ne!(run.text, crate::session::FAILS);
+        assert_ne!(run.text, FAILS);
         let mut tree = self.parse(&run.text)?;
         for (path, typed) in &run.edits {
             let value = (!typed.trim().is_empty()).then(|| TreeValue::typed(typed));
@@ -472,6 +472,10 @@ fn numbers(summary: &Summary) -> Vec<Number> {
     );
     list
 }
+
+/// The text of a model on which every handler panics, in tests.
+#[cfg(test)]
+pub(crate) const FAILS: &str = "a handler fails";
 
 #[cfg(test)]
 mod tests {

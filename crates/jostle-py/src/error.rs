@@ -2,6 +2,7 @@
 
 use jostle_io::{InputError, OutputError};
 use jostle_run::RunError;
+use jostle_study::StudyError;
 use pyo3::PyErr;
 use pyo3::exceptions::{PyFileExistsError, PyOSError};
 
@@ -64,6 +65,18 @@ const PHRASES: [(&str, &str); 9] = [
     ),
     ("\"jostle run --sensitivity\"", "run(…, sensitivity=True)"),
 ];
+
+/// Why a study cannot be read or run.
+pub(crate) fn study_error(error: &StudyError) -> PyErr {
+    match error {
+        StudyError::Input(errors) => match &errors[..] {
+            [only] => input_error(only),
+            _ => argument_error(error.to_string()),
+        },
+        StudyError::Output(_) => PyOSError::new_err(error.to_string()),
+        _ => argument_error(error.to_string()),
+    }
+}
 
 /// A message of the command line in the names of Python: `--mass-ratios` is `mass_ratios`.
 pub(crate) fn in_python(text: &str) -> String {

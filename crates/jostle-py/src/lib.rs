@@ -51,8 +51,8 @@ mod _jostle {
     use super::table::Table;
     #[pymodule_export]
     use super::tools::{
-        Sized, command_list, import_tables, match_spectrum, motion_list, noise, processed, pulse, recipe, schema,
-        section, select, size, target, template, template_names, write_text,
+        Sized, command_list, import_tables, match_spectrum, motion_list, noise, processed, pulse,
+        recipe, schema, section, select, size, target, template, template_names, write_text,
     };
 
     #[pymodule_export]

@@ -10,11 +10,11 @@ use jostle::separation::{Code, JointSystem};
 use jostle_io::{InputError, StudyFile};
 use jostle_study::dataset::{missing_parts, read_columns};
 use jostle_study::{GapError, GapSettings, Incidence, Progress, RunSettings, StudyError};
-use pyo3::exceptions::{PyKeyboardInterrupt, PyOSError};
+use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 
 use crate::base::{Base, format_of, tree_of};
-use crate::error::{AnalysisError, argument_error, in_python, input_error};
+use crate::error::{AnalysisError, argument_error, in_python, input_error, study_error};
 use crate::model::Model;
 
 /// Interval at which a study checks for Ctrl-C and reports progress.
@@ -24,17 +24,6 @@ const LOOK_UP: Duration = Duration::from_millis(50);
 #[pyclass(frozen, module = "jostle._jostle")]
 #[derive(Clone)]
 pub(crate) struct Study(Arc<jostle_study::Study>);
-
-pub(crate) fn study_error(error: &StudyError) -> PyErr {
-    match error {
-        StudyError::Input(errors) => match &errors[..] {
-            [only] => input_error(only),
-            _ => argument_error(error.to_string()),
-        },
-        StudyError::Output(_) => PyOSError::new_err(error.to_string()),
-        _ => argument_error(error.to_string()),
-    }
-}
 
 /// Numbers and texts of columns.
 type Columns = (

@@ -20,9 +20,8 @@ use pyo3::prelude::*;
 use serde_json::json;
 
 use crate::base::{Base, tree_of};
-use crate::error::{AnalysisError, argument_error, in_python, input_error, run_error};
+use crate::error::{AnalysisError, argument_error, in_python, input_error, run_error, study_error};
 use crate::motion::Motion;
-use crate::study::study_error;
 use crate::table::Table;
 
 /// Interval at which a search checks for Ctrl-C and reports progress.

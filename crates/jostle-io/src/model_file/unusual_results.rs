@@ -2,7 +2,7 @@
 
 use jostle::results::overdamped_contacts;
 use jostle::results::summary::Summary;
-use jostle::{GroundMotion, LawKind, Model, System};
+use jostle::{Building, GroundMotion, LawKind, Model, Structure, System};
 
 use super::Input;
 use crate::quantity::Dimension;
@@ -71,6 +71,31 @@ fn of_system(model: &Model, system: &System) -> Vec<(String, String)> {
             ));
         }
     }
+    for (index, building) in model.buildings.iter().enumerate() {
+        let Some(own) = system
+            .buildings
+            .get(index)
+            .filter(|_| has_damping_matrix(building))
+        else {
+            continue;
+        };
+        let Some(ratio) = own.modes.first().map(|mode| own.damping_ratio(mode)) else {
+            continue;
+        };
+        let [least, most] = DAMPING_RATIO;
+        if !(least..=most).contains(&ratio) {
+            found.push((
+                format!("building[{index}].matrices.damping"),
+                format!(
+                    "the first mode of \"{}\" is damped by {} %, outside {} % to {} %; check the units of its damping matrix",
+                    building.name,
+                    three_digits(100.0 * ratio),
+                    100.0 * least,
+                    100.0 * most
+                ),
+            ));
+        }
+    }
     for (index, gap) in model.gaps.iter().enumerate() {
         let storey = gap.between.iter().flatten().filter_map(|&building| {
             let floors = model.buildings.get(building)?.floors();
@@ -108,6 +133,21 @@ fn of_system(model: &Model, system: &System) -> Vec<(String, String)> {
             .map(|(gap, text)| (format!("gap[{gap}].damping"), text)),
     );
     found
+}
+
+/// Usual damping of the first mode of a building with a damping matrix, that of bearings and dampers included \[–\].
+const DAMPING_RATIO: [f64; 2] = [1e-4, 0.7];
+
+/// Whether a damping matrix is given that is not zero.
+fn has_damping_matrix(building: &Building) -> bool {
+    match &building.structure {
+        Structure::Given(given) => given.damping.iter().any(|entry| entry.2 != 0.0),
+        Structure::Tiers(tiers) => {
+            let matrices = tiers.matrices.as_ref();
+            matrices.is_some_and(|own| own.damping.iter().flatten().any(|value| *value != 0.0))
+        }
+        _ => false,
+    }
 }
 
 /// Period of a single floor on a single storey of a uniform shear building with this first period \[s\].
