@@ -210,10 +210,11 @@ pub fn collide(options: &CollideOptions) -> Result<Collisions, RunError> {
             "Stiffness {:.4e} N/m^1.5 for the Hertz family, {:.4e} N/m for the others: the same secant at the greatest elastic Hertz indentation.",
             stiffness.hertz, stiffness.linear
         );
+    let by_restitution = laws.iter().any(|own| !own.law.kind.has_given_constants());
     Ok(Collisions {
         masses,
         speed,
-        restitution: options.damping.is_none().then_some(restitution),
+        restitution: by_restitution.then_some(restitution),
         stiffnesses,
         laws,
     })
