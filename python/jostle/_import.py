@@ -117,11 +117,8 @@ def import_sap2000(
 
     Examples:
         >>> import jostle
-        >>> try:
-        ...     jostle.import_sap2000("sap2000/frame.s2k", to="frame.toml")
-        ... except jostle.ModelError as error:
-        ...     print("mass" in str(error))
-        True
+        >>> print(jostle.import_sap2000("sap2000/frame.s2k", to="frame.toml").model.buildings)
+        ['frame']
     """
     return _imported("sap2000", files, to, direction, by, gap, case, diaphragm, unit_force, unit_moment, units, force)
 
@@ -153,6 +150,6 @@ def _imported(
     arguments = [f"--{key}={value}" for key, value in options.items() if value is not None]
     if force:
         arguments.append("--force")
-    arguments += [f"--to={os.fspath(to)}", "--", *map(os.fspath, files)]
+    arguments += [f"--to={os.fspath(to)}", "--", *(os.fspath(file) for file in files)]
     text = _jostle.import_tables([program, *arguments])
     return Imported(Model.load(to), Path(to), text)

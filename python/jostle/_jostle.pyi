@@ -28,6 +28,7 @@ __all__ = [
     "contact_advice",
     "contact_laws",
     "critical_gaps",
+    "import_tables",
     "incidence",
     "live_page",
     "match_spectrum",

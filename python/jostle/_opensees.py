@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import os
 import runpy
 import sys
@@ -129,7 +130,7 @@ def run_script(
         )
     unit_factors(units)
     try:
-        import openseespy.opensees as ops
+        ops: Any = importlib.import_module("openseespy.opensees")
     except Exception as error:  # its own loader raises RuntimeError where a library is missing
         raise ImportError(
             f"OpenSeesPy cannot be imported ({error}); install it: pip install openseespy (on Debian with Python below 3.12: "

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
-    Array = npt.NDArray[np.float64]
+    _Array = npt.NDArray[np.float64]
 
 #: Masses below this share of the largest are fillers, such as the 1e-10 of many scripts.
 _FILLER = 1e-8
@@ -39,11 +39,11 @@ _LENGTHS = {
 class CondensedModel:
     """A building as jostle takes it: matrices of its floors, in SI; what is not carried over, in ``remarks``."""
 
-    mass: Array
-    stiffness: Array
-    damping: Array | None
-    influence: Array | None
-    heights: Array | None
+    mass: _Array
+    stiffness: _Array
+    damping: _Array | None
+    influence: _Array | None
+    heights: _Array | None
     ports: dict[str, dict[str, Any]]
     stated: Table | None
     plan: Any = None
@@ -52,7 +52,7 @@ class CondensedModel:
     #: Node of every port, number of equations of the model, and periods [s].
     nodes: list[int] = field(default_factory=list)
     equations: int = 0
-    periods: Array | None = None
+    periods: _Array | None = None
 
     def given(self, name: str | None) -> Given:
         matrices: dict[str, object] = {"stiffness": self.stiffness, "mass": self.mass}
@@ -127,7 +127,7 @@ def _node(ops: Any, tag: int) -> _Node:
     return _Node(tag, at, equations, frozenset(tied), retained[0])
 
 
-def _assembled(ops: Any) -> tuple[Array, Array, Array, list[_Node]]:
+def _assembled(ops: Any) -> tuple[_Array, _Array, _Array, list[_Node]]:
     """M, C and K over the equations of the model in its units, and its nodes."""
     import numpy as np
 
@@ -141,7 +141,7 @@ def _assembled(ops: Any) -> tuple[Array, Array, Array, list[_Node]]:
             "condense it in OpenSees, or give floors by their modes: kind = \"given\" with mass, periods and shapes",
         )
 
-    def one(m: float, c: float, k: float) -> Array:
+    def one(m: float, c: float, k: float) -> _Array:
         ops.wipeAnalysis()
         ops.constraints("Transformation")
         ops.numberer("Plain")
@@ -172,7 +172,7 @@ def _assembled(ops: Any) -> tuple[Array, Array, Array, list[_Node]]:
     return mass, damping, stiffness, nodes
 
 
-def _symmetric(name: str, matrix: Array) -> Array:
+def _symmetric(name: str, matrix: _Array) -> _Array:
     import numpy as np
 
     greatest = float(np.abs(matrix).max(initial=0.0))
@@ -182,7 +182,7 @@ def _symmetric(name: str, matrix: Array) -> Array:
             f"the {name} matrix is not symmetric ({apart / greatest:.1e} of its greatest entry)",
             "take friction, contact and follower loads out of the model; jostle adds contact itself",
         )
-    symmetric: Array = 0.5 * (matrix + matrix.T)
+    symmetric: _Array = 0.5 * (matrix + matrix.T)
     return symmetric
 
 
@@ -310,7 +310,7 @@ def _state_remarks(ops: Any, nodes: list[_Node]) -> list[str]:
     return remarks
 
 
-def _drop_fillers(mass: Array, turns: npt.NDArray[np.bool_], height: float, nodes: list[_Node]) -> None:
+def _drop_fillers(mass: _Array, turns: npt.NDArray[np.bool_], height: float, nodes: list[_Node]) -> None:
     """Sets masses to zero that are there only to please a solver, by their share of the largest."""
     import numpy as np
 
@@ -345,7 +345,7 @@ class _Level:
 
 
 def _levels(
-    nodes: list[_Node], mass: Array, up: int, along: int, bottom: float, height: float
+    nodes: list[_Node], mass: _Array, up: int, along: int, bottom: float, height: float
 ) -> list[_Level]:
     """Levels above the base where a horizontal displacement carries mass, from the ground up."""
     levels: list[_Level] = []
@@ -371,7 +371,7 @@ def _levels(
 _Diaphragm = tuple[_Level, tuple[int, int, int], _Node]
 
 
-def _diaphragms(levels: list[_Level], mass: Array) -> list[_Diaphragm] | None:
+def _diaphragms(levels: list[_Level], mass: _Array) -> list[_Diaphragm] | None:
     """Rigid diaphragms in space, one at every level with mass; ``None`` if no level has one."""
     found: list[_Diaphragm] = []
     loose: list[str] = []
@@ -417,8 +417,8 @@ def _diaphragms(levels: list[_Level], mass: Array) -> list[_Diaphragm] | None:
 def _one_direction(
     nodes: list[_Node],
     levels: list[_Level],
-    mass: Array,
-    stiffness: Array,
+    mass: _Array,
+    stiffness: _Array,
     along: int,
     up: int,
     bottom: float,
@@ -505,8 +505,8 @@ def _one_direction(
 
 def _in_plan(
     diaphragms: list[_Diaphragm],
-    mass: Array,
-    stiffness: Array,
+    mass: _Array,
+    stiffness: _Array,
     along: int,
     bottom: float,
     plan: Sequence[Any] | None,
@@ -551,8 +551,8 @@ def _in_plan(
 
 
 def _condensation(
-    stiffness: Array, keep: npt.NDArray[Any], resisted: npt.NDArray[np.bool_], nodes: list[_Node]
-) -> Array:
+    stiffness: _Array, keep: npt.NDArray[Any], resisted: npt.NDArray[np.bool_], nodes: list[_Node]
+) -> _Array:
     """The displacements of all equations per unit of those kept, without load on the others."""
     import numpy as np
 
@@ -573,7 +573,7 @@ def _condensation(
     return shape
 
 
-def _mechanism(inner: Array, rest: npt.NDArray[Any]) -> npt.NDArray[Any]:
+def _mechanism(inner: _Array, rest: npt.NDArray[Any]) -> npt.NDArray[Any]:
     """The equations that move most in the softest shape."""
     import numpy as np
 
@@ -583,7 +583,7 @@ def _mechanism(inner: Array, rest: npt.NDArray[Any]) -> npt.NDArray[Any]:
     return chosen
 
 
-def _positive(stiffness: Array) -> Array:
+def _positive(stiffness: _Array) -> _Array:
     import numpy as np
 
     values = np.linalg.eigvalsh(stiffness)
@@ -595,7 +595,7 @@ def _positive(stiffness: Array) -> Array:
     return stiffness
 
 
-def _rayleigh(mass: Array, stiffness: Array, viscous: Array) -> tuple[list[float], float]:
+def _rayleigh(mass: _Array, stiffness: _Array, viscous: _Array) -> tuple[list[float], float]:
     """α and β of C = α M + β K by least squares, and the greatest remainder in parts of the greatest entry.
 
     Entries are divided by √(K_ii K_jj), so that units do not matter.
@@ -630,7 +630,7 @@ def _say_units(read: CondensedModel, units: str) -> None:
 
 
 def _periods(
-    read: CondensedModel, mass: Array, stiffness: Array, resisted: npt.NDArray[np.bool_], nodes: list[_Node]
+    read: CondensedModel, mass: _Array, stiffness: _Array, resisted: npt.NDArray[np.bool_], nodes: list[_Node]
 ) -> None:
     """Keeps the periods of the whole model, and says what masses that are left out change."""
     import numpy as np
@@ -655,12 +655,12 @@ def _periods(
     )
 
 
-def _natural(mass: Array, stiffness: Array) -> Array:
+def _natural(mass: _Array, stiffness: _Array) -> _Array:
     """Periods, longest first [s]."""
     import numpy as np
 
     factor = np.linalg.cholesky(mass)
     half = np.linalg.solve(factor, stiffness)
     squares = np.linalg.eigvalsh(np.linalg.solve(factor, half.T))
-    periods: Array = 2.0 * math.pi / np.sqrt(np.maximum(squares, 1e-300))
+    periods: _Array = 2.0 * math.pi / np.sqrt(np.maximum(squares, 1e-300))
     return periods

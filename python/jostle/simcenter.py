@@ -155,24 +155,7 @@ def _with_motion(model: Model, parts: Mapping[int, _Component], name: str) -> Mo
         motion = Motion(values, step=step, name=name)
         return model.changed(motion=motion, angle="90 deg" if dof == 2 else None)
     # Two components are two records that the model names.
-    text, folder, _ = model._file()
-    tree = _tree(text)
-    tree["motion"] = {"record": _record(parts[1], 1), "across": _record(parts[2], 2)}
-    return Model.from_dict(tree, folder=folder)
-
-
-def _tree(text: str) -> dict[str, Any]:
-    import json
-    import sys
-
-    if text.lstrip().startswith("{"):
-        tree: dict[str, Any] = json.loads(text)
-        return tree
-    if sys.version_info < (3, 11):
-        raise ModelError("SimCenter: motion along and across needs Python 3.11, or a model file in JSON")
-    import tomllib
-
-    return tomllib.loads(text)
+    return model.set("motion", {"record": _record(parts[1], 1), "across": _record(parts[2], 2)})
 
 
 def _record(component: _Component, dof: int) -> str:

@@ -40,6 +40,9 @@ def test_messages_speak_of_python() -> None:
     """No message of the package itself names an option of the command line."""
     package = Path(importlib.import_module("jostle").__file__ or "").parent
     for file in sorted(package.glob("*.py")):
+        # What `jostle import opensees` runs.
+        if file.name == "_opensees_file.py":
+            continue
         tree = ast.parse(file.read_text(encoding="utf-8"))
         for node in ast.walk(tree):
             if isinstance(node, ast.Raise) and node.exc is not None:

@@ -111,7 +111,9 @@ pub fn import(arguments: impl IntoIterator<Item = String>) -> Result<String, Str
     let words = ["jostle", "import"].map(str::to_owned);
     let args = Args::try_parse_from(words.into_iter().chain(arguments));
     match args.map_err(|error| error.to_string())?.command {
-        Command::Import(command) => import::imported(&command).map_err(|error| error.to_string()),
+        Command::Import(command) => import::imported(&command)
+            .map(|text| jostle_run::plain(&text))
+            .map_err(|error| error.to_string()),
         _ => Err("expected a program to import from".to_owned()),
     }
 }
