@@ -197,14 +197,15 @@ fn slips_of_units_are_never_silent() {
     let share = if scanned(300) >= 10_000 { 1 } else { 24 };
     for (name, text) in models(&[EXAMPLES, MODELS]) {
         for found in quantities(&text) {
-            if dice.below(share) != 0 {
+            // A slip of a unit scales a whole matrix, which the test of all keys does; one entry may be anything.
+            let start = text[..found.place.start].rfind('\n').map_or(0, |at| at + 1);
+            if text[start..].starts_with("matrices =") || dice.below(share) != 0 {
                 continue;
             }
             for factor in [1e3, 1e-3, 1e6, 1e-6, 1e9, 1e-9, -1.0] {
                 let outcome = survives(&slipped(&text, &found, factor), false);
                 tried += 1;
                 // Places on a site may be those of a national grid, some 10⁷ m.
-                let start = text[..found.place.start].rfind('\n').map_or(0, |at| at + 1);
                 let on_grid = ["from =", "to ="]
                     .iter()
                     .any(|key| text[start..].starts_with(key));
