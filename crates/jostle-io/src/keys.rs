@@ -933,7 +933,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::FrameBase, "uplift", Flag, "false", "Whether feet of columns lift off: the vertical spring bears compression alone. Needs vertical_stiffness, and gravity = true of the building."),
     default(S::FrameBase, "rotational_stiffness", WordOr("rigid", D::RotationalStiffness), "\"rigid\"", "Rotational spring to the ground.").usual("a rotational stiffness", 1e4, 1e12),
     optional(S::FrameBase, "rotational_hinge", Kind::Table(S::BaseRocking), "Yielding of the rotational spring; without this table it is elastic."),
-    default(S::FrameBase, "rotational_damping", Quantity(D::RotationalDamping), "0", "Dashpot parallel to the rotational spring.").usual("a rotational dashpot coefficient", 100.0, 1e12),
+    default(S::FrameBase, "rotational_damping", Quantity(D::RotationalDamping), "0", "Dashpot parallel to the rotational spring.").usual("a rotational dashpot coefficient", 100.0, 1e11),
 
     default(S::Joint, "horizontal_stiffness", WordOr("rigid", D::Stiffness), "\"rigid\"", "Horizontal stiffness between beam end and column.").usual("a stiffness of a joint", 1e4, 9e12),
     default(S::Joint, "vertical_stiffness", WordOr("rigid", D::Stiffness), "\"rigid\"", "Vertical stiffness between beam end and column.").usual("a stiffness of a joint", 1e4, 9e12),
