@@ -26,6 +26,8 @@ const IN_FILE: f64 = 0.9;
 const TIME_OF_ONE: f64 = 2e-8;
 /// Time that a run may use to find out how fast this machine is.
 const TRIED: Duration = Duration::from_millis(200);
+/// What users wait for without a word: longer runs are announced \[s\].
+const PATIENCE: f64 = 60.0;
 /// Duration of a run relative to that of its first pass through the motion: with automatic steps direct runs take a pass with
 /// steps about twice as long first, with given steps afterwards.
 const PASSES: [f64; 2] = [3.0, 1.6];
@@ -43,6 +45,8 @@ pub struct Expectation {
     pub temporary: f64,
     /// Size of `history.parquet` \[bytes\].
     pub history_file: f64,
+    /// Greatest duration relative to the expected one, if the tolerance asks for finer steps.
+    pub longest: f64,
 }
 
 impl Prepared {
@@ -70,6 +74,7 @@ impl Prepared {
             memory: BESIDE + OF_COLUMNS * row[0] + kept * in_memory,
             temporary: kept * (parts.iter().sum::<f64>() - in_memory),
             history_file: IN_FILE * parts[0],
+            longest: (self.plan.longest_refined(&self.system, &self.motion) / PASSES[0]).max(1.0),
         }
     }
 
@@ -232,8 +237,17 @@ impl Expectation {
                 )
             }
         };
+        // Said where it matters: few runs need more than one refinement.
+        let finer = if self.longest > 1.0 && self.longest * seconds > PATIENCE {
+            format!(
+                "; at most {} times as long where the tolerance asks for finer steps",
+                self.longest.round()
+            )
+        } else {
+            String::new()
+        };
         format!(
-            "{} of computing on this machine, about {} of memory, {rows}",
+            "{} of computing on this machine, about {} of memory, {rows}{finer}",
             in_time(seconds),
             in_bytes(self.memory)
         )

@@ -12,4 +12,5 @@ mod registry;
 mod shear_failure;
 mod spectra_of_floors;
 mod support;
+mod symmetry;
 mod tall_frames;

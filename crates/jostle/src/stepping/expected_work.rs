@@ -4,7 +4,7 @@ use super::recorder::columns;
 use super::{Plan, Settings};
 use crate::history::MemberHistory;
 use crate::interface::{InterfaceGraph, LinkElement};
-use crate::model::{Analysis, ModelFault};
+use crate::model::{Analysis, ModelFault, Solver};
 use crate::motion::GroundMotion;
 use crate::structure::{Element, Part, StickModel};
 use crate::system::{BuildingSystem, RunGrounds, System};
@@ -52,6 +52,18 @@ impl Plan {
         let of_a_step =
             system.len() as f64 + OF_A_STEP * system.buildings.len() as f64 + work_of_links(system);
         (duration / self.step).ceil() * of_a_step
+    }
+
+    /// Greatest duration of a run whose tolerance asks for finer steps, relative to that of one pass with the steps of this plan; 1
+    /// where steps are given, or exact between the points of a record \[–\].
+    #[must_use]
+    pub fn longest_refined(&self, system: &System, motion: &GroundMotion) -> f64 {
+        let is_exact = matches!(self.solver, Solver::Modal | Solver::Series);
+        if is_exact || !self.is_automatic(system, motion) {
+            1.0
+        } else {
+            super::direct::longest()
+        }
     }
 
     /// Expected size of the histories of a run with these settings; `None` if it records none.

@@ -15,17 +15,66 @@ const IN_PARTS: f64 = 0.25;
 /// Least scale of rotations, in those of displacements over the radius of gyration \[–\].
 pub(super) const LEAST_ROTATION: f64 = 1e-3;
 
+/// Part of the greatest motions and forces of all floors below which a number is rounding: what symmetry keeps at rest, or a damper
+/// between floors that move alike, has no other \[–\].
+const ROUNDING: f64 = 1e-9;
+
 /// Axial force, shear, moment.
 const MEMBER_FORCES: usize = 3;
+
+/// Greatest motions and forces of all floors of a run. A metre turns lengths into rotations and forces into moments.
+#[derive(Clone, Copy, Default)]
+struct Greatest {
+    displacement: f64,
+    velocity: f64,
+    acceleration: f64,
+    force: f64,
+}
+
+impl Greatest {
+    fn of(outcome: &Outcome) -> Self {
+        let mut all = Self::default();
+        for (column, peak) in outcome.peaks.iter() {
+            let is_lateral = matches!(column.direction, Direction::Along | Direction::Across);
+            if matches!(column.owner, Owner::Floor { .. })
+                && is_lateral
+                && let Some(greatest) = all.of_kind(column.kind)
+            {
+                *greatest = greatest.max(peak.size());
+            }
+        }
+        all
+    }
+
+    /// What numbers of a kind are compared with; `None` for times and energies.
+    fn of_kind(&mut self, kind: Kind) -> Option<&mut f64> {
+        match kind {
+            Kind::Displacement
+            | Kind::CornerDisplacement
+            | Kind::Drift
+            | Kind::CornerDrift
+            | Kind::Closing
+            | Kind::Stroke => Some(&mut self.displacement),
+            Kind::Velocity | Kind::Speed => Some(&mut self.velocity),
+            Kind::Acceleration | Kind::FilteredAcceleration => Some(&mut self.acceleration),
+            Kind::Shear | Kind::Moment | Kind::Force | Kind::RingForce => Some(&mut self.force),
+            Kind::Time | Kind::Work | Kind::Lifted | Kind::Energy(_) => None,
+        }
+    }
+}
 
 /// Greatest difference of peaks, relative to the greatest of its kind in the building or gap \[–\].
 pub(super) fn change_of_peaks(system: &System, [a, b]: [&Outcome; 2]) -> f64 {
     let alike = alike(system, [a, b]);
+    let mut greatest = Greatest::of(b);
     let mut worst = 0.0_f64;
     for (pool, change) in &alike {
-        let least = least_scale(system, *pool, &alike, b);
+        let rounding = greatest.of_kind(pool.column.kind);
+        let rounding = rounding.map_or(0.0, |greatest| ROUNDING * *greatest);
+        let least = least_scale(system, *pool, &alike, b).max(rounding);
         worst = worst.max(change.relative_to(least));
     }
+    let rounding = ROUNDING * greatest.force;
     let mut floors_before = 0;
     for (index, building) in system.buildings.iter().enumerate() {
         let tracks = building.tracks.iter();
@@ -44,13 +93,13 @@ pub(super) fn change_of_peaks(system: &System, [a, b]: [&Outcome; 2]) -> f64 {
         for force in 0..3 {
             let sections = building.members.sections.iter();
             let forms = sections.filter_map(|own| own.get(force).copied());
-            worst = worst.max(change_of_forms(index, forms, [a, b]).relative_to(0.0));
+            worst = worst.max(change_of_forms(index, forms, [a, b]).relative_to(rounding));
         }
         for kind in 0..MEMBER_FORCES {
             let members = building.members.members.iter();
             let forms = members.flat_map(|m| m.sections.iter().flat_map(MemberSection::by_kind));
             let forms = forms.filter(|(own, _)| *own == kind).map(|(_, form)| form);
-            worst = worst.max(change_of_forms(index, forms, [a, b]).relative_to(0.0));
+            worst = worst.max(change_of_forms(index, forms, [a, b]).relative_to(rounding));
         }
     }
     let gaps = system.contacts.last().map_or(0, |contact| contact.gap + 1);
@@ -60,7 +109,7 @@ pub(super) fn change_of_peaks(system: &System, [a, b]: [&Outcome; 2]) -> f64 {
         let own: Vec<usize> = own.collect();
         for of in [peak_force, impulse] {
             let pairs = own.iter().map(|contact| [of(a, *contact), of(b, *contact)]);
-            worst = worst.max(Change::of(pairs).relative_to(0.0));
+            worst = worst.max(Change::of(pairs).relative_to(rounding));
         }
     }
     worst
@@ -68,18 +117,20 @@ pub(super) fn change_of_peaks(system: &System, [a, b]: [&Outcome; 2]) -> f64 {
 
 /// The same of braces, struts, walls and coupling beams.
 pub(super) fn change_of_parts(system: &System, runs: [&Outcome; 2]) -> f64 {
+    let greatest = Greatest::of(runs[1]);
     let mut worst = 0.0_f64;
     for (index, building) in system.buildings.iter().enumerate() {
-        for forms in forms_of_parts(building) {
+        for (forms, unit) in forms_of_parts(building) {
             let change = change_of_forms(index, forms.into_iter(), runs);
-            worst = worst.max(change.relative_to(0.0));
+            worst = worst.max(change.relative_to(ROUNDING * unit(&greatest)));
         }
     }
     worst
 }
 
-/// Forces and deformations of braces, of struts, of walls and of coupling beams, each kind with those that are measured alike.
-fn forms_of_parts(building: &BuildingSystem) -> Vec<Vec<usize>> {
+/// Forces and deformations of braces, of struts, of walls and of coupling beams, each kind with those that are measured alike and
+/// with what it is compared with.
+fn forms_of_parts(building: &BuildingSystem) -> [(Vec<usize>, fn(&Greatest) -> f64); 7] {
     let own = &building.members;
     let diagonals = &building.discretization.diagonals;
     let of_diagonals = |kind| {
@@ -90,14 +141,16 @@ fn forms_of_parts(building: &BuildingSystem) -> Vec<Vec<usize>> {
     let of_walls = |form: fn(&WallForce) -> usize| own.walls.iter().map(form).collect();
     let of_beams =
         |form: fn(&CouplingForce) -> usize| own.coupling_beams.iter().map(form).collect();
-    vec![
-        of_diagonals(DiagonalKind::Brace),
-        of_diagonals(DiagonalKind::Infill),
-        of_walls(|wall| wall.axial),
-        of_walls(|wall| wall.moment),
-        of_walls(|wall| wall.elongation),
-        of_beams(|beam| beam.shear),
-        of_beams(|beam| beam.chord),
+    let (force, length): (fn(&Greatest) -> f64, fn(&Greatest) -> f64) =
+        (|all| all.force, |all| all.displacement);
+    [
+        (of_diagonals(DiagonalKind::Brace), force),
+        (of_diagonals(DiagonalKind::Infill), force),
+        (of_walls(|wall| wall.axial), force),
+        (of_walls(|wall| wall.moment), force),
+        (of_walls(|wall| wall.elongation), length),
+        (of_beams(|beam| beam.shear), force),
+        (of_beams(|beam| beam.chord), length),
     ]
 }
 

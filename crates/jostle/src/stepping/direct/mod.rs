@@ -14,7 +14,7 @@ mod trial;
 mod velocity_jump;
 mod within_tolerance;
 
-pub(super) use within_tolerance::within_tolerance;
+pub(super) use within_tolerance::{longest, within_tolerance};
 
 use std::ops::Range;
 

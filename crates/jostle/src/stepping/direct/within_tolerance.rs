@@ -23,6 +23,13 @@ const LEFT_OVER: f64 = 0.8;
 /// Least and greatest order of convergence; average acceleration is of second order.
 const ORDERS: [f64; 2] = [0.75, 2.0];
 
+/// Greatest duration of a run relative to one with the steps that were chosen, if its tolerance asks for finer ones: both runs that
+/// measure the error, and all refinements.
+pub(in crate::stepping) fn longest() -> f64 {
+    let refined = |times: u64| libm::pow(REFINEMENT[1], times as f64);
+    1.5 + (1..=MOST_REFINEMENTS).map(refined).sum::<f64>()
+}
+
 /// Whether forces have corners.
 fn has_corners(system: &System) -> bool {
     let yields = |building: &BuildingSystem| !building.equations.springs.is_empty();
