@@ -1,10 +1,12 @@
 //! Maps of comparisons: which columns of measurements belong to which results of a model.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use crate::fault::InputError;
 use crate::keys::Section;
 use crate::model_file;
+use crate::origin::Origin;
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
 use crate::source::{Source, Span};
@@ -27,7 +29,7 @@ pub struct ComparisonMap {
     pub columns: Vec<ComparedColumn>,
     /// Impacts to compare.
     pub impacts: Vec<ComparedImpacts>,
-    source: Source,
+    origin: Origin,
 }
 
 /// How the motion of the table was measured.
@@ -110,16 +112,14 @@ impl ComparisonMap {
     /// All faults at once, with their lines.
     pub fn parse(name: &str, text: &str, format: Format) -> Result<Self, InputError> {
         let text = tree::decode(name, text.as_bytes())?;
-        let source = Source::new(name, text);
+        let source = Arc::new(Source::new(name, text));
         let root = tree::parse(&source, format)?;
-        let mut reader = Reader::new(&source);
-        let read = read_root(&mut reader, &Field::root(&root));
+        let origin = Origin { source, root };
+        let mut reader = Reader::new(&origin.source);
+        let read = read_root(&mut reader, &origin);
         let error = reader.into_error();
         match read {
-            Some(map) if error.faults.is_empty() => Ok(Self {
-                source: source.clone(),
-                ..map
-            }),
+            Some(map) if error.faults.is_empty() => Ok(map),
             _ => Err(error),
         }
     }
@@ -127,14 +127,18 @@ impl ComparisonMap {
     /// A fault of a name in the map, at its line.
     #[must_use]
     pub fn fault(&self, at: &NamedColumn, problem: impl Into<String>) -> InputError {
-        let mut reader = Reader::new(&self.source);
-        reader.fault(&at.span, at.path.clone(), problem);
-        reader.into_error()
+        self.origin.fault(&at.path, problem)
+    }
+
+    /// A fault of a key of the map, such as `low_pass`, at its line.
+    #[must_use]
+    pub fn fault_at(&self, path: &str, problem: impl Into<String>) -> InputError {
+        self.origin.fault(path, problem)
     }
 }
 
-fn read_root(reader: &mut Reader<'_>, root: &Field<'_>) -> Option<ComparisonMap> {
-    let view = reader.open(root, &[Section::Comparison])?;
+fn read_root(reader: &mut Reader<'_>, origin: &Origin) -> Option<ComparisonMap> {
+    let view = reader.open(&Field::root(&origin.root), &[Section::Comparison])?;
     let acceleration = named(reader, &view, "table_acceleration");
     let displacement = named(reader, &view, "table_displacement");
     let table = match (acceleration, displacement) {
@@ -186,7 +190,7 @@ fn read_root(reader: &mut Reader<'_>, root: &Field<'_>) -> Option<ComparisonMap>
         end,
         columns: columns?,
         impacts: impacts?,
-        source: Source::new("", ""),
+        origin: origin.clone(),
     })
 }
 
@@ -384,7 +388,10 @@ pub(crate) fn keys_asked(
     source: &Source,
     root: &tree::Node,
 ) -> std::collections::BTreeSet<(Section, &'static str)> {
-    let mut reader = Reader::new(source);
-    let _ = read_root(&mut reader, &Field::root(root));
+    let source = Arc::new(source.clone());
+    let root = root.clone();
+    let origin = Origin { source, root };
+    let mut reader = Reader::new(&origin.source);
+    let _ = read_root(&mut reader, &origin);
     reader.asked
 }

@@ -24,6 +24,7 @@ mod model_file;
 mod model_tree;
 mod motion_spec;
 mod nearest;
+mod origin;
 mod output;
 mod pushover;
 mod quantities_page;

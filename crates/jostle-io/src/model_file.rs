@@ -67,15 +67,16 @@ use jostle_section::capacity::ShearRule;
 
 use self::building::Buildings;
 use self::damper::DamperPaths;
-use crate::fault::{Fault, InputError};
+use crate::fault::InputError;
 use crate::files::{FileError, Files, read_file};
 use crate::keys::Section;
 use crate::motion_spec::{BearingSpec, MatchTo, MotionError, MotionSource, MotionSpec, Scaling};
+use crate::origin::{Origin, locate};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader};
 use crate::record::RecordOptions;
 use crate::record_list;
-use crate::source::{Source, Span};
+use crate::source::Source;
 use crate::tree::{self, Format, Node, Value};
 use crate::unusual::{Accepted, GAP, PEAK_ACCELERATION, Range, Verdict, Written, is_within};
 
@@ -106,13 +107,6 @@ pub struct Input {
     accepted: Accepted,
     files: Files,
     origin: Origin,
-}
-
-/// Where a model came from, to point at its lines later.
-#[derive(Clone, Debug)]
-struct Origin {
-    source: Arc<Source>,
-    root: Node,
 }
 
 /// Changes of a model from the command line.
@@ -461,17 +455,7 @@ impl Input {
     /// An error about a field that only came to light after reading: it shows the line of the file.
     #[must_use]
     pub fn fault(&self, path: &str, problem: impl Into<String>) -> InputError {
-        let (span, path) = locate(&self.origin.root, path);
-        InputError {
-            name: self.origin.source.name.clone(),
-            faults: vec![Fault {
-                place: (span != (0..0)).then(|| self.origin.source.place(&span)),
-                path,
-                problem: problem.into(),
-                remedy: None,
-            }],
-            more: 0,
-        }
+        self.origin.fault(path, problem)
     }
 }
 
@@ -664,48 +648,6 @@ fn add_model_faults(reader: &mut Reader<'_>, root: &Node, faults: Vec<ModelFault
             reader.fault(&span, path, fault.problem);
         }
     }
-}
-
-/// The position of a field in the file, and its path as written: a single value for a list has no index. A field
-/// that is absent is shown at the table that lacks it.
-pub(crate) fn locate(root: &Node, path: &str) -> (Span, String) {
-    let mut node = root;
-    let mut spelt = String::new();
-    let parts = path
-        .split(['.', '['])
-        .map(|part| part.trim_end_matches(']'));
-    let mut lost = false;
-    for part in parts {
-        match (&node.value, part.parse::<usize>()) {
-            (Value::List(list), Ok(index)) if !lost => {
-                // One gap may stand for several, of which it is the first.
-                let last = list.len().saturating_sub(1);
-                let index = if spelt == "gap" {
-                    index.min(last)
-                } else {
-                    index
-                };
-                spelt = format!("{spelt}[{index}]");
-                match list.get(index) {
-                    Some(entry) => node = entry,
-                    None => lost = true,
-                }
-            }
-            (_, Ok(_)) => {}
-            (Value::Table(table), Err(_)) if !lost => {
-                spelt = crate::reader::join(&spelt, part);
-                match table.get(part) {
-                    Some(entry) => node = entry,
-                    None => lost = true,
-                }
-            }
-            (_, Err(_)) => {
-                spelt = crate::reader::join(&spelt, part);
-                lost = true;
-            }
-        }
-    }
-    (node.span.clone(), spelt)
 }
 
 /// Warnings about valid but unusual values.

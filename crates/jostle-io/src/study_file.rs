@@ -17,12 +17,13 @@ pub use wanted::{FragilityWanted, IdaWanted};
 
 use crate::builtin_model;
 pub use crate::choices::{DesignKind, FragilityMethod, Sampling};
-use crate::fault::{Fault, InputError};
+use crate::fault::InputError;
 use crate::files::Files;
 use crate::keys::{DESIGNS, SAMPLINGS, Section};
 use crate::model_file;
 use crate::model_tree::ModelTree;
 use crate::nearest::nearest;
+use crate::origin::Origin;
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
 use crate::source::Source;
@@ -57,8 +58,7 @@ pub struct StudyFile {
     pub folder: PathBuf,
     /// Files that the study itself names, apart from its model.
     pub files: Files,
-    source: Arc<Source>,
-    root: Node,
+    origin: Origin,
 }
 
 /// How cases are made of what varies.
@@ -137,56 +137,35 @@ impl StudyFile {
     /// The text that was read.
     #[must_use]
     pub fn text(&self) -> &str {
-        self.source.text()
+        self.origin.source.text()
     }
 
     /// Name of the file.
     #[must_use]
     pub fn name(&self) -> &str {
-        &self.source.name
+        &self.origin.source.name
     }
 
     /// Whether the base model is written out in the file.
     #[must_use]
     pub fn has_own_model(&self) -> bool {
-        self.base.is_of(&self.source)
+        self.base.is_of(&self.origin.source)
     }
 
     /// A fault at a factor of the file.
     #[must_use]
     pub fn fault(&self, factor: usize, problem: impl Into<String>) -> InputError {
-        InputError {
-            name: self.source.name.clone(),
-            faults: vec![Fault {
-                path: match self.factors.get(factor) {
-                    Some(factor) => format!("vary[{}]", factor.entry),
-                    None => "vary".to_owned(),
-                },
-                place: self
-                    .factors
-                    .get(factor)
-                    .map(|factor| self.source.place(&factor.span)),
-                problem: problem.into(),
-                remedy: None,
-            }],
-            more: 0,
-        }
+        let path = match self.factors.get(factor) {
+            Some(factor) => format!("vary[{}]", factor.entry),
+            None => "vary".to_owned(),
+        };
+        self.origin.fault(&path, problem)
     }
 
     /// A fault at a key of the file, such as `fragility[0].demand`.
     #[must_use]
     pub fn fault_at(&self, path: &str, problem: impl Into<String>) -> InputError {
-        let (span, path) = model_file::locate(&self.root, path);
-        InputError {
-            name: self.source.name.clone(),
-            faults: vec![Fault {
-                path,
-                place: (span != (0..0)).then(|| self.source.place(&span)),
-                problem: problem.into(),
-                remedy: None,
-            }],
-            more: 0,
-        }
+        self.origin.fault(path, problem)
     }
 
     /// Shows faults caused by a value of a factor at that factor, and the others at their own positions.
@@ -202,14 +181,14 @@ impl StudyFile {
             });
             match own {
                 Some(&index) => {
-                    fault.place = Some(self.source.place(&self.factors[index].span));
+                    fault.place = Some(self.origin.source.place(&self.factors[index].span));
                     fault.path = format!("vary[{}]: {}", self.factors[index].entry, fault.path);
                 }
                 None => all_here = false,
             }
         }
         if all_here {
-            moved.name.clone_from(&self.source.name);
+            moved.name.clone_from(&self.origin.source.name);
         }
         moved
     }
@@ -321,8 +300,10 @@ fn read_root(
         selection,
         folder: folder.to_owned(),
         files: files.clone(),
-        source: Arc::clone(source),
-        root: root.clone(),
+        origin: Origin {
+            source: Arc::clone(source),
+            root: root.clone(),
+        },
     }))
 }
 

@@ -21,10 +21,11 @@ pub(super) fn rows(data: Measurements<'_>) -> Result<Range<usize>, RunError> {
     let last_instant = table.start + (points.max(1) - 1) as f64 * table.step;
     let row = |instant: f64| (instant - table.start) / table.step;
     let outside = |key: &str, instant: f64| {
-        RunError::Argument(format!(
-            "{}: {key} = {instant} s lies outside the data of {}, from {} s to {last_instant:.6} s",
-            data.map_name, data.name, table.start
-        ))
+        let problem = format!(
+            "{instant} s lies outside the data of {}, from {} s to {last_instant:.6} s",
+            data.name, table.start
+        );
+        RunError::from(data.map.fault_at(key, problem))
     };
     let first = match data.map.start {
         None => 0,
@@ -41,12 +42,12 @@ pub(super) fn rows(data: Measurements<'_>) -> Result<Range<usize>, RunError> {
         Some(end) => return Err(outside("end", end)),
     };
     if end < first + 3 {
-        return Err(RunError::Argument(format!(
-            "{}: {} rows of {} lie between start and end; three are needed at least",
-            data.map_name,
+        let problem = format!(
+            "{} rows of {} lie between start and end; three are needed at least",
             end.saturating_sub(first),
             data.name
-        )));
+        );
+        return Err(data.map.fault_at("end", problem).into());
     }
     Ok(first..end)
 }
@@ -84,7 +85,7 @@ pub(super) fn table_motion(
         };
         let filtered = Accelerogram::new(step, acceleration)
             .and_then(|motion| butterworth(&motion, &filter))
-            .map_err(|fault| RunError::Argument(format!("{}: low_pass: {fault}", data.map_name)))?;
+            .map_err(|fault| map.fault_at("low_pass", fault.to_string()))?;
         acceleration = filtered.into_acceleration();
     }
     let peak = acceleration.iter().fold(0.0, |m: f64, a| m.max(a.abs()));

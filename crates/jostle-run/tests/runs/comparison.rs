@@ -374,7 +374,17 @@ fn faults_stand_at_their_lines() {
         (
             "\"5 s\"",
             "\"9 s\"",
-            &["start = 9 s lies outside the data of test12.asc"],
+            &["map.toml:3:", "start: 9 s lies outside the data of test12.asc"],
+        ),
+        (
+            "start = \"5 s\"",
+            "start = \"5 s\"\nend = \"5.00001 s\"",
+            &["map.toml:4:", "end: ", "three are needed at least"],
+        ),
+        (
+            "start = \"5 s\"",
+            "start = \"5 s\"\nlow_pass = \"90 kHz\"",
+            &["map.toml:4:", "low_pass: "],
         ),
         ("\"5 s\"", "\"5 m\"", &["map.toml:3:", "expected a time"]),
         (
