@@ -67,7 +67,7 @@ pub use knobs::{Knob, KnobKind};
 pub use matrices::numpy_archive;
 pub use model_file::{
     CapacityRequest, FloorSpectraRequest, Input, OverrideError, Overrides, ReinforcedMember,
-    read_model_file, read_model_text,
+    TitleBlock, read_model_file, read_model_text,
 };
 pub use model_tree::{ModelTree, PathError, TreeValue};
 pub use motion_spec::{

@@ -35,6 +35,7 @@ mod places;
 mod plan;
 mod plan_frames;
 mod reinforced;
+mod report;
 mod section;
 mod shear;
 mod shear_failure;
@@ -54,6 +55,7 @@ pub use capacity::CapacityRequest;
 pub use floor_spectra::FloorSpectraRequest;
 pub(crate) use matching::read_spectrum;
 pub use reinforced::ReinforcedMember;
+pub use report::TitleBlock;
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -99,6 +101,8 @@ pub struct Input {
     pub north: Option<f64>,
     /// Rules for the capacity of these members.
     pub capacity: CapacityRequest,
+    /// What stands in the title block of its report.
+    pub title_block: TitleBlock,
     /// What checks need of the file beyond the model.
     pub stated: Stated,
     /// Warnings of a valid file.
@@ -215,6 +219,7 @@ pub(crate) fn read_tree(
             floor_spectra,
             governing,
             silenced,
+            title_block,
             dampers: _,
         }) if error.faults.is_empty() => Ok(Input {
             capacity,
@@ -222,6 +227,7 @@ pub(crate) fn read_tree(
             north,
             floor_spectra,
             governing,
+            title_block,
             warnings: {
                 noted.extend(warnings(&model, &root));
                 noted
@@ -501,6 +507,7 @@ struct Parts {
     floor_spectra: Option<FloorSpectraRequest>,
     governing: Option<GoverningRule>,
     silenced: Vec<&'static str>,
+    title_block: TitleBlock,
 }
 
 /// Reads the whole tree; `None` if there is nothing to build a model from.
@@ -571,7 +578,9 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, files: &Files) -> Option<Part
     let of_buildings = buildings.as_ref().map(|read| read.codes.clone());
     let codes = codes::read(reader, codes.as_ref(), of_buildings.unwrap_or_default());
     let report = reader.get(&view, "report");
-    let silenced = report.map_or_else(Vec::new, |field| stated::silenced(reader, &field));
+    let (title_block, silenced) = report
+        .map(|field| report::read(reader, &field))
+        .unwrap_or_default();
     let north = reader.get(&view, "site").and_then(|field| {
         let in_plan = |own: &jostle::Building| matches!(own.structure, jostle::Structure::Tiers(_));
         let read = buildings.as_ref();
@@ -624,6 +633,7 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, files: &Files) -> Option<Part
         floor_spectra,
         governing,
         silenced,
+        title_block,
         dampers: paths,
     })
 }

@@ -436,11 +436,7 @@ fn numbers(summary: &Summary) -> Vec<Number> {
             add(message::first_impact(&pair), "s", first);
         }
         if let Some(closing) = gap.closing_without_contact_m {
-            add(
-                message::smallest_gap_without_pounding_title(&pair),
-                "mm",
-                1e3 * closing,
-            );
+            add(message::gap_needed(&pair), "mm", 1e3 * closing);
         }
     }
     for building in &summary.buildings {

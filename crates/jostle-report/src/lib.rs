@@ -47,12 +47,13 @@ mod static_plot;
 mod study_page;
 mod tables;
 mod thin_loop;
+mod tiles;
 mod verdict;
 mod viewer;
 mod walls;
 
 pub use build::{BUILD, version};
-pub use calculation::Calculation;
+pub use calculation::{Calculation, TitleBlockPart};
 pub use collisions::{CollidedLaw, Collisions, loops_svg, render_collisions};
 pub use comparison::{ComparedHistory, ComparedImpactTimes, ComparisonPage, render_comparison};
 pub use contact_box::ContactBox;

@@ -6,11 +6,12 @@ use crate::document::{CALCULATION_STYLE, POLICY, STYLE, colour, theme_button};
 use crate::envelope::{self, envelopes};
 use crate::message;
 use crate::site_drawing::SITE_STYLE;
-use crate::verdict::{closest_approach, nearest, outside, peak_closing, verdict};
+use crate::tiles::tiles;
+use crate::verdict::{outside, verdict};
 use crate::{
     Page, bounds, calculation, checks, contact_box, describe, devices, fibres, floor_spectra,
-    format, friction, grounds, hinges, joints, members, method, payload, shear_failures, site_plan,
-    spread, tables,
+    friction, grounds, hinges, joints, members, method, payload, shear_failures, site_plan, spread,
+    tables,
 };
 
 /// The scripts, in the order of their dependence; together they are one module.
@@ -73,6 +74,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                     div {
                         p.kicker { (message::seismic_pounding_report()) }
                         h1 { (page.summary.title) }
+                        (calculation::title_block(page))
                     }
                     (theme_button())
                 }
@@ -80,9 +82,9 @@ pub(crate) fn page(page: &Page) -> Markup {
                     @if let Some(why) = &outside { p.outside role="alert" { b { (message::outside_the_model()) } " " (why) } }
                     p.verdict.muted[outside.is_some()] { @if page.summary.ended_early.is_some() { (message::until_the_run_ended()) " " } (headline) }
                     (tiles(page))
+                    (accuracy(page))
                     (checks::section(page))
                     (bounds::section(page))
-                    (accuracy(page))
                     @if let Some(spread) = spread::section(page) { (spread) }
                     @if recorded {
                         (motion_section(page.without_contact.is_some() && !page.model.gaps.is_empty(), yields))
@@ -158,120 +160,6 @@ pub(crate) fn warnings(page: &Page) -> Markup {
                 @for warning in &summary.warnings {
                     p { b { (message::warning()) " " } (warning) }
                 }
-            }
-        }
-    }
-}
-
-pub(crate) fn tiles(page: &Page) -> Markup {
-    let summary = page.summary;
-    let mut tiles: Vec<(String, String, String)> = Vec::new();
-    let mut tile = |name: &str, value: String, note: String| {
-        tiles.push((name.to_owned(), value, note));
-    };
-    let impacts: usize = summary.gaps.iter().map(|gap| gap.impact_count).sum();
-    let hardest = summary
-        .gaps
-        .iter()
-        .max_by(|a, b| a.peak_force_n.total_cmp(&b.peak_force_n));
-    if let Some(hardest) = hardest.filter(|_| impacts > 0) {
-        let contact = hardest
-            .contacts
-            .iter()
-            .max_by(|a, b| a.peak_force_n.total_cmp(&b.peak_force_n));
-        let place = contact.map_or_else(String::new, crate::verdict::place);
-        tile(
-            message::peak_force_title(),
-            format::force(hardest.peak_force_n),
-            place,
-        );
-        let first = summary
-            .gaps
-            .iter()
-            .filter_map(|gap| gap.first_impact_s)
-            .min_by(f64::total_cmp);
-        tile(
-            message::impacts_title(),
-            format::fixed(impacts as f64, 0),
-            first.map_or_else(String::new, |t| message::first_at(format::instant(t))),
-        );
-    } else if !summary.gaps.is_empty() {
-        tile(
-            message::impacts_title(),
-            message::none().into(),
-            String::new(),
-        );
-    }
-    for gap in &summary.gaps {
-        let pair = if summary.gaps.len() > 1 {
-            format!(", {}–{}", gap.between[0], gap.between[1])
-        } else {
-            String::new()
-        };
-        let width = nearest(gap).map_or(gap.width_m, |contact| contact.width_m);
-        let left =
-            closest_approach(gap).filter(|distance| *distance > 0.0 && gap.impact_count == 0);
-        tile(
-            &message::peak_closing_title(&pair),
-            peak_closing(gap).map_or(format::NOTHING.into(), format::millimetres),
-            match left {
-                Some(left) => {
-                    message::gap_left(format::millimetres(width), format::millimetres(left))
-                }
-                None => message::gap_width(format::millimetres(width)),
-            },
-        );
-        if let Some(closing) = gap.closing_without_contact_m {
-            tile(
-                &message::smallest_gap_without_pounding_title(&pair),
-                format::millimetres(closing),
-                message::from_a_run_without_contact().into(),
-            );
-        }
-    }
-    for building in &summary.buildings {
-        if let Some(roof) = building.floors.last() {
-            tile(
-                &message::roof_of(&building.name),
-                format::millimetres(roof.response.displacement_peak_m()),
-                format!(
-                    "{} / +{}",
-                    format::fixed(roof.response.displacement_min_m * 1e3, 1),
-                    format::millimetres(roof.response.displacement_max_m)
-                ),
-            );
-        }
-    }
-    for building in summary.buildings.iter().filter(|b| b.hinges.total > 0) {
-        let hinges = &building.hinges;
-        tile(
-            &message::name_yields_at(&building.name),
-            match hinges.yielded {
-                0 => message::no_place().into(),
-                n => message::one_of_all(n, hinges.total),
-            },
-            message::cracked_ductility(hinges.cracked, format::significant(hinges.ductility, 2)),
-        );
-    }
-    let pga = summary.motion.pga_m_s2;
-    tile(
-        message::peak_ground_acceleration(),
-        format::unit(format::significant(pga, 3), "m/s²"),
-        format!(
-            "{} % g, {}",
-            format::significant(pga / format::STANDARD_GRAVITY * 100.0, 3),
-            summary.motion.name
-        ),
-    );
-    tile(
-        message::energy_imbalance(),
-        format::significant(summary.energy.worst_imbalance, 2),
-        message::greatest_over_time().into(),
-    );
-    html! {
-        div.tiles.muted[outside(summary).is_some()] {
-            @for (name, value, note) in &tiles {
-                div.tile { p.tile-name { (name) } p.tile-value { (value) } p.tile-note { (note) } }
             }
         }
     }

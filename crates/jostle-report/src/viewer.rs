@@ -95,7 +95,7 @@ pub fn frame(page: &Page) -> Frame {
     };
     let parts = [
         ("warnings", page::warnings(page)),
-        ("tiles", page::tiles(page)),
+        ("tiles", crate::tiles::tiles(page)),
         ("checks", checks::section(page)),
         ("hinges", hinges::section(page).unwrap_or_default()),
         ("impacts", impacts),

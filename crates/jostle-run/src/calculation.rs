@@ -2,7 +2,8 @@
 
 use jostle::eigen::Mode;
 use jostle::{GroundMotion, Model, System, Wave};
-use jostle_report::Calculation;
+use jostle_io::TitleBlock;
+use jostle_report::{Calculation, TitleBlockPart};
 use sha2::{Digest, Sha256};
 
 use crate::modes::floor_shape;
@@ -19,11 +20,27 @@ impl Prepared {
         Calculation {
             shapes: shapes(&self.system),
             target: self.input.target(),
+            title_block: title_block(&self.input.title_block),
             input_text: text,
             input_hash: hex(&Sha256::digest(text.as_bytes())),
             run_hash: run_hash(&self.input.model, &self.motion),
         }
     }
+}
+
+/// The entries that a file has.
+fn title_block(own: &TitleBlock) -> Vec<(TitleBlockPart, &str)> {
+    let parts = [
+        (TitleBlockPart::Project, &own.project),
+        (TitleBlockPart::Client, &own.client),
+        (TitleBlockPart::Author, &own.author),
+        (TitleBlockPart::Date, &own.date),
+    ];
+    let mut stated = Vec::new();
+    for (part, text) in parts {
+        stated.extend(text.as_deref().map(|text| (part, text)));
+    }
+    stated
 }
 
 fn shapes(system: &System) -> Vec<Vec<(f64, Vec<f64>)>> {

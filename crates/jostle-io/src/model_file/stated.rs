@@ -1,48 +1,15 @@
-//! What checks need of a file beyond the model: `[report]`, concrete and stiffness factors.
+//! What checks need of a file beyond the model: concrete and stiffness factors.
 
 use jostle::Model;
-use jostle::judgement::{StatedBuilding, named, names};
+use jostle::judgement::StatedBuilding;
 use jostle_section::StrengthLevel;
 use jostle_section::formula::Member;
 
 use super::assumptions::{STIFFEST_CONCRETE, as_table, factor, number};
 use super::reinforced::ReinforcedMember;
 use crate::grade::parse_concrete;
-use crate::keys::Section;
-use crate::nearest::nearest;
 use crate::quantity::Dimension;
-use crate::reader::{Field, Reader};
 use crate::tree::{Node, Table, Value};
-
-/// Reads `[report]`: the checks that it silences.
-pub(super) fn silenced(reader: &mut Reader<'_>, field: &Field<'_>) -> Vec<&'static str> {
-    let Some(view) = reader.open(field, &[Section::Report]) else {
-        return Vec::new();
-    };
-    let Some(field) = reader.get(&view, "silence") else {
-        return Vec::new();
-    };
-    let entries = field.entries().unwrap_or_else(|| vec![field.clone()]);
-    let mut silenced = Vec::new();
-    for entry in &entries {
-        let Some(name) = reader.text(entry) else {
-            continue;
-        };
-        match named(&name) {
-            Some(found) => silenced.extend(found),
-            None => {
-                let meant = nearest(&name, names().into_iter());
-                *reader.bad(entry, format!("\"{name}\" is no check")) = Some(match meant {
-                    Some(meant) => format!("did you mean \"{meant}\"?"),
-                    None => "docs/checks.md lists all checks; write an identifier such as \"A12\", or a name such as \"records\"".to_owned(),
-                });
-            }
-        }
-    }
-    silenced.sort_unstable();
-    silenced.dedup();
-    silenced
-}
 
 /// What a file says of every building.
 pub(super) fn of_buildings(

@@ -93,6 +93,10 @@ integrator = { method = "hht" }
 members = true
 floor_spectra = { floors = ["A.1"], damping = 0.05, periods = 1, low_pass = 25, order = 4 }
 [report]
+project = "Old town"
+client = "City"
+author = "Office"
+date = "1 May"
 silence = ["A12"]
 [codes]
 show = "asce7"

@@ -18,12 +18,47 @@ pub struct Calculation<'a> {
     pub shapes: Vec<Vec<(f64, Vec<f64>)>>,
     /// Design spectrum that the motion is scaled to, and its damping ratio.
     pub target: Option<(&'a TargetSpectrum, f64)>,
+    /// Names and values of the title block: project, client, author, date, as far as the file has them.
+    pub title_block: Vec<(TitleBlockPart, &'a str)>,
     /// The model file as it was read.
     pub input_text: &'a str,
     /// SHA-256 of the model file, in hexadecimal digits.
     pub input_hash: String,
     /// SHA-256 of the model and the motion as they were run, options of the command line included.
     pub run_hash: String,
+}
+
+/// What an entry of the title block is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TitleBlockPart {
+    /// Name of the project.
+    Project,
+    /// Whom the report is made for.
+    Client,
+    /// Who made it.
+    Author,
+    /// Its date.
+    Date,
+}
+
+/// The title block below the title; nothing where the file has none.
+pub(crate) fn title_block(page: &Page) -> Markup {
+    let entries = page.calculation.map_or(&[][..], |own| &own.title_block);
+    let name = |part| match part {
+        TitleBlockPart::Project => message::project(),
+        TitleBlockPart::Client => message::client(),
+        TitleBlockPart::Author => message::author(),
+        TitleBlockPart::Date => message::date(),
+    };
+    html! {
+        @if !entries.is_empty() {
+            dl.title-block {
+                @for (part, text) in entries {
+                    div { dt { (name(*part)) } dd { (text) } }
+                }
+            }
+        }
+    }
 }
 
 /// Damping ratio of the spectrum unless a target has its own \[–\].

@@ -455,6 +455,10 @@ messages! {
     psv_over_0_1_2 = "PSV over 0.1–2.5 s, 5 %";
 
     // page
+    project = "Project";
+    client = "Client";
+    author = "Author";
+    date = "Date";
     seismic_pounding_report = "Seismic pounding report";
     no_time_histories_were_recorded = "No time histories were recorded, so there is no animation.";
     the_model_has_no_gap = "The model has no gap.";
@@ -468,16 +472,21 @@ messages! {
     none = "none";
     peak_closing_title(pair) = "Peak closing{pair}";
     gap_left(width, left) = "gap {width}, {left} left";
-    smallest_gap_without_pounding_title(pair) = "Smallest gap without pounding{pair}";
-    from_a_run_without_contact = "from a run without contact";
+    gap_needed(pair) = "Gap needed{pair}";
+    gap_lacks(width, lacks) = "gap {width}, {lacks} too narrow";
+    greatest_drift = "Greatest drift";
+    residual_drift_of_all = "Drift at the end";
+    storey_of(name, storey) = "{name}, storey {storey}";
+    members_beyond_capacity = "Members beyond capacity";
+    worst_member(member, kind, ratio) = "{member} in {kind}: {ratio} times its capacity";
+    yield_at = "Yield at";
+    peak_ground_acceleration = "Peak ground acceleration";
+    under_the_motion(name, peak, percent, imbalance) = "Under {name}, peak {peak} ({percent} % g). Energy imbalance {imbalance}.";
     roof_of(name) = "Roof of {name}";
     name_yields_at(name) = "{name} yields at";
     no_place = "no place";
     one_of_all(one, all) = "{one} of {all}";
     cracked_ductility(cracked, ductility) = "{cracked} cracked; ductility {ductility}";
-    peak_ground_acceleration = "Peak ground acceleration";
-    energy_imbalance = "Energy imbalance";
-    greatest_over_time = "greatest over time";
     accuracy = "Accuracy:";
     assumptions_and_limits = "Assumptions and limits of this result";
     outside_the_model = "Outside the model: no basis for design.";

@@ -552,3 +552,35 @@ fn fewer_bays_above_and_elevations_reach_the_pictures() {
     assert!(page.contains("\"elevation\":-1.5"));
     assert!(page.contains("elevation of the base") && page.contains("7–10: –"));
 }
+
+/// The tiles answer first what gap is needed and where the greatest drift is.
+#[test]
+fn the_head_says_how_much_gap_and_where_the_drift() {
+    let mut run = two_frames(0.1);
+    for building in &mut run.summary.buildings {
+        for floor in &mut *building.floors {
+            floor.response.storey_drift_peak = 0.001;
+        }
+    }
+    run.summary.buildings[1].floors[2]
+        .response
+        .storey_drift_peak = 0.01234;
+    run.summary.gaps[0].closing_without_contact_m = Some(0.1605);
+    let text = render(&run.page());
+    let tiles = text.find("class=\"tiles").expect("tiles");
+    let end = text.find("How they move").expect("a section");
+    let head = text[tiles..end].replace(['\u{a0}', '\u{202f}'], " ");
+    for due in [
+        "Gap needed",
+        "160.5 mm",
+        "gap 100 mm, 60.5 mm too narrow",
+        "1.23 %",
+        "J2, storey 3",
+        "Peak closing",
+    ] {
+        assert!(head.contains(due), "{due} in {head}");
+    }
+    run.summary.gaps[0].closing_without_contact_m = Some(0.09);
+    let text = render(&run.page()).replace(['\u{a0}', '\u{202f}'], " ");
+    assert!(text.contains("gap 100 mm, 10 mm left"));
+}

@@ -374,7 +374,10 @@ fn faults_stand_at_their_lines() {
         (
             "\"5 s\"",
             "\"9 s\"",
-            &["map.toml:3:", "start: 9 s lies outside the data of test12.asc"],
+            &[
+                "map.toml:3:",
+                "start: 9 s lies outside the data of test12.asc",
+            ],
         ),
         (
             "start = \"5 s\"",

@@ -1,0 +1,247 @@
+//! The answers of a run, at the head of its page: how much gap, what is hurt, where, and what is left.
+
+use jostle::results::summary::{BuildingSummary, FloorSummary, GapSummary, Summary};
+use maud::{Markup, html};
+
+use crate::verdict::{closest_approach, nearest, outside, peak_closing, place};
+use crate::{Page, format, message};
+
+/// Most gaps, and most buildings, that have tiles each; of more, the worst stands for all.
+const MOST_EACH: usize = 2;
+
+/// A number with its name and what it refers to.
+struct Tile {
+    name: String,
+    value: String,
+    note: String,
+}
+
+/// The tiles, and the motion they hold for.
+pub(crate) fn tiles(page: &Page) -> Markup {
+    let summary = page.summary;
+    let mut tiles = gaps(summary);
+    tiles.extend(drift(summary));
+    tiles.extend(members(summary));
+    tiles.extend(yielding(summary));
+    tiles.extend(impacts(summary));
+    tiles.extend(roofs(summary));
+    html! {
+        div.tiles.muted[outside(summary).is_some()] {
+            @for Tile { name, value, note } in &tiles {
+                div.tile { p.tile-name { (name) } p.tile-value { (value) } p.tile-note { (note) } }
+            }
+        }
+        p.quiet { (motion(summary)) }
+    }
+}
+
+fn tile(name: impl Into<String>, value: impl Into<String>, note: impl Into<String>) -> Tile {
+    Tile {
+        name: name.into(),
+        value: value.into(),
+        note: note.into(),
+    }
+}
+
+/// The gap that is needed beside that which there is; of many gaps, the one that lacks most.
+fn gaps(summary: &Summary) -> Vec<Tile> {
+    let lacking = |gap: &GapSummary| gap.closing_without_contact_m.map(|own| own - width(gap));
+    let all = summary.gaps.iter();
+    let shown: Vec<&GapSummary> = if summary.gaps.len() <= MOST_EACH {
+        all.collect()
+    } else {
+        let worst = all.max_by(|a, b| {
+            let of = |gap| lacking(gap).unwrap_or(f64::NEG_INFINITY);
+            of(a).total_cmp(&of(b))
+        });
+        worst.into_iter().collect()
+    };
+    let tiles = shown.into_iter().map(|gap| {
+        let pair = match summary.gaps.len() {
+            1 => String::new(),
+            _ => format!(", {}–{}", gap.between[0], gap.between[1]),
+        };
+        let there = format::millimetres(width(gap));
+        match gap.closing_without_contact_m {
+            Some(needed) if needed > width(gap) => {
+                let lacks = format::millimetres(needed - width(gap));
+                let note = message::gap_lacks(there, lacks);
+                tile(
+                    message::gap_needed(&pair),
+                    format::millimetres(needed),
+                    note,
+                )
+            }
+            Some(needed) => {
+                let left = format::millimetres(width(gap) - needed);
+                let note = message::gap_left(there, left);
+                tile(
+                    message::gap_needed(&pair),
+                    format::millimetres(needed),
+                    note,
+                )
+            }
+            None => closing(gap, &pair),
+        }
+    });
+    tiles.collect()
+}
+
+/// How far a gap closed.
+fn closing(gap: &GapSummary, pair: &str) -> Tile {
+    let there = format::millimetres(width(gap));
+    let left = closest_approach(gap).filter(|left| *left > 0.0 && gap.impact_count == 0);
+    let note = match left {
+        Some(left) => message::gap_left(there, format::millimetres(left)),
+        None => message::gap_width(there),
+    };
+    let peak = peak_closing(gap).map_or(format::NOTHING.into(), format::millimetres);
+    tile(message::peak_closing_title(pair), peak, note)
+}
+
+/// Width where a gap closes furthest \[m\].
+fn width(gap: &GapSummary) -> f64 {
+    nearest(gap).map_or(gap.width_m, |contact| contact.width_m)
+}
+
+/// The greatest drift of all buildings, and what is left of it where something yields.
+fn drift(summary: &Summary) -> Vec<Tile> {
+    let of_floor = |floor: &FloorSummary| {
+        let across = floor
+            .in_plan
+            .as_ref()
+            .map(|own| own.storey_drift_corner_peak);
+        floor.response.storey_drift_peak.max(across.unwrap_or(0.0))
+    };
+    let residual = |floor: &FloorSummary| floor.response.residual_drift.abs();
+    let greatest = |of: &dyn Fn(&FloorSummary) -> f64| {
+        let floors = summary.buildings.iter().flat_map(|building| {
+            let storeys = building.floors.iter().filter(|floor| floor.floor > 0);
+            storeys.map(move |floor| (building, floor))
+        });
+        floors.max_by(|a, b| of(a.1).total_cmp(&of(b.1)))
+    };
+    let of = |name: &str, of: &dyn Fn(&FloorSummary) -> f64| {
+        let (building, floor) = greatest(of)?;
+        let note = message::storey_of(&building.name, floor.floor);
+        let value = format::unit(format::fixed(100.0 * of(floor), 2), "%");
+        Some(tile(name, value, note))
+    };
+    let yields = summary.buildings.iter().any(|own| own.hinges.yielded > 0);
+    let left = yields.then(|| of(message::residual_drift_of_all(), &residual));
+    let peak = of(message::greatest_drift(), &of_floor);
+    peak.into_iter().chain(left.flatten()).collect()
+}
+
+/// Members beyond their capacity, and the worst of them.
+fn members(summary: &Summary) -> Option<Tile> {
+    let rated = summary.buildings.iter().filter_map(|building| {
+        let capacity = building.capacity.as_ref()?;
+        Some((building, capacity))
+    });
+    let worst = rated
+        .clone()
+        .max_by(|a, b| a.1.worst.ratio.total_cmp(&b.1.worst.ratio))?;
+    let (beyond, all) = rated.fold((0, 0), |(beyond, all), (_, own)| {
+        (beyond + own.exceeded, all + own.rated)
+    });
+    let member = &worst.1.worst;
+    let ratio = format::fixed(member.ratio, 2);
+    let note = message::worst_member(&member.member, member.kind, ratio);
+    let value = message::one_of_all(beyond, all);
+    Some(tile(message::members_beyond_capacity(), value, note))
+}
+
+/// Places that yielded, and the greatest ductility.
+fn yielding(summary: &Summary) -> Vec<Tile> {
+    let all = summary.buildings.iter();
+    let own: Vec<&BuildingSummary> = all.filter(|own| own.hinges.total > 0).collect();
+    let one = |name: String, own: &[&BuildingSummary]| {
+        let sum = |of: fn(&BuildingSummary) -> usize| own.iter().map(|own| of(own)).sum::<usize>();
+        let ductility = own
+            .iter()
+            .fold(0.0_f64, |most, own| most.max(own.hinges.ductility));
+        let value = match sum(|own| own.hinges.yielded) {
+            0 => message::no_place().into(),
+            yielded => message::one_of_all(yielded, sum(|own| own.hinges.total)),
+        };
+        let cracked = sum(|own| own.hinges.cracked);
+        let note = message::cracked_ductility(cracked, format::significant(ductility, 2));
+        tile(name, value, note)
+    };
+    if own.is_empty() {
+        Vec::new()
+    } else if own.len() <= MOST_EACH {
+        let each = own
+            .iter()
+            .map(|own| one(message::name_yields_at(&own.name), &[*own]));
+        each.collect()
+    } else {
+        vec![one(message::yield_at().to_owned(), &own)]
+    }
+}
+
+/// The hardest impact, and how many there are.
+fn impacts(summary: &Summary) -> Vec<Tile> {
+    let count: usize = summary.gaps.iter().map(|gap| gap.impact_count).sum();
+    if summary.gaps.is_empty() {
+        return Vec::new();
+    }
+    if count == 0 {
+        return vec![tile(message::impacts_title(), message::none(), "")];
+    }
+    let contacts = summary.gaps.iter().flat_map(|gap| &gap.contacts);
+    let hardest = contacts.max_by(|a, b| a.peak_force_n.total_cmp(&b.peak_force_n));
+    let force = hardest.map_or(0.0, |contact| contact.peak_force_n);
+    let first = summary.gaps.iter().filter_map(|gap| gap.first_impact_s);
+    let first = first.min_by(f64::total_cmp);
+    let mut tiles = vec![
+        tile(
+            message::peak_force_title(),
+            format::force(force),
+            hardest.map_or_else(String::new, place),
+        ),
+        tile(
+            message::impacts_title(),
+            format::fixed(count as f64, 0),
+            first.map_or_else(String::new, |at| message::first_at(format::instant(at))),
+        ),
+    ];
+    if let [gap] = &summary.gaps[..]
+        && gap.closing_without_contact_m.is_some()
+    {
+        tiles.push(closing(gap, ""));
+    }
+    tiles
+}
+
+/// Roof displacements of few buildings.
+fn roofs(summary: &Summary) -> Vec<Tile> {
+    let roofs = summary.buildings.iter().filter_map(|building| {
+        let roof = building.floors.last()?.response;
+        let range = format!(
+            "{} / +{}",
+            format::fixed(roof.displacement_min_m * 1e3, 1),
+            format::millimetres(roof.displacement_max_m)
+        );
+        let peak = format::millimetres(roof.displacement_peak_m());
+        Some(tile(message::roof_of(&building.name), peak, range))
+    });
+    let roofs: Vec<Tile> = roofs.collect();
+    if roofs.len() <= MOST_EACH {
+        roofs
+    } else {
+        Vec::new()
+    }
+}
+
+/// The motion, and how well the energies balance.
+fn motion(summary: &Summary) -> String {
+    let pga = summary.motion.pga_m_s2;
+    message::under_the_motion(
+        &summary.motion.name,
+        format::unit(format::significant(pga, 3), "m/s²"),
+        format::significant(pga / format::STANDARD_GRAVITY * 100.0, 3),
+        format::significant(summary.energy.worst_imbalance, 2),
+    )
+}
