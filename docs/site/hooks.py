@@ -37,6 +37,9 @@ def on_files(files, config):
 def on_page_markdown(markdown, page, config, files):
     """Points links that are right in the repository at the pages of the site."""
     uri = page.file.src_uri
+    if uri.startswith("validation/"):
+        # Thousands of rows of numbers would hide the pages that explain.
+        page.meta["search"] = {"exclude": True}
     if uri in DEVELOPERS:
         markdown = re.sub(r"\]\(docs/", "](../", markdown)
         markdown = re.sub(

@@ -1,4 +1,4 @@
-//! The page `docs/validation.md`.
+//! The page `docs/validation.md`, and one page for each family in `docs/validation/`.
 
 use std::fmt::Write;
 
@@ -27,7 +27,7 @@ const ILL_CONDITIONED: &str = "\
   columns](how-to/shake-table.md): `jostle compare model.toml test.asc --map map.toml --out compared`.
 ";
 
-/// The whole page.
+/// The page that lists the families.
 #[must_use]
 pub fn page(families: &[Family], extent: Extent) -> String {
     let rows = families
@@ -69,29 +69,43 @@ pub fn page(families: &[Family], extent: Extent) -> String {
         put(
             &mut page,
             format_args!(
-                "| {} | {} | {miss} | {known} |\n",
+                "| [{}](validation/{}) | {} | {miss} | {known} |\n",
                 family.title,
+                file_name(family),
                 family.rows.len()
             ),
         );
     }
-    for family in families {
+    page
+}
+
+/// The page of one family: every number with its source, error and tolerance.
+#[must_use]
+pub fn family_page(family: &Family) -> String {
+    let mut page = format!(
+        "# {}\n\n{}\n\nSee [Validation](../validation.md) for what to know before reading the table.\n\n",
+        family.title, family.about
+    );
+    page += "| source | quantity | expected | got | error | tolerance | pass |\n|---|---|---:|---:|---:|---:|---|\n";
+    for row in &family.rows {
+        page += &line(row);
+    }
+    for row in family.rows.iter().filter(|row| row.is_known_gap()) {
         put(
             &mut page,
-            format_args!("\n## {}\n\n{}\n\n", family.title, family.about),
+            format_args!("\n*{}*: {}.\n", row.quantity, row.known.unwrap_or_default()),
         );
-        page += "| source | quantity | expected | got | error | tolerance | pass |\n|---|---|---:|---:|---:|---:|---|\n";
-        for row in &family.rows {
-            page += &line(row);
-        }
-        for row in family.rows.iter().filter(|row| row.is_known_gap()) {
-            put(
-                &mut page,
-                format_args!("\n*{}*: {}.\n", row.quantity, row.known.unwrap_or_default()),
-            );
-        }
     }
     page
+}
+
+/// File name of the page of a family: its title in lower case, with hyphens for all that is no letter or digit.
+#[must_use]
+pub fn file_name(family: &Family) -> String {
+    let title = family.title.to_lowercase();
+    let words = title.split(|letter: char| !letter.is_alphanumeric());
+    let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
+    words.join("-") + ".md"
 }
 
 fn put(page: &mut String, text: std::fmt::Arguments<'_>) {
