@@ -40,6 +40,8 @@ def on_page_markdown(markdown, page, config, files):
     if uri.startswith("validation/"):
         # Thousands of rows of numbers would hide the pages that explain.
         page.meta["search"] = {"exclude": True}
+    if uri.startswith("validation/") or uri == "combinations.md":
+        page.meta["hide"] = ["toc"]  # the tables need the room
     if uri in DEVELOPERS:
         markdown = re.sub(r"\]\(docs/", "](../", markdown)
         markdown = re.sub(
@@ -60,6 +62,7 @@ def on_page_markdown(markdown, page, config, files):
 
 def with_reasons_below(markdown):
     """Puts the refusals of the table of combinations below it, with numbers: in the cells they would be too wide to read."""
+    markdown = markdown.replace("or what the program says instead", "or `no` with the number of what the program says instead")
     reasons = []
 
     def row(line):
