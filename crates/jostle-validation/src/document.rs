@@ -180,6 +180,16 @@ mod tests {
     use super::*;
 
     #[test]
+    fn pages_of_families_have_names_of_files() {
+        let family = Family {
+            title: "Frames, braces: and \"infills\" et al.",
+            about: "",
+            rows: Vec::new(),
+        };
+        assert_eq!(file_name(&family), "frames-braces-and-infills-et-al.md");
+    }
+
+    #[test]
     fn numbers_are_readable() {
         let cases = [
             (0.0, "0"),
