@@ -41,7 +41,7 @@ pub fn page(families: &[Family], extent: Extent) -> String {
         .filter(|row| row.is_known_gap())
         .count();
     let option = if extent == Extent::Full {
-        " --full"
+        " -- --full"
     } else {
         ""
     };
@@ -49,20 +49,10 @@ pub fn page(families: &[Family], extent: Extent) -> String {
         "# Validation\n\n\
          jostle {version} compared with closed forms, independent programs and the literature: {rows} numbers, of which {} agree \
          within their tolerance, {missed} miss and {known} differ for a known reason.\n\n\
-         This page is written by\n\n\
-         ```sh\ncargo run --release -p jostle-validation --{}\n```\n\n\
-         and checked by `cargo test -p jostle-validation`. The expected numbers, their sources and their tolerances are in `crates/jostle-validation/data`.\n\n{ILL_CONDITIONED}",
+         ## Families\n\n| family | numbers | miss | known |\n|---|---:|---:|---:|\n",
         rows - missed - known,
-        if option.is_empty() { " " } else { option },
         version = env!("CARGO_PKG_VERSION"),
-    )
-    .replace("jostle-validation -- \n", "jostle-validation\n");
-    page += "\n## Random models\n\n\
-        Every peak of random models that the tolerance covers, and the closings and forces of links, are compared with an \
-        independent reference. The figure shows \
-        the share of peaks whose error exceeds a multiple of the tolerance; the tables are in [Accuracy on random models](certify.md).\n\n\
-        ![Share of peaks whose error exceeds a multiple of the tolerance](figures/certify.svg)\n\n## Families\n";
-    page += "\n| family | numbers | miss | known |\n|---|---:|---:|---:|\n";
+    );
     for family in families {
         let miss = family.rows.iter().filter(|row| row.misses()).count();
         let known = family.rows.iter().filter(|row| row.is_known_gap()).count();
@@ -76,6 +66,21 @@ pub fn page(families: &[Family], extent: Extent) -> String {
             ),
         );
     }
+    put(&mut page, format_args!("\n{ILL_CONDITIONED}"));
+    page += "\n## Random models\n\n\
+        Every peak of random models that the tolerance covers, and the closings and forces of links, are compared with an \
+        independent reference. The figure shows \
+        the share of peaks whose error exceeds a multiple of the tolerance; the tables are in [Accuracy on random models](certify.md).\n\n\
+        ![Share of peaks whose error exceeds a multiple of the tolerance](figures/certify.svg)\n";
+    put(
+        &mut page,
+        format_args!(
+            "\n## How these pages are made\n\nThey are written by\n\n\
+             ```sh\ncargo run --release -p jostle-validation{option}\n```\n\n\
+             and checked by `cargo test -p jostle-validation`. The expected numbers, their sources and their tolerances are in \
+             `crates/jostle-validation/data`.\n"
+        ),
+    );
     page
 }
 
