@@ -98,4 +98,4 @@ except jostle.ModelError as error:
     print(error)
 
 # %% [markdown]
-# Next: [Python package](../python.html) with studies, motions and contact laws of your own, and the [Python API](../python-api.html).
+# Next: [Python package](../python.html) with studies, motions, contact laws of your own, and every class and function.

@@ -337,10 +337,10 @@ pub(crate) fn describe(title: &str, found: &[CriticalGap]) -> String {
     }
     if fewest < FEW_RECORDS {
         text += &format!(
-            "\n{} is no design value: codes want 3, 7 or 11 records.",
+            "\n{} no design value: codes want 3, 7 or 11 records.",
             match fewest {
-                1 => "One record".to_owned(),
-                several => counted(several, "record"),
+                1 => "One record is".to_owned(),
+                several => format!("{} are", counted(several, "record")),
             }
         );
     } else {

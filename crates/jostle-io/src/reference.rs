@@ -17,7 +17,7 @@ const TABLES: &[(Section, &str, &str)] = &[
     (
         Section::Read,
         "`motion.read`",
-        "For files that cannot be understood without help. See [Ground-motion records](records.md).",
+        "For files that cannot be understood without help. See [Ground-motion records](motions.md).",
     ),
     (
         Section::Coherency,
@@ -56,7 +56,7 @@ const TABLES: &[(Section, &str, &str)] = &[
     (
         Section::PlanFrame,
         "`[[building.frame]]`",
-        "With `kind = \"frame\"` and a `plan`; the building then has the keys of `kind = \"shear\"`. See [Frames at lines of a plan](how-to/frames-in-plan.md).",
+        "With `kind = \"frame\"` and a `plan`; the building then has the keys of `kind = \"shear\"`. See [Frames at lines of a plan](how-to/space-frames.md#frames-at-lines-of-a-plan).",
     ),
     (
         Section::Brace,
@@ -120,7 +120,7 @@ const TABLES: &[(Section, &str, &str)] = &[
     (
         Section::Column,
         "`column` of a frame",
-        "A rectangle, or its rigidities; with bars for `hinges.from = \"section\"`. A list in which no table names a line, storeys or `omit` has one table per storey from the ground up; otherwise every table holds for the lines and storeys that it names. A floor has a joint where a column stands below it. See [Columns that differ, set-backs and podiums](how-to/model-buildings.md#columns-that-differ-set-backs-and-podiums).",
+        "A rectangle, or its rigidities; with bars for `hinges.from = \"section\"`. A list in which no table names a line, storeys or `omit` has one table per storey from the ground up; otherwise every table holds for the lines and storeys that it names. A floor has a joint where a column stands below it. See [Columns that differ, set-backs and podiums](how-to/podiums.md).",
     ),
     (
         Section::Beam,

@@ -228,7 +228,7 @@ fn records(
     }
     let _ = writeln!(
         text,
-        "{} a run uses one of them, chosen with --record; a study and \"jostle gap\" use all {}",
+        "{} a run, a study and \"jostle gap\" use all {}; --record chooses one",
         styled(LOUD, "note:"),
         inputs.len()
     );

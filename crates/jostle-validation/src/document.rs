@@ -1,4 +1,4 @@
-//! The page `docs/validation.md`.
+//! The page `docs/validation.md`, and one page for each family in `docs/validation/`.
 
 use std::fmt::Write;
 
@@ -27,7 +27,7 @@ const ILL_CONDITIONED: &str = "\
   columns](how-to/shake-table.md): `jostle compare model.toml test.asc --map map.toml --out compared`.
 ";
 
-/// The whole page.
+/// The page that lists the families.
 #[must_use]
 pub fn page(families: &[Family], extent: Extent) -> String {
     let rows = families
@@ -41,7 +41,7 @@ pub fn page(families: &[Family], extent: Extent) -> String {
         .filter(|row| row.is_known_gap())
         .count();
     let option = if extent == Extent::Full {
-        " --full"
+        " -- --full"
     } else {
         ""
     };
@@ -49,49 +49,68 @@ pub fn page(families: &[Family], extent: Extent) -> String {
         "# Validation\n\n\
          jostle {version} compared with closed forms, independent programs and the literature: {rows} numbers, of which {} agree \
          within their tolerance, {missed} miss and {known} differ for a known reason.\n\n\
-         This page is written by\n\n\
-         ```sh\ncargo run --release -p jostle-validation --{}\n```\n\n\
-         and checked by `cargo test -p jostle-validation`. The expected numbers, their sources and their tolerances are in `crates/jostle-validation/data`.\n\n{ILL_CONDITIONED}",
+         ## Families\n\n| family | numbers | miss | known |\n|---|---:|---:|---:|\n",
         rows - missed - known,
-        if option.is_empty() { " " } else { option },
         version = env!("CARGO_PKG_VERSION"),
-    )
-    .replace("jostle-validation -- \n", "jostle-validation\n");
-    page += "\n## Random models\n\n\
-        Every peak of random models that the tolerance covers, and the closings and forces of links, are compared with an \
-        independent reference. The figure shows \
-        the share of peaks whose error exceeds a multiple of the tolerance; the tables are in [Accuracy on random models](certify.md).\n\n\
-        ![Share of peaks whose error exceeds a multiple of the tolerance](figures/certify.svg)\n\n## Families\n";
-    page += "\n| family | numbers | miss | known |\n|---|---:|---:|---:|\n";
+    );
     for family in families {
         let miss = family.rows.iter().filter(|row| row.misses()).count();
         let known = family.rows.iter().filter(|row| row.is_known_gap()).count();
         put(
             &mut page,
             format_args!(
-                "| {} | {} | {miss} | {known} |\n",
+                "| [{}](validation/{}) | {} | {miss} | {known} |\n",
                 family.title,
+                file_name(family),
                 family.rows.len()
             ),
         );
     }
-    for family in families {
+    put(&mut page, format_args!("\n{ILL_CONDITIONED}"));
+    page += "\n## Random models\n\n\
+        Every peak of random models that the tolerance covers, and the closings and forces of links, are compared with an \
+        independent reference. The figure shows \
+        the share of peaks whose error exceeds a multiple of the tolerance; the tables are in [Accuracy on random models](certify.md).\n\n\
+        ![Share of peaks whose error exceeds a multiple of the tolerance](figures/certify.svg)\n";
+    put(
+        &mut page,
+        format_args!(
+            "\n## How these pages are made\n\nThey are written by\n\n\
+             ```sh\ncargo run --release -p jostle-validation{option}\n```\n\n\
+             and checked by `cargo test -p jostle-validation`. The expected numbers, their sources and their tolerances are in \
+             `crates/jostle-validation/data`.\n"
+        ),
+    );
+    page
+}
+
+/// The page of one family: every number with its source, error and tolerance.
+#[must_use]
+pub fn family_page(family: &Family) -> String {
+    let mut page = format!(
+        "# {}\n\n{}\n\nSee [Validation](../validation.md) for what to know before reading the table.\n\n",
+        family.title, family.about
+    );
+    page += "| source | quantity | expected | got | error | tolerance | pass |\n|---|---|---:|---:|---:|---:|---|\n";
+    for row in &family.rows {
+        page += &line(row);
+    }
+    for row in family.rows.iter().filter(|row| row.is_known_gap()) {
         put(
             &mut page,
-            format_args!("\n## {}\n\n{}\n\n", family.title, family.about),
+            format_args!("\n*{}*: {}.\n", row.quantity, row.known.unwrap_or_default()),
         );
-        page += "| source | quantity | expected | got | error | tolerance | pass |\n|---|---|---:|---:|---:|---:|---|\n";
-        for row in &family.rows {
-            page += &line(row);
-        }
-        for row in family.rows.iter().filter(|row| row.is_known_gap()) {
-            put(
-                &mut page,
-                format_args!("\n*{}*: {}.\n", row.quantity, row.known.unwrap_or_default()),
-            );
-        }
     }
     page
+}
+
+/// File name of the page of a family: its title in lower case, with hyphens for all that is no letter or digit.
+#[must_use]
+pub fn file_name(family: &Family) -> String {
+    let title = family.title.to_lowercase();
+    let words = title.split(|letter: char| !letter.is_alphanumeric());
+    let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
+    words.join("-") + ".md"
 }
 
 fn put(page: &mut String, text: std::fmt::Arguments<'_>) {
@@ -164,6 +183,16 @@ pub fn missed_line(family: &Family, row: &Row) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn pages_of_families_have_names_of_files() {
+        let family = Family {
+            title: "Frames, braces: and \"infills\" et al.",
+            about: "",
+            rows: Vec::new(),
+        };
+        assert_eq!(file_name(&family), "frames-braces-and-infills-et-al.md");
+    }
 
     #[test]
     fn numbers_are_readable() {

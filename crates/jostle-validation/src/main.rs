@@ -1,4 +1,4 @@
-//! Writes `docs/validation.md`, or only compares every number.
+//! Writes `docs/validation.md` and the pages in `docs/validation`, or only compares every number.
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -111,10 +111,23 @@ fn main() -> ExitCode {
         "{compared} numbers compared, {} miss",
         misses(&families).count()
     ));
-    let page = in_crate("../../docs/validation.md");
-    if !asked("--check") && written(&page, &document::page(&families, extent)) == ExitCode::FAILURE
-    {
-        return ExitCode::FAILURE;
+    if !asked("--check") {
+        let folder = in_crate("../../docs/validation");
+        let mut pages = vec![(
+            folder.with_extension("md"),
+            document::page(&families, extent),
+        )];
+        pages.extend(families.iter().map(|family| {
+            (
+                folder.join(document::file_name(family)),
+                document::family_page(family),
+            )
+        }));
+        for (page, text) in &pages {
+            if written(page, text) == ExitCode::FAILURE {
+                return ExitCode::FAILURE;
+            }
+        }
     }
     if misses(&families).next().is_some() {
         ExitCode::FAILURE
