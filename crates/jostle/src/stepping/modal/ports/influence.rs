@@ -53,7 +53,11 @@ impl Influence {
                 })
                 .collect()
             };
-            [of([1.0, 1.0, 0.0]), of([-1.0, 1.0, 0.0]), of([1.0, 1.0, 6.0])]
+            [
+                of([1.0, 1.0, 0.0]),
+                of([-1.0, 1.0, 0.0]),
+                of([1.0, 1.0, 6.0]),
+            ]
         };
         let displacement = polynomials(&table.displacement);
         let velocity = polynomials(&table.velocity);

@@ -163,10 +163,19 @@ impl Port {
 
     /// The next piece, where the contact touches again after a release within the step: along its flight without force, which,
     /// if it does not close but the step ends closed, leads to that end.
-    fn touch_again(&self, released: &Piece, step: f64, end: [f64; 3], lightness: f64) -> Option<Piece> {
+    fn touch_again(
+        &self,
+        released: &Piece,
+        step: f64,
+        end: [f64; 3],
+        lightness: f64,
+    ) -> Option<Piece> {
         let at = released.to;
         let rate = released.path.rate(at);
-        let last = self.law.follow(f64::MIN_POSITIVE, rate, &released.after).force;
+        let last = self
+            .law
+            .follow(f64::MIN_POSITIVE, rate, &released.after)
+            .force;
         let bend = released.path.bend(at) + lightness * last;
         let jerk = self.open.jerk(at);
         let left = step * (1.0 - at);
@@ -200,7 +209,11 @@ impl Port {
                 (true, true) => 4,
             };
             for (at, weight) in GAUSS {
-                let share = at.powi(power);
+                let share = match power {
+                    1 => at,
+                    2 => at * at,
+                    _ => at * at * at * at,
+                };
                 let x = from + (to - from) * share;
                 let stretch = f64::from(power) * share / at;
                 let [value, rate] = [piece.path.value(x), piece.path.rate(x)];
@@ -220,7 +233,10 @@ impl Port {
 
     /// Where the slope of the force jumps within a piece after `from`: where the motion turns, or where the force is cut.
     fn corner(&self, piece: &Piece, from: f64, memory: &Memory) -> Option<f64> {
-        let (turn, cut) = (self.law.has_corner_at_turn(), self.law.has_corner_at_release());
+        let (turn, cut) = (
+            self.law.has_corner_at_turn(),
+            self.law.has_corner_at_release(),
+        );
         if !(turn || cut) {
             return None;
         }
