@@ -31,6 +31,8 @@ mod peaks;
 mod plan_equations;
 mod plan_near;
 mod plan_rows;
+#[cfg(test)]
+mod ports;
 mod reduced;
 mod response;
 mod series;
