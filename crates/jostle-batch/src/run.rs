@@ -269,3 +269,79 @@ fn check_building(
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::row::{Gap, Storey};
+
+    #[test]
+    fn the_width_of_registers_changes_no_bit() {
+        let building = |n: usize, exponent: f64| Building {
+            storeys: vec![
+                Storey {
+                    mass: 1e5,
+                    stiffness: 4e7 * (1.0 + n as f64),
+                    height: 3.0,
+                    first_corner: 0.003,
+                    second_corner: 0.02,
+                    second_ratio: 0.15,
+                    third_ratio: 0.001,
+                };
+                1 + n % 4
+            ],
+            rule: Rule::Pinched {
+                deformation: 0.8,
+                force: 0.6,
+                unloading_exponent: exponent,
+            },
+            alpha: 0.4,
+            beta: 0.001,
+        };
+        let law = Some(Law::HertzDamp {
+            stiffness: 2e9,
+            restitution: 0.65,
+        });
+        let row = |n: usize| {
+            let buildings = vec![building(n, 0.3), building(2 * n + 1, 0.1)];
+            let gap = Gap::between(&buildings[0], &buildings[1], 0.004, law, 0.0);
+            Row {
+                buildings,
+                gaps: vec![gap],
+                motion: 0,
+                scale: 1.0,
+            }
+        };
+        let wave = |i: usize| 4.0 * libm::sin(0.3 * i as f64 + 2e-4 * (i * i) as f64);
+        let motion = Motion {
+            step: 0.02,
+            acceleration: (0..300).map(wave).collect(),
+        };
+        let all = |width: usize| {
+            let rows = (0..40).map(row);
+            let mut all = Vec::new();
+            let sink = |_, peaks: Peaks| {
+                all.push(peaks);
+                ControlFlow::Continue(())
+            };
+            let motions = std::slice::from_ref(&motion);
+            let done = match width {
+                1 => run_in::<f32, 1>(motions, rows, 0.1, sink),
+                4 => run_in::<f32, 4>(motions, rows, 0.1, sink),
+                8 => run_in::<f32, 8>(motions, rows, 0.1, sink),
+                _ => run_in::<f32, 16>(motions, rows, 0.1, sink),
+            };
+            done.expect("rows in range");
+            all
+        };
+        let narrow = all(1);
+        assert!(
+            narrow
+                .iter()
+                .any(|own| own.gaps[0].iter().any(|own| own.impacts > 2))
+        );
+        for width in [4, 8, 16] {
+            assert_eq!(all(width), narrow, "{width} lanes");
+        }
+    }
+}
