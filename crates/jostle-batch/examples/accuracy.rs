@@ -108,7 +108,7 @@ fn model(row: &Row, peak: f64) -> String {
         let s = &own.storeys[0];
         let _ = write!(
             text,
-            "[[building]]\nname=\"B{at}\"\nkind=\"shear\"\nmass=\"{} kg\"\nstoreys={}\nstiffness=\"{} N/m\"\n\
+            "[[building]]\nname=\"B{at}\"\nkind=\"shear\"\np_delta=false\nmass=\"{} kg\"\nstoreys={}\nstiffness=\"{} N/m\"\n\
              storey_height=\"{} m\"\ndamping={{alpha=\"{} 1/s\",beta=\"{} s\"}}\n",
             s.mass,
             own.storeys.len(),

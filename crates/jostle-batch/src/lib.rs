@@ -3,7 +3,8 @@
 //! A [`Row`] is two or more [`Building`]s in a line with a [`Gap`] between neighbours; [`run`] steps rows through
 //! their ground motions and hands their [`Peaks`] to a sink, in order. Steps are fixed: every row is stepped by its
 //! own highest frequency, so its numbers do not depend on the rows beside it, on threads or on the width of
-//! registers. All quantities are SI.
+//! registers. All quantities are SI. Weights have no second-order
+//! effect (P-Delta): the same model file says `p_delta = false`.
 //!
 //! ```
 //! use jostle_batch::{Building, Contact, Gap, Law, Motion, Options, Row, Rule, Storey, run};

@@ -22,7 +22,7 @@ pub fn model(row: &Row, motion: &str, tolerance: f64) -> Result<String, String> 
         };
         let _ = write!(
             text,
-            "\n[[building]]\nname = \"B{}\"\nkind = \"shear\"\nstoreys = {}\nmass = {}\nstiffness = {}\n\
+            "\n[[building]]\nname = \"B{}\"\nkind = \"shear\"\np_delta = false\nstoreys = {}\nmass = {}\nstiffness = {}\n\
              storey_height = {}\ndamping = {{ alpha = \"{} 1/s\", beta = \"{} s\" }}\n",
             at + 1,
             own.storeys.len(),
