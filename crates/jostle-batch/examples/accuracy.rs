@@ -66,8 +66,8 @@ fn building(random: &mut Random, pinched: bool) -> Building {
     Building {
         storeys: (0..count).map(storey).collect(),
         rule,
-        alpha: 0.1 * 2.0 * std::f64::consts::PI / period,
-        beta: 0.02 * period,
+        alpha: 0.04 * 2.0 * std::f64::consts::PI / period,
+        beta: 0.008 * period,
     }
 }
 
@@ -253,6 +253,10 @@ fn main() {
         let rows: Vec<Row> = (0..count as usize)
             .map(|at| row(&mut random, if most == 2 { 2 } else { 3 + at % 4 }, pinched))
             .collect();
+        let free = all_of(&motion, &rows, &Options::for_tolerance(1e-2));
+        let hit = |own: &&Peaks| own.gaps.iter().flatten().any(|own| own.impacts > 0);
+        let struck = free.iter().filter(hit).count();
+        println!("{name}: {struck} of {} touch", rows.len());
         let references: Vec<_> = rows
             .iter()
             .map(|own| full(&given[0], &model(own, peak)))

@@ -34,7 +34,7 @@ impl Options {
     /// For 99.5 % of peaks within a relative tolerance, 1e-3 or looser \[–\].
     #[must_use]
     pub fn for_tolerance(tolerance: f64) -> Self {
-        let phase = if tolerance >= 1e-2 { 0.05 } else { 0.0125 };
+        let phase = if tolerance >= 1e-2 { 0.1 } else { 0.025 };
         Self {
             phase,
             precision: Precision::Single,
