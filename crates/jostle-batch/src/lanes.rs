@@ -84,5 +84,10 @@ impl Real for f64 {
 /// A value of every lane.
 #[inline(always)]
 pub(crate) fn each<T: Real, const W: usize>(value: impl Fn(usize) -> T) -> [T; W] {
-    std::array::from_fn(value)
+    // Not `array::from_fn`: the compiler leaves that out of line, outside what knows the wide registers.
+    let mut all = [T::ZERO; W];
+    for l in 0..W {
+        all[l] = value(l);
+    }
+    all
 }
