@@ -31,6 +31,9 @@ struct Greatest {
     force: f64,
 }
 
+/// What numbers are compared with.
+type Scale = fn(&Greatest) -> f64;
+
 impl Greatest {
     fn of(outcome: &Outcome) -> Self {
         let mut all = Self::default();
@@ -130,7 +133,7 @@ pub(super) fn change_of_parts(system: &System, runs: [&Outcome; 2]) -> f64 {
 
 /// Forces and deformations of braces, of struts, of walls and of coupling beams, each kind with those that are measured alike and
 /// with what it is compared with.
-fn forms_of_parts(building: &BuildingSystem) -> [(Vec<usize>, fn(&Greatest) -> f64); 7] {
+fn forms_of_parts(building: &BuildingSystem) -> [(Vec<usize>, Scale); 7] {
     let own = &building.members;
     let diagonals = &building.discretization.diagonals;
     let of_diagonals = |kind| {
@@ -141,8 +144,7 @@ fn forms_of_parts(building: &BuildingSystem) -> [(Vec<usize>, fn(&Greatest) -> f
     let of_walls = |form: fn(&WallForce) -> usize| own.walls.iter().map(form).collect();
     let of_beams =
         |form: fn(&CouplingForce) -> usize| own.coupling_beams.iter().map(form).collect();
-    let (force, length): (fn(&Greatest) -> f64, fn(&Greatest) -> f64) =
-        (|all| all.force, |all| all.displacement);
+    let (force, length): (Scale, Scale) = (|all| all.force, |all| all.displacement);
     [
         (of_diagonals(DiagonalKind::Brace), force),
         (of_diagonals(DiagonalKind::Infill), force),

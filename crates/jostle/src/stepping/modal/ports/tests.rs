@@ -141,7 +141,7 @@ fn seven_laws_of_a_pair_agree_with_steps_that_end_at_touches() {
         LawKind::ModifiedKelvin(ModifiedKelvin::Ye),
         LawKind::ModifiedKelvin(ModifiedKelvin::MahmoudJankowski),
     ] {
-        let (system, plan) = planned(&pair(kind.clone(), 0.02), &shaking(2.5));
+        let (system, plan) = planned(&pair(kind, 0.02), &shaking(2.5));
         let found = follow(&system, &shaking(2.5), &plan, 1e-9).expect("steps converge");
         let known = by_events(&system, &shaking(2.5), &plan);
         let worst = compare(&known, &found);
@@ -170,11 +170,10 @@ fn row() -> Model {
             tower(&format!("tower {index}"), *storeys, *mass, *stiffness)
         });
     let law = law(LawKind::HertzDamp);
-    let between =
-        (0..5).map(|left| Gap::after(left, if left == 2 { 0.01 } else { 0.002 }, law.clone()));
+    let between = (0..5).map(|left| Gap::after(left, if left == 2 { 0.01 } else { 0.002 }, law));
     let walls = [
-        Gap::between([None, Some(0)], 0.03, law.clone()),
-        Gap::between([Some(5), None], 0.03, law.clone()),
+        Gap::between([None, Some(0)], 0.03, law),
+        Gap::between([Some(5), None], 0.03, law),
     ];
     Model {
         title: "Row".to_owned(),
