@@ -335,6 +335,15 @@ impl<T: Real, const W: usize> Pack<T, W> {
         Self { buildings, touches }
     }
 
+    /// At rest under the first ground acceleration: rates are those of half a step before, so that a sudden push acts at once.
+    fn rest(&mut self, h: T, ground: &[T; W]) {
+        let half = T::of(0.5) * h;
+        for own in self.buildings.iter_mut().flat_map(|own| &mut own.1) {
+            own.a = each(|l| -ground[l]);
+            own.v = each(|l| half * ground[l]);
+        }
+    }
+
     /// Everything up to the next accelerations and displacements.
     #[inline(always)]
     fn step(&mut self, h: T, ground: &[T; W]) {
@@ -539,6 +548,8 @@ impl<T: Real, const W: usize> pulp::NullaryFnOnce for Through<'_, T, W> {
     #[inline(always)]
     fn call(self) {
         let h = T::of(self.motion.step / self.sub as f64);
+        let first = T::of(self.motion.acceleration.first().copied().unwrap_or(0.0));
+        self.pack.rest(h, &each(|l| first * self.scale[l]));
         for points in self.motion.acceleration.windows(2) {
             let slope = (points[1] - points[0]) / self.sub as f64;
             for part in 0..self.sub {
