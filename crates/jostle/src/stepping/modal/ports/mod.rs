@@ -102,8 +102,8 @@ fn follow(
             ForceLaw::Restitution { .. } | ForceLaw::Bilinear(_) | ForceLaw::Crushing(_)
         )
     };
-    let plane = !system.is_in_space() && motion.grounds.is_none() && system.links.is_empty();
-    if !plane || !system.contacts.iter().all(|contact| suited(&contact.law)) {
+    let alone = motion.grounds.is_none() && system.links.is_empty();
+    if !alone || !system.contacts.iter().all(|contact| suited(&contact.law)) {
         return None;
     }
     let interval = motion.step()?;
