@@ -28,8 +28,10 @@
 
 mod lanes;
 mod pack;
+mod peaks;
 mod row;
 mod run;
 
+pub use peaks::{BuildingPeaks, ContactPeaks, Peaks};
 pub use row::{Building, Contact, Face, Gap, Law, Motion, Row, Rule, Storey};
-pub use run::{BuildingPeaks, ContactPeaks, Error, Options, Peaks, Precision, run};
+pub use run::{Error, Options, Precision, run};

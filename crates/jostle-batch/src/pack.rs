@@ -4,8 +4,8 @@
 //! u_{n+1}.
 
 use crate::lanes::{Real, each};
+use crate::peaks::{BuildingPeaks, ContactPeaks, Peaks};
 use crate::row::{Building, Face, Motion, Row, Rule};
-use crate::run::{BuildingPeaks, ContactPeaks, Peaks};
 
 /// Contacts that start more slowly keep the greatest closing speed since then \[m/s\].
 const SLOW: f64 = 1e-3;

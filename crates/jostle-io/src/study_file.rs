@@ -159,7 +159,16 @@ impl StudyFile {
             Some(factor) => format!("vary[{}]", factor.entry),
             None => "vary".to_owned(),
         };
-        self.origin.fault(&path, problem)
+        let mut error = self.origin.fault(&path, problem);
+        // At the value that varies rather than at its table.
+        if let Some(factor) = self.factors.get(factor) {
+            let place = self.origin.source.place(&factor.span);
+            error
+                .faults
+                .iter_mut()
+                .for_each(|fault| fault.place = Some(place.clone()));
+        }
+        error
     }
 
     /// A fault at a key of the file, such as `fragility[0].demand`.
