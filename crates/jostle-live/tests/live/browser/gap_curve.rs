@@ -89,7 +89,7 @@ fn the_gap_without_pounding_is_in_sight_after_one_change() {
     let said = page.text(
         "/pounding: ([\\d.]+) mm/.exec(document.getElementById('curve-note').textContent)[1]",
     );
-    let tile = page.text("[...document.querySelectorAll('.tile')].find((t) => t.textContent.includes('Smallest gap')).querySelector('.tile-value').textContent");
+    let tile = page.text("[...document.querySelectorAll('.tile')].find((t) => t.textContent.includes('Gap needed')).querySelector('.tile-value').textContent");
     assert_eq!(tile.replace('\u{a0}', " "), format!("{said} mm"));
     let seen = "['#curve-note', '.code-marks .needed', '#headline'].every((s) => { const r = document.querySelector(s).getBoundingClientRect(); return r.top >= 0 && r.bottom <= innerHeight; })";
     assert_eq!(page.value(seen), true, "the answer is out of sight");
