@@ -1,0 +1,361 @@
+//! Footprints of buildings and what is known of them.
+
+mod columns;
+mod csv_table;
+mod geojson_file;
+mod parquet_table;
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use geo::{Area, BoundingRect, Coord, Geometry, MapCoords, Polygon};
+
+use crate::fault::CityError;
+use crate::mend::{Mend, repeats, whole};
+use crate::plane::Plane;
+
+pub use columns::{Attribute, Columns};
+
+/// Footprints below this are sheds and slivers \[m²\].
+pub(crate) const LEAST_AREA: f64 = 20.0;
+/// Height of a storey where only the height of the building is known \[m\].
+pub(crate) const STOREY: f64 = 3.2;
+
+/// A building of a city.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Building {
+    /// Its name in the inventory, or the number of its row.
+    pub id: String,
+    /// Row of the inventory, from 1.
+    pub row: usize,
+    /// Outline in the plane \[m\].
+    pub outline: Polygon,
+    /// Area of the outline \[m²\].
+    pub area: f64,
+    /// Storeys above the ground, where known.
+    pub storeys: Option<usize>,
+    /// Height above the ground, where known \[m\].
+    pub height: Option<f64>,
+    /// Year of construction, where known.
+    pub year: Option<i32>,
+    /// Structural type as the inventory names it.
+    pub kind: Option<String>,
+}
+
+impl Building {
+    /// Storeys, from the height at 3.2 m each if need be, or 1.
+    #[must_use]
+    pub fn likely_storeys(&self) -> usize {
+        let of_height = || {
+            self.height
+                .map(|own| ((own / STOREY).round() as usize).max(1))
+        };
+        self.storeys.or_else(of_height).unwrap_or(1)
+    }
+
+    /// Height, from the storeys at 3.2 m each if need be \[m\].
+    #[must_use]
+    pub fn likely_height(&self) -> f64 {
+        self.height.unwrap_or(self.likely_storeys() as f64 * STOREY)
+    }
+}
+
+/// A file of footprints, read and mended.
+#[derive(Clone, Debug)]
+pub struct Inventory {
+    /// Those that are kept.
+    pub buildings: Vec<Building>,
+    /// The plane of their outlines.
+    pub plane: Plane,
+    /// What was mended or left out, in the order of the rows.
+    pub mends: Vec<Mend>,
+    /// Rows read.
+    pub rows: usize,
+    /// Which column gave an attribute.
+    pub columns: BTreeMap<Attribute, String>,
+}
+
+/// One row of a file as its reader gives it.
+pub(crate) struct Record {
+    pub(crate) row: usize,
+    /// The footprint, or why there is none.
+    pub(crate) geometry: Result<Geometry<f64>, String>,
+    /// Names and texts of the other columns; absent and empty ones are left out.
+    pub(crate) fields: Vec<(String, String)>,
+}
+
+/// How an inventory is read.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ReadOptions {
+    /// Columns that have other names than the usual ones.
+    pub columns: Columns,
+    /// Coordinates are metres, not degrees.
+    pub metres: bool,
+}
+
+impl Inventory {
+    /// Reads GeoJSON (`.geojson`, `.json`), GeoParquet (`.parquet`) or CSV with a column of footprints as WKT or
+    /// GeoJSON (`.csv`).
+    ///
+    /// # Errors
+    ///
+    /// When the file cannot be read, has no outlines or no column that says how tall buildings are, or has
+    /// coordinates that are neither degrees nor said to be metres. Invalid outlines are mended, never an error.
+    pub fn read(path: &Path, options: &ReadOptions) -> Result<Self, CityError> {
+        let extension = path
+            .extension()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .to_lowercase();
+        let mut gathered = Gathered::new(path, options);
+        match extension.as_str() {
+            "geojson" | "json" => geojson_file::read(path, &mut gathered)?,
+            "csv" | "txt" => csv_table::read(path, &mut gathered)?,
+            "parquet" | "geoparquet" => parquet_table::read(path, &mut gathered)?,
+            _ => {
+                return Err(CityError::of(
+                    path,
+                    "footprints are read from .geojson, .json, .parquet and .csv files",
+                ));
+            }
+        }
+        gathered.finish()
+    }
+}
+
+/// What was read so far.
+pub(crate) struct Gathered<'a> {
+    path: &'a Path,
+    options: &'a ReadOptions,
+    plane: Option<Plane>,
+    buildings: Vec<Building>,
+    mends: Vec<Mend>,
+    rows: usize,
+    points: usize,
+    columns: BTreeMap<Attribute, String>,
+}
+
+impl<'a> Gathered<'a> {
+    fn new(path: &'a Path, options: &'a ReadOptions) -> Self {
+        Self {
+            path,
+            options,
+            plane: options.metres.then_some(Plane::Metres),
+            buildings: Vec::new(),
+            mends: Vec::new(),
+            rows: 0,
+            points: 0,
+            columns: BTreeMap::new(),
+        }
+    }
+
+    /// Names of the columns that may hold outlines.
+    fn geometry_names(&self) -> Vec<String> {
+        self.options.columns.names(Attribute::Footprint)
+    }
+
+    /// Takes a row.
+    fn take(&mut self, record: Record) -> Result<(), CityError> {
+        self.rows += 1;
+        let row = record.row;
+        let mut building = Building {
+            id: row.to_string(),
+            row,
+            outline: Polygon::empty(),
+            area: 0.0,
+            storeys: None,
+            height: None,
+            year: None,
+            kind: None,
+        };
+        for (name, text) in &record.fields {
+            let Some(attribute) = self.options.columns.attribute(name) else {
+                continue;
+            };
+            self.columns
+                .entry(attribute)
+                .or_insert_with(|| name.clone());
+            if self.columns.get(&attribute) != Some(name) {
+                continue;
+            }
+            let number = || {
+                let text = text.trim();
+                text.parse::<f64>()
+                    .ok()
+                    .filter(|own| own.is_finite())
+                    .ok_or_else(|| {
+                        CityError::of(
+                            self.path,
+                            format!(
+                                "row {row}: column \"{name}\": a number is needed, found \"{text}\""
+                            ),
+                        )
+                    })
+            };
+            match attribute {
+                Attribute::Id => building.id.clone_from(text),
+                Attribute::Type => building.kind = Some(text.trim().to_owned()),
+                Attribute::Footprint => {}
+                Attribute::Storeys => {
+                    let value = number()?;
+                    if value >= 0.5 {
+                        building.storeys = Some(value.round() as usize);
+                    }
+                }
+                Attribute::Height => building.height = Some(number()?).filter(|own| *own > 0.0),
+                Attribute::Year => {
+                    // A date such as 1931-05 is a year too.
+                    let year = text.trim().get(..4).and_then(|own| own.parse::<i32>().ok());
+                    building.year = year.filter(|own| *own > 0);
+                }
+            }
+        }
+        let mut noted = |what: &'static str, detail: String| {
+            self.mends.push(Mend {
+                id: building.id.clone(),
+                row,
+                what,
+                detail,
+            });
+        };
+        let geometry = match record.geometry {
+            Ok(own) => own,
+            Err(problem) => {
+                noted("no outline", problem);
+                return Ok(());
+            }
+        };
+        let mut parts: Vec<Polygon> = match geometry {
+            Geometry::Polygon(own) => vec![own],
+            Geometry::MultiPolygon(own) => own.0,
+            Geometry::Point(_) | Geometry::MultiPoint(_) => {
+                self.points += 1;
+                noted("no outline", "a point".into());
+                return Ok(());
+            }
+            _ => {
+                noted("no outline", "neither a polygon nor a multipolygon".into());
+                return Ok(());
+            }
+        };
+        let plane = match self.plane {
+            Some(own) => own,
+            None => {
+                let first = parts
+                    .first()
+                    .and_then(|own| own.exterior().0.first().copied());
+                let Some(first) = first else {
+                    noted("no outline", "an empty polygon".into());
+                    return Ok(());
+                };
+                let plane = Plane::Degrees {
+                    origin: [first.x, first.y],
+                };
+                *self.plane.insert(plane)
+            }
+        };
+        let finite = |own: &Coord| own.x.is_finite() && own.y.is_finite();
+        let all = |wanted: &dyn Fn(&Coord) -> bool| {
+            parts.iter().flat_map(|own| &own.exterior().0).all(wanted)
+        };
+        if !all(&finite) {
+            noted("no outline", "coordinates that are no numbers".into());
+            return Ok(());
+        }
+        if let Plane::Degrees { .. } = plane
+            && !all(&|own| own.x.abs() <= 180.0 && own.y.abs() <= 90.0)
+        {
+            return Err(CityError::of(
+                self.path,
+                format!(
+                    "row {row}: coordinates beyond ±180° and ±90° are not degrees of longitude and latitude; if they are \
+                     metres, say so (--metres, or metres = true in the city file)"
+                ),
+            ));
+        }
+        for part in &mut parts {
+            *part = part.map_coords(|own| plane.metres(own));
+        }
+        let (outline, mended) = whole(parts);
+        let Some(outline) = outline else {
+            noted("no outline", "no area".into());
+            return Ok(());
+        };
+        if let Some(how) = mended {
+            noted("mended", how);
+        }
+        building.area = outline.unsigned_area();
+        building.outline = outline;
+        if building.area < LEAST_AREA {
+            noted(
+                "left out",
+                format!("{:.1} m² is less than {LEAST_AREA} m²", building.area),
+            );
+            return Ok(());
+        }
+        self.buildings.push(building);
+        Ok(())
+    }
+
+    fn finish(mut self) -> Result<Inventory, CityError> {
+        let fault = |problem: &str| Err(CityError::of(self.path, problem));
+        if self.rows == 0 {
+            return fault("there are no rows");
+        }
+        if self.buildings.is_empty() && self.points > 0 {
+            return fault(
+                "there are only points: neighbours need outlines (polygons of footprints)",
+            );
+        }
+        if self.buildings.is_empty() {
+            return fault("no row has an outline of a building of 20 m² or more");
+        }
+        if !self.columns.contains_key(&Attribute::Storeys)
+            && !self.columns.contains_key(&Attribute::Height)
+        {
+            return fault(
+                "no column says how tall the buildings are: give storeys (such as \"storeys\", \"NumberOfStories\", \
+                         \"building:levels\") or height in m (\"height\"), or name the column (--column storeys=NAME)",
+            );
+        }
+        self.mends.extend(repeats(&mut self.buildings));
+        self.mends.sort_by_key(|own| own.row);
+        let unknown = |own: &&Building| own.storeys.is_none() && own.height.is_none();
+        for own in self.buildings.iter().filter(unknown) {
+            self.mends.push(Mend {
+                id: own.id.clone(),
+                row: own.row,
+                what: "assumed",
+                detail: "1 storey: neither storeys nor height are given".into(),
+            });
+        }
+        Ok(Inventory {
+            buildings: self.buildings,
+            plane: self.plane.unwrap_or(Plane::Metres),
+            mends: self.mends,
+            rows: self.rows,
+            columns: self.columns,
+        })
+    }
+}
+
+/// The middle of all buildings \[m\].
+pub(crate) fn extent(buildings: &[Building]) -> Option<geo::Rect> {
+    let mut boxes = buildings
+        .iter()
+        .filter_map(|own| own.outline.bounding_rect());
+    let first = boxes.next()?;
+    Some(boxes.fold(first, |all, own| {
+        let [low, high] = [all.min(), all.max()];
+        geo::Rect::new(
+            Coord {
+                x: low.x.min(own.min().x),
+                y: low.y.min(own.min().y),
+            },
+            Coord {
+                x: high.x.max(own.max().x),
+                y: high.y.max(own.max().y),
+            },
+        )
+    }))
+}

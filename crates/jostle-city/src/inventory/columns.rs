@@ -1,0 +1,161 @@
+//! Which columns of an inventory mean what.
+
+use std::collections::BTreeMap;
+use std::str::FromStr;
+
+/// What a column says of a building.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Attribute {
+    /// Its name.
+    Id,
+    /// Its outline.
+    Footprint,
+    /// Storeys above the ground.
+    Storeys,
+    /// Height above the ground \[m\].
+    Height,
+    /// Year of construction.
+    Year,
+    /// Structural type.
+    Type,
+}
+
+/// All of them with their names and the usual names of their columns in lower case: of R2D, OpenStreetMap, Overture and
+/// common cadastres.
+const USUAL: [(Attribute, &str, &[&str]); 6] = [
+    (
+        Attribute::Id,
+        "id",
+        &[
+            "id",
+            "building_id",
+            "buildingid",
+            "osm_id",
+            "@id",
+            "osmid",
+            "fid",
+            "gml_id",
+        ],
+    ),
+    (
+        Attribute::Footprint,
+        "footprint",
+        &[
+            "footprint",
+            "geometry",
+            "wkt",
+            "geom",
+            "the_geom",
+            "polygon",
+            "wkb_geometry",
+        ],
+    ),
+    (
+        Attribute::Storeys,
+        "storeys",
+        &[
+            "storeys",
+            "stories",
+            "storey",
+            "story",
+            "numberofstories",
+            "number_of_stories",
+            "num_floors",
+            "levels",
+            "building:levels",
+            "building_levels",
+            "floors",
+            "n_storeys",
+            "nstories",
+        ],
+    ),
+    (
+        Attribute::Height,
+        "height",
+        &[
+            "height",
+            "height_m",
+            "building:height",
+            "roof_height",
+            "maxheight",
+        ],
+    ),
+    (
+        Attribute::Year,
+        "year",
+        &[
+            "year",
+            "year_built",
+            "yearbuilt",
+            "construction_year",
+            "start_date",
+            "built",
+        ],
+    ),
+    (
+        Attribute::Type,
+        "type",
+        &[
+            "type",
+            "structuretype",
+            "structure_type",
+            "structural_type",
+            "taxonomy",
+            "class",
+            "hazus",
+        ],
+    ),
+];
+
+impl Attribute {
+    /// Its name in messages and city files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        USUAL
+            .iter()
+            .find(|own| own.0 == self)
+            .map_or("", |own| own.1)
+    }
+}
+
+impl FromStr for Attribute {
+    type Err = String;
+
+    fn from_str(name: &str) -> Result<Self, String> {
+        USUAL
+            .iter()
+            .find(|own| own.1 == name)
+            .map(|own| own.0)
+            .ok_or_else(|| {
+                let known: Vec<&str> = USUAL.iter().map(|own| own.1).collect();
+                format!("\"{name}\" is none of {}", known.join(", "))
+            })
+    }
+}
+
+/// Names of columns that differ from the usual ones.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Columns(pub BTreeMap<Attribute, String>);
+
+impl Columns {
+    /// What a column says, by its name in any case.
+    pub(crate) fn attribute(&self, column: &str) -> Option<Attribute> {
+        if let Some((own, _)) = self.0.iter().find(|(_, name)| name.as_str() == column) {
+            return Some(*own);
+        }
+        let lower = column.trim().to_lowercase();
+        let usual = USUAL.iter().find(|own| own.2.contains(&lower.as_str()))?.0;
+        (!self.0.contains_key(&usual)).then_some(usual)
+    }
+
+    /// Names that stand for an attribute.
+    pub(crate) fn names(&self, attribute: Attribute) -> Vec<String> {
+        if let Some(own) = self.0.get(&attribute) {
+            return vec![own.clone()];
+        }
+        let usual = USUAL.iter().find(|own| own.0 == attribute);
+        usual.map_or_else(Vec::new, |own| {
+            own.2.iter().map(|name| (*name).to_owned()).collect()
+        })
+    }
+}

@@ -1,0 +1,74 @@
+//! Footprints in a column of a CSV file, as WKT or GeoJSON.
+
+use std::path::Path;
+
+use geo::Geometry;
+use geojson::GeoJson;
+use wkt::TryFromWkt;
+
+use super::{Gathered, Record};
+use crate::fault::CityError;
+
+pub(super) fn read(path: &Path, gathered: &mut Gathered<'_>) -> Result<(), CityError> {
+    let file = jostle_io::open_file(path).map_err(|error| CityError::of(path, error))?;
+    let mut table = csv::ReaderBuilder::new().flexible(true).from_reader(file);
+    let fault = |error: csv::Error| CityError::of(path, error);
+    let header: Vec<String> = table
+        .headers()
+        .map_err(fault)?
+        .iter()
+        .map(|own| own.trim_start_matches('\u{feff}').trim().to_owned())
+        .collect();
+    let wanted = gathered.geometry_names();
+    let geometry = header
+        .iter()
+        .position(|own| wanted.contains(own) || wanted.contains(&own.to_lowercase()));
+    let Some(geometry) = geometry else {
+        let known = |lower: &str| header.iter().any(|own| own.to_lowercase() == lower);
+        let points = known("latitude") || known("lat");
+        let problem = if points {
+            "there are only points (latitude and longitude): neighbours need outlines, in a column \"Footprint\" as WKT or \
+             GeoJSON"
+        } else {
+            "no column with outlines: \"Footprint\", \"geometry\" or \"wkt\" as WKT or GeoJSON is needed, or name the column \
+             (--column footprint=NAME)"
+        };
+        return Err(CityError::of(path, problem));
+    };
+    for (at, row) in table.records().enumerate() {
+        let row = row.map_err(fault)?;
+        let fields = header.iter().zip(row.iter()).enumerate();
+        let fields = fields
+            .filter(|(at, (_, text))| *at != geometry && !text.trim().is_empty())
+            .map(|(_, (name, text))| (name.clone(), text.to_owned()));
+        gathered.take(Record {
+            row: at + 1,
+            geometry: footprint(row.get(geometry).unwrap_or("")),
+            fields: fields.collect(),
+        })?;
+    }
+    Ok(())
+}
+
+/// An outline of WKT or GeoJSON text.
+fn footprint(text: &str) -> Result<Geometry<f64>, String> {
+    let text = text.trim();
+    if text.is_empty() {
+        return Err("no geometry".to_owned());
+    }
+    if !text.starts_with('{') {
+        return Geometry::try_from_wkt_str(text).map_err(|error| format!("no WKT: {error}"));
+    }
+    let parsed: GeoJson = text
+        .parse()
+        .map_err(|error| format!("no GeoJSON: {error}"))?;
+    let geometry = match parsed {
+        GeoJson::Geometry(own) => Some(own),
+        GeoJson::Feature(own) => own.geometry,
+        GeoJson::FeatureCollection(own) => {
+            own.features.into_iter().next().and_then(|own| own.geometry)
+        }
+    };
+    let geometry = geometry.ok_or("no geometry")?;
+    Geometry::try_from(geometry).map_err(|error| error.to_string())
+}

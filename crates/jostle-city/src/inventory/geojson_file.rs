@@ -1,0 +1,59 @@
+//! Footprints of a GeoJSON file, feature by feature.
+
+use std::io::BufReader;
+use std::path::Path;
+
+use geo::Geometry;
+use geojson::{Feature, FeatureReader, JsonValue};
+
+use super::{Gathered, Record};
+use crate::fault::CityError;
+
+pub(super) fn read(path: &Path, gathered: &mut Gathered<'_>) -> Result<(), CityError> {
+    let file = jostle_io::open_file(path).map_err(|error| CityError::of(path, error))?;
+    for (at, feature) in FeatureReader::from_reader(BufReader::new(file))
+        .features()
+        .enumerate()
+    {
+        let row = at + 1;
+        let feature = feature.map_err(|error| {
+            CityError::of(
+                path,
+                format!("feature {row}: no feature of a GeoJSON FeatureCollection: {error}"),
+            )
+        })?;
+        gathered.take(record(feature, row))?;
+    }
+    Ok(())
+}
+
+/// A feature as a row.
+pub(super) fn record(feature: Feature, row: usize) -> Record {
+    let text = |value: JsonValue| match value {
+        JsonValue::Null => None,
+        JsonValue::String(own) => Some(own).filter(|own| !own.trim().is_empty()),
+        other => Some(other.to_string()),
+    };
+    let mut fields: Vec<(String, String)> = feature
+        .properties
+        .into_iter()
+        .flatten()
+        .filter_map(|(name, value)| Some((name, text(value)?)))
+        .collect();
+    if let Some(id) = feature.id {
+        let id = match id {
+            geojson::feature::Id::String(own) => own,
+            geojson::feature::Id::Number(own) => own.to_string(),
+        };
+        fields.push(("id".into(), id));
+    }
+    let geometry = match feature.geometry {
+        None => Err("no geometry".to_owned()),
+        Some(own) => Geometry::try_from(own).map_err(|error| error.to_string()),
+    };
+    Record {
+        row,
+        geometry,
+        fields,
+    }
+}

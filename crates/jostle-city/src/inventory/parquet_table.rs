@@ -1,0 +1,85 @@
+//! Footprints of a GeoParquet file: WKB in a column of bytes.
+
+use std::path::Path;
+
+use geo::Geometry;
+use geo_traits::to_geo::ToGeoGeometry;
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::record::Field;
+use serde_json::Value;
+
+use super::{Gathered, Record};
+use crate::fault::CityError;
+
+pub(super) fn read(path: &Path, gathered: &mut Gathered<'_>) -> Result<(), CityError> {
+    let fault = |error: &dyn std::fmt::Display| CityError::of(path, error);
+    let file = jostle_io::open_file(path).map_err(|error| fault(&error))?;
+    let reader = SerializedFileReader::new(file).map_err(|error| fault(&error))?;
+    let notes = reader
+        .metadata()
+        .file_metadata()
+        .key_value_metadata()
+        .cloned();
+    let geo = notes
+        .into_iter()
+        .flatten()
+        .find(|own| own.key == "geo")
+        .and_then(|own| own.value);
+    let geo: Option<Value> = geo.and_then(|own| serde_json::from_str(&own).ok());
+    let primary = geo.as_ref().and_then(|own| own["primary_column"].as_str());
+    let names = match primary {
+        Some(own) => vec![own.to_owned()],
+        None => gathered.geometry_names(),
+    };
+    let mut found = false;
+    let rows = reader.get_row_iter(None).map_err(|error| fault(&error))?;
+    for (at, row) in rows.enumerate() {
+        let row = row.map_err(|error| fault(&error))?;
+        let mut geometry = Err("no geometry".to_owned());
+        let mut fields = Vec::new();
+        for (name, field) in row.into_columns() {
+            let bytes = match &field {
+                Field::Bytes(own) if names.contains(&name) => Some(own),
+                _ => None,
+            };
+            if let Some(bytes) = bytes {
+                found = true;
+                geometry = footprint(bytes.data());
+                continue;
+            }
+            let text = match field {
+                Field::Null
+                | Field::Bytes(_)
+                | Field::Group(_)
+                | Field::ListInternal(_)
+                | Field::MapInternal(_) => continue,
+                Field::Str(own) => own,
+                other => other.to_string(),
+            };
+            if !text.trim().is_empty() {
+                fields.push((name, text));
+            }
+        }
+        gathered.take(Record {
+            row: at + 1,
+            geometry,
+            fields,
+        })?;
+    }
+    if !found {
+        return Err(CityError::of(
+            path,
+            format!(
+                "no column of WKB outlines ({}): GeoParquet names it in its note \"geo\"",
+                names.join(", ")
+            ),
+        ));
+    }
+    Ok(())
+}
+
+fn footprint(bytes: &[u8]) -> Result<Geometry<f64>, String> {
+    let read = wkb::reader::read_wkb(bytes).map_err(|error| format!("no WKB: {error}"))?;
+    read.try_to_geometry()
+        .ok_or_else(|| "an empty geometry".to_owned())
+}

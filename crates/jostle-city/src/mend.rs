@@ -1,0 +1,89 @@
+//! Outlines that are no simple polygons, and buildings that are listed twice.
+
+use std::collections::HashMap;
+
+use geo::{Area, BooleanOps, Centroid, LineString, MultiPolygon, Orient, Polygon, Validation};
+
+use crate::inventory::Building;
+
+/// What was changed of a row.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Mend {
+    /// Building.
+    pub id: String,
+    /// Row of the inventory, from 1.
+    pub row: usize,
+    /// `mended`, `left out`, `repeat`, `assumed` or `no outline`.
+    pub what: &'static str,
+    /// How, and why.
+    pub detail: String,
+}
+
+/// The largest part of an outline without its courts, valid, anticlockwise; and how it was mended, if it was.
+pub(crate) fn whole(parts: Vec<Polygon>) -> (Option<Polygon>, Option<String>) {
+    let count = parts.len();
+    let mut how = Vec::new();
+    let largest = |parts: Vec<Polygon>| {
+        parts
+            .into_iter()
+            .max_by(|a, b| a.unsigned_area().total_cmp(&b.unsigned_area()))
+    };
+    if count > 1 {
+        how.push(format!("the largest of {count} parts is kept"));
+    }
+    // Several parts may overlap each other; each alone is what matters.
+    let mut mended = Vec::new();
+    let mut invalid = false;
+    for part in parts {
+        let (exterior, _) = part.into_inner();
+        let outline = Polygon::new(exterior, Vec::new());
+        if outline.is_valid() {
+            mended.push(outline);
+            continue;
+        }
+        invalid = true;
+        // The even–odd rule gives what the ring encloses.
+        let empty = MultiPolygon::<f64>::new(Vec::new());
+        mended.extend(MultiPolygon::new(vec![outline]).union(&empty).0);
+    }
+    if invalid {
+        how.push(
+            "a ring that crosses or touches itself: the largest part that it encloses is kept"
+                .to_owned(),
+        );
+    }
+    let Some(chosen) = largest(mended) else {
+        return (None, None);
+    };
+    let (exterior, _) = chosen.into_inner();
+    let chosen = Polygon::new(LineString::new(exterior.0), Vec::new());
+    if chosen.unsigned_area() <= 0.0 {
+        return (None, None);
+    }
+    let chosen = chosen.orient(geo::orient::Direction::Default);
+    (Some(chosen), (!how.is_empty()).then(|| how.join("; ")))
+}
+
+/// Removes buildings that stand where one before them stands: same middle and area within a centimetre.
+pub(crate) fn repeats(buildings: &mut Vec<Building>) -> Vec<Mend> {
+    let mut seen: HashMap<[i64; 3], String> = HashMap::new();
+    let mut mends = Vec::new();
+    buildings.retain(|own| {
+        let Some(middle) = own.outline.centroid() else {
+            return true;
+        };
+        let key = [middle.x(), middle.y(), own.area].map(|value| (value * 100.0).round() as i64);
+        if let Some(first) = seen.get(&key) {
+            mends.push(Mend {
+                id: own.id.clone(),
+                row: own.row,
+                what: "repeat",
+                detail: format!("the same outline as {first}"),
+            });
+            return false;
+        }
+        seen.insert(key, own.id.clone());
+        true
+    });
+    mends
+}

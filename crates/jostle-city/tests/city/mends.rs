@@ -1,0 +1,132 @@
+//! What is wrong with footprints is mended or refused, and told.
+
+use std::path::PathBuf;
+
+use jostle_city::{Inventory, ReadOptions};
+
+fn read(name: &str, text: &str) -> Result<Inventory, String> {
+    let folder = tempfile::tempdir().unwrap();
+    let path: PathBuf = folder.path().join(name);
+    std::fs::write(&path, text).unwrap();
+    let options = ReadOptions {
+        metres: true,
+        ..ReadOptions::default()
+    };
+    Inventory::read(&path, &options).map_err(|error| error.to_string())
+}
+
+#[test]
+fn rings_that_cross_or_touch_themselves_keep_their_largest_part() {
+    // A bow tie of two triangles of 50 and 200 m²; a ring that touches itself at a point; a repeat; a shed.
+    let text = "id,storeys,wkt\n\
+        bow,2,\"POLYGON((0 0, 30 30, 30 10, 0 20, 0 0))\"\n\
+        pinch,3,\"POLYGON((100 0, 110 0, 110 10, 105 10, 105 20, 115 20, 115 30, 100 30, 100 10, 105 10, 100 10, 100 0))\"\n\
+        first,1,\"POLYGON((200 0, 210 0, 210 10, 200 10, 200 0))\"\n\
+        twice,1,\"POLYGON((210 10, 200 10, 200 0, 210 0, 210 10))\"\n\
+        shed,1,\"POLYGON((300 0, 303 0, 303 3, 300 3, 300 0))\"\n\
+        gone,1,\n\
+        two,1,\"MULTIPOLYGON(((400 0, 410 0, 410 10, 400 10, 400 0)),((420 0, 425 0, 425 5, 420 5, 420 0)))\"\n";
+    let inventory = read("city.csv", text).unwrap();
+    assert_eq!(inventory.rows, 7);
+    let kept: Vec<(&str, f64)> = inventory
+        .buildings
+        .iter()
+        .map(|own| (own.id.as_str(), own.area))
+        .collect();
+    let what: Vec<(&str, &str)> = inventory
+        .mends
+        .iter()
+        .map(|own| (own.id.as_str(), own.what))
+        .collect();
+    // The lines y = x and y = 20 − x/3 of the bow tie cross at x = 15: triangles of 150 m² each.
+    let area = |name: &str| kept.iter().find(|own| own.0 == name).unwrap().1;
+    assert!((area("bow") - 150.0).abs() < 1e-6, "{kept:?}");
+    assert!((area("two") - 100.0).abs() < 1e-9);
+    assert!(area("pinch") >= 100.0, "{kept:?}");
+    for (name, word) in [
+        ("bow", "mended"),
+        ("twice", "repeat"),
+        ("shed", "left out"),
+        ("gone", "no outline"),
+        ("two", "mended"),
+    ] {
+        assert!(what.contains(&(name, word)), "{what:?}");
+    }
+    assert_eq!(
+        kept.len()
+            + inventory
+                .mends
+                .iter()
+                .filter(|own| own.what != "mended")
+                .count(),
+        7
+    );
+}
+
+#[test]
+fn footprints_of_r2d_are_read_from_a_column_of_json() {
+    let outline = "{\"\"type\"\":\"\"Polygon\"\",\"\"coordinates\"\":[[[-122.26,37.85],[-122.2599,37.85],[-122.2599,37.8501],[-122.26,37.8501],[-122.26,37.85]]]}";
+    let text = format!(
+        "id,Latitude,Longitude,PlanArea,NumberOfStories,YearBuilt,StructureType,Footprint\n7,37.85,-122.26,1000,3,1927,URM,\"{outline}\"\n"
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("r2d.csv");
+    std::fs::write(&path, text).unwrap();
+    let inventory = Inventory::read(&path, &ReadOptions::default()).unwrap();
+    let own = &inventory.buildings[0];
+    assert_eq!(
+        (own.id.as_str(), own.storeys, own.year, own.kind.as_deref()),
+        ("7", Some(3), Some(1927), Some("URM"))
+    );
+    // 1e-4° of longitude and latitude there: 8.80 m and 11.10 m.
+    assert!((own.area - 97.7).abs() < 0.2, "{}", own.area);
+}
+
+#[test]
+fn what_cannot_be_used_is_refused_with_row_column_and_remedy() {
+    for (name, text, wanted) in [
+        (
+            "points.csv",
+            "id,Latitude,Longitude,storeys\n1,37,-122,3\n",
+            "only points",
+        ),
+        ("none.csv", "id,storeys\n1,3\n", "--column footprint=NAME"),
+        (
+            "low.csv",
+            "id,wkt\n1,\"POLYGON((0 0,10 0,10 10,0 10,0 0))\"\n",
+            "how tall",
+        ),
+        (
+            "word.csv",
+            "id,storeys,wkt\n1,many,\"POLYGON((0 0,10 0,10 10,0 10,0 0))\"\n",
+            "row 1: column \"storeys\"",
+        ),
+        ("empty.csv", "id,storeys,wkt\n", "no rows"),
+        (
+            "points.geojson",
+            "{\"type\":\"FeatureCollection\",\"features\":[{\"type\":\"Feature\",\"properties\":{\"storeys\":2},\"geometry\":{\"type\":\"Point\",\"coordinates\":[1,2]}}]}",
+            "only points",
+        ),
+        (
+            "broken.geojson",
+            "{\"type\":\"FeatureCollection\",\"features\":[{\"type\":\"Feat",
+            "feature 1",
+        ),
+        ("city.shp", "", ".geojson"),
+    ] {
+        let error = read(name, text).expect_err(name);
+        assert!(error.contains(wanted), "{name}: {error}");
+        assert!(error.contains(name), "{name}: {error}");
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("metres.csv");
+    std::fs::write(
+        &path,
+        "id,storeys,wkt\n1,2,\"POLYGON((500000 0,500010 0,500010 10,500000 10,500000 0))\"\n",
+    )
+    .unwrap();
+    let error = Inventory::read(&path, &ReadOptions::default())
+        .expect_err("metres")
+        .to_string();
+    assert!(error.contains("--metres"), "{error}");
+}
