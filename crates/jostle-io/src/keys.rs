@@ -174,6 +174,20 @@ pub(crate) enum Section {
     ComparedColumn,
     /// Measured impacts in it.
     ComparedImpacts,
+    /// A city file.
+    City,
+    /// Its footprints.
+    CityInventory,
+    /// Names of their columns.
+    CityColumns,
+    /// What is assumed of its buildings.
+    CityBuildings,
+    /// How its gaps are drawn.
+    CityGap,
+    /// How its buildings hit each other.
+    CityContact,
+    /// How much is run.
+    CityRun,
 }
 
 /// Type of a value.
@@ -1266,6 +1280,44 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::ComparedImpacts, "window", Quantity(D::Time), "\"20 ms\"", "Greatest distance in time of a matched pair.").usual("a time", 1e-5, 10.0),
     default(S::ComparedImpacts, "separation", Quantity(D::Time), "\"50 ms\"", "Measured signs that follow each other sooner are one impact.").usual("a time", 1e-5, 10.0),
     optional(S::ComparedImpacts, "zero", Quantity(D::Time), "Subtract the mean of the measured values over this time from the first instant of the data on, while all is at rest.").usual("a time", 1e-3, 1e4),
+
+    optional(S::City, "title", Text, "Title of the pages."),
+    required(S::City, "inventory", Kind::Table(S::CityInventory), "Footprints of the buildings."),
+    optional(S::City, "buildings", Kind::Table(S::CityBuildings), "What is assumed where the inventory says nothing."),
+    optional(S::City, "gap", Kind::Table(S::CityGap), "How gaps are drawn: no map knows them."),
+    optional(S::City, "contact", Kind::Table(S::CityContact), "How slabs hit each other."),
+    required(S::City, "motion", Kind::Table(S::Motion), "Ground motion, or several: record may be a list."),
+    optional(S::City, "run", Kind::Table(S::CityRun), "How much is run."),
+
+    required(S::CityInventory, "file", Text, "GeoJSON, GeoParquet, or CSV with outlines as WKT or GeoJSON."),
+    default(S::CityInventory, "metres", Flag, "false", "Whether coordinates are metres, not degrees of longitude and latitude."),
+    optional(S::CityInventory, "columns", Kind::Table(S::CityColumns), "Names of columns that differ from the usual ones."),
+    default(S::CityInventory, "reach", Quantity(D::Length), "\"0.5 m\"", "Buildings no farther apart on the map are neighbours.").usual("a reach", 0.01, 10.0),
+
+    optional(S::CityColumns, "id", Text, "Name of a building."),
+    optional(S::CityColumns, "footprint", Text, "Its outline."),
+    optional(S::CityColumns, "storeys", Text, "Storeys above the ground."),
+    optional(S::CityColumns, "height", Text, "Height above the ground in m."),
+    optional(S::CityColumns, "year", Text, "Year of construction."),
+    optional(S::CityColumns, "type", Text, "Structural type: a name of HAZUS or the taxonomy of GEM."),
+
+    default(S::CityBuildings, "type", Text, "\"C1\"", "Structural type of buildings without one."),
+    default(S::CityBuildings, "level", Text, "\"year\"", "Design level: high, moderate, low or pre; \"year\" takes it from the year of construction, and moderate without one."),
+    default(S::CityBuildings, "stiffness_scatter", Quantity(D::Dimensionless), "0.1", "Standard deviation of the logarithm of storey stiffness between buildings.").usual("a scatter", 1e-4, 2.0),
+    default(S::CityBuildings, "strength_scatter", Quantity(D::Dimensionless), "0.25", "The same of strength.").usual("a scatter", 1e-4, 2.0),
+    default(S::CityBuildings, "damping_scatter", Quantity(D::Dimensionless), "0.1", "The same of damping.").usual("a scatter", 1e-4, 2.0),
+
+    default(S::CityGap, "median", Quantity(D::Length), "\"25 mm\"", "Median of the widths of gaps. Nobody has surveyed them: look at half and double.").range(GAP),
+    default(S::CityGap, "scatter", Quantity(D::Dimensionless), "0.8", "Standard deviation of their logarithm.").usual("a scatter", 1e-4, 3.0),
+    default(S::CityGap, "party_wall", Quantity(D::Dimensionless), "0", "Share of pairs that have one wall in common and do not hit each other.").usual("a share", 1e-4, 1.0),
+
+    default(S::CityContact, "stiffness", Quantity(D::HertzStiffness), "\"2.75 GN/m^1.5\"", "Stiffness of hertz-damp.").usual("a contact stiffness", 1e6, 1e13),
+    default(S::CityContact, "restitution", Quantity(D::Dimensionless), "0.65", "Coefficient of restitution, 0 to 1.").usual("a restitution", 0.01, 1.0),
+    default(S::CityContact, "scatter", Quantity(D::Dimensionless), "0.3", "Standard deviation of the logarithm of the stiffness between pairs.").usual("a scatter", 1e-4, 3.0),
+
+    default(S::CityRun, "draws", Count, "25", "Draws of gaps, stiffness, strength and damping for every motion."),
+    default(S::CityRun, "tolerance", Quantity(D::Dimensionless), "0.01", "Relative error of peaks, 0.01 or 0.001, that 99.5 % of them keep.").usual("a tolerance", 1e-4, 0.1),
+    default(S::CityRun, "sample", Count, "20", "Least number of rows that are run again in full, to see how good the batches are."),
 ];
 
 /// The keys of some sections, in order.

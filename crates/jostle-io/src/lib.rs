@@ -11,6 +11,7 @@ mod builtin;
 mod builtin_model;
 mod checks_page;
 mod choices;
+mod city_file;
 mod comparison_map;
 mod csv;
 mod fault;
@@ -52,6 +53,7 @@ pub use baseline::Baseline;
 pub use builtin::{BUILTIN_RECORDS, BuiltinRecord, builtin_motions, builtin_record};
 pub use builtin_model::{builtin_model, model_names, model_text};
 pub use checks_page::{check_list, check_reference};
+pub use city_file::{CityFile, CityLevel};
 pub use comparison_map::{
     ComparedColumn, ComparedImpacts, ComparisonMap, ImpactSign, NamedColumn, TableMotion,
 };

@@ -28,7 +28,7 @@ mod isolation;
 mod joint_capacity;
 mod link;
 mod matching;
-mod motion;
+pub(crate) mod motion;
 mod output;
 mod partial;
 mod places;

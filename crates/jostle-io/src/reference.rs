@@ -300,6 +300,17 @@ const TABLES: &[(Section, &str, &str)] = &[
         "Whether the records are suitable for time-history analysis, by the rules of the code of the spectrum.",
     ),
     (
+        Section::City,
+        "City file: top",
+        "A file of its own, for `jostle city`; see [Which neighbours of a city collide](how-to/city.md).",
+    ),
+    (Section::CityInventory, "City file: `[inventory]`", ""),
+    (Section::CityColumns, "City file: `inventory.columns`", ""),
+    (Section::CityBuildings, "City file: `[buildings]`", ""),
+    (Section::CityGap, "City file: `[gap]`", ""),
+    (Section::CityContact, "City file: `[contact]`", ""),
+    (Section::CityRun, "City file: `[run]`", ""),
+    (
         Section::Comparison,
         "Map of a comparison: top",
         "A file of its own, for `jostle compare`; see [Compare with a shake-table test](how-to/shake-table.md).",

@@ -40,6 +40,8 @@ pub enum Values {
     Whole(Vec<Option<i32>>),
     /// Texts.
     Text(Vec<String>),
+    /// Bytes, such as outlines as WKB.
+    Bytes(Vec<Vec<u8>>),
 }
 
 impl Values {
@@ -51,6 +53,7 @@ impl Values {
             Self::Instant(values) => values.len(),
             Self::Whole(values) => values.len(),
             Self::Text(values) => values.len(),
+            Self::Bytes(values) => values.len(),
         }
     }
 
@@ -67,6 +70,7 @@ impl Values {
             Self::Instant(_) => Self::Instant(Vec::new()),
             Self::Whole(_) => Self::Whole(Vec::new()),
             Self::Text(_) => Self::Text(Vec::new()),
+            Self::Bytes(_) => Self::Bytes(Vec::new()),
         }
     }
 }
@@ -911,6 +915,12 @@ fn write_columns<W: Write + Send>(
                     .typed::<ByteArrayType>()
                     .write_batch(&values, None, None)?;
             }
+            Values::Bytes(values) => {
+                let values: Vec<ByteArray> = values.into_iter().map(ByteArray::from).collect();
+                column
+                    .typed::<ByteArrayType>()
+                    .write_batch(&values, None, None)?;
+            }
         }
         column.close()?;
     }
@@ -927,6 +937,11 @@ fn field(name: &str, values: &Values) -> Result<Type, ParquetError> {
             Physical::BYTE_ARRAY,
             Repetition::REQUIRED,
             ConvertedType::UTF8,
+        ),
+        Values::Bytes(_) => (
+            Physical::BYTE_ARRAY,
+            Repetition::REQUIRED,
+            ConvertedType::NONE,
         ),
     };
     Type::primitive_type_builder(name, physical)

@@ -6,7 +6,7 @@ use arrow_array::ffi::FFI_ArrowSchema;
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
 use arrow_array::{
     ArrayRef, Float64Array, Int32Array, RecordBatch, RecordBatchIterator, RecordBatchOptions,
-    StringArray,
+    StringArray, BinaryArray,
 };
 use arrow_schema::{ArrowError, DataType, Field, Schema};
 use jostle_io::Values;
@@ -57,6 +57,7 @@ impl Table {
                     Values::Instant(_) => (DataType::Float64, true),
                     Values::Whole(_) => (DataType::Int32, true),
                     Values::Text(_) => (DataType::Utf8, false),
+                    Values::Bytes(_) => (DataType::Binary, false),
                 },
             };
             Field::new(name, kind, nullable)
@@ -84,6 +85,9 @@ impl Table {
                         Values::Whole(values) => Arc::new(Int32Array::from(values.clone())),
                         Values::Text(values) => {
                             Arc::new(StringArray::from_iter_values(values.iter()))
+                        }
+                        Values::Bytes(values) => {
+                            Arc::new(BinaryArray::from_iter_values(values.iter()))
                         }
                     }
                 })
@@ -117,6 +121,7 @@ impl Table {
                 "optional" => Values::Instant(values.extract()?),
                 "whole" => Values::Whole(values.extract()?),
                 "text" => Values::Text(values.extract()?),
+                "bytes" => Values::Bytes(values.extract()?),
                 _ => Values::Real(values.extract()?),
             };
             Ok((name, values))
@@ -146,6 +151,7 @@ impl Table {
                     Values::Instant(own) => Values::Instant(pick(own, &rows)),
                     Values::Whole(own) => Values::Whole(pick(own, &rows)),
                     Values::Text(own) => Values::Text(pick(own, &rows)),
+                    Values::Bytes(own) => Values::Bytes(pick(own, &rows)),
                 })
                 .collect(),
         };
@@ -155,7 +161,7 @@ impl Table {
         })
     }
 
-    /// What a column has: `real`, `optional` (numbers that may be absent), `whole` or `text`.
+    /// What a column has: `real`, `optional` (numbers that may be absent), `whole`, `text` or `bytes`.
     fn kind(&self, index: usize) -> PyResult<&'static str> {
         match &self.columns {
             Columns::Histories(_) => Ok("real"),
@@ -164,6 +170,7 @@ impl Table {
                 Some(Values::Instant(_)) => Ok("optional"),
                 Some(Values::Whole(_)) => Ok("whole"),
                 Some(Values::Text(_)) => Ok("text"),
+                Some(Values::Bytes(_)) => Ok("bytes"),
                 None => Err(pyo3::exceptions::PyIndexError::new_err(index)),
             },
         }
@@ -182,6 +189,7 @@ impl Table {
                 Some(Values::Instant(values)) => Ok(values.clone().into_pyobject(py)?),
                 Some(Values::Whole(values)) => Ok(values.clone().into_pyobject(py)?),
                 Some(Values::Text(values)) => Ok(values.clone().into_pyobject(py)?),
+                Some(Values::Bytes(values)) => Ok(values.clone().into_pyobject(py)?),
                 None => Err(pyo3::exceptions::PyIndexError::new_err(index)),
             },
         }

@@ -165,6 +165,8 @@ fn write_table(
                     sheet.write_string(at, column, &texts[row])?;
                     continue;
                 }
+                // No sheet has bytes.
+                Values::Bytes(_) => None,
                 Values::Real(numbers) => Some(numbers[row]),
                 Values::Instant(numbers) => numbers[row],
                 Values::Whole(numbers) => numbers[row].map(f64::from),

@@ -28,7 +28,7 @@ pub(super) const RECORD_KEYS: &[&str] = &[
 /// Longest analysis \[s\].
 const LONGEST: f64 = 10_000.0;
 
-pub(super) fn read(
+pub(crate) fn read(
     reader: &mut Reader<'_>,
     field: &Field<'_>,
     files: &Files,

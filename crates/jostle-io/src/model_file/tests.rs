@@ -233,6 +233,19 @@ acceleration = "A1"
 above = "2 g"
 "#;
 
+/// A city file that has every table.
+const CITY: &str = r#"
+[inventory]
+file = "city.geojson"
+columns = { storeys = "levels" }
+[buildings]
+[gap]
+[contact]
+[motion]
+record = "el-centro-1940-ns"
+[run]
+"#;
+
 /// Keys that the reader of models asks for.
 fn asked_of_models() -> BTreeSet<(Section, &'static str)> {
     let mut asked = BTreeSet::new();
@@ -287,6 +300,9 @@ fn every_key_of_the_table_is_read() {
     let source = Source::new("map.toml", MAP);
     let root = parse(&source, Format::Toml).unwrap_or_else(|error| panic!("{error}"));
     asked.extend(crate::comparison_map::keys_asked(&source, &root));
+    let source = Source::new("city.toml", CITY);
+    let root = parse(&source, Format::Toml).unwrap_or_else(|error| panic!("{error}"));
+    asked.extend(crate::city_file::keys_asked(&source, &root));
     let known: BTreeSet<_> = KEYS.iter().map(|key| (key.section, key.name)).collect();
     let unread: Vec<_> = known.difference(&asked).collect();
     assert!(
