@@ -1,10 +1,12 @@
 //! Shear buildings from what a city knows of them, by the formulas of Lu and Guan, and any row of them as a model
 //! file.
 
+mod class;
 mod mdof_lu;
 mod model;
 mod variability;
 
+pub use class::{Class, Level};
 pub use mdof_lu::{Capacity, Coefficients};
 pub use model::model;
-pub use variability::lognormal;
+pub use variability::{lognormal, uniform};

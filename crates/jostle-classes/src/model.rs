@@ -2,15 +2,12 @@
 
 use std::fmt::Write as _;
 
-use jostle_batch::{Building, Law, Row, Rule, Storey};
+use jostle_batch::{Building, Face, Gap, Law, Row, Rule, Storey};
 
 /// The row as the text of a model file; `motion` is the table `[motion]` without its heading, such as
 /// `record = "el-centro-1940-ns"`.
-///
-/// # Errors
-///
-/// When a slab strikes columns: floors of different level need heights of their bases, which a row does not keep.
-pub fn model(row: &Row, motion: &str, tolerance: f64) -> Result<String, String> {
+#[must_use]
+pub fn model(row: &Row, motion: &str, tolerance: f64) -> String {
     let mut text = format!("[motion]\n{motion}\n\n[analysis]\ntolerance = {tolerance:e}\n");
     for (at, own) in row.buildings.iter().enumerate() {
         let list = |value: fn(&Storey) -> f64, unit: &str| {
@@ -41,16 +38,6 @@ pub fn model(row: &Row, motion: &str, tolerance: f64) -> Result<String, String> 
         }
     }
     for (at, gap) in row.gaps.iter().enumerate() {
-        if gap
-            .contacts
-            .iter()
-            .any(jostle_batch::Contact::strikes_column)
-        {
-            return Err(format!(
-                "gap {}: slabs strike columns; give the model's storeys and bases by hand",
-                at + 1
-            ));
-        }
         let Some(law) = gap.law else { continue };
         let law = match law {
             Law::HertzDamp {
@@ -74,11 +61,35 @@ pub fn model(row: &Row, motion: &str, tolerance: f64) -> Result<String, String> 
         let (left, right) = (at + 1, at + 2);
         let _ = write!(
             text,
-            "\n[[gap]]\nbetween = [\"B{left}\", \"B{right}\"]\nwidth = \"{} m\"\n{law}\n",
-            gap.width
+            "\n[[gap]]\nbetween = [\"B{left}\", \"B{right}\"]\nwidth = \"{} m\"\nfloors = [{}]\n{law}\n",
+            gap.width,
+            points(gap, &row.buildings[at], &row.buildings[at + 1])
         );
     }
-    Ok(text)
+    text
+}
+
+/// Where neighbours touch: floors from 1, or levels of columns.
+fn points(gap: &Gap, left: &Building, right: &Building) -> String {
+    let place = |own: &Face, building: &Building| {
+        let below: f64 = building.storeys[..own.floor]
+            .iter()
+            .map(|own| own.height)
+            .sum();
+        if own.share >= 1.0 {
+            (own.floor + 1).to_string()
+        } else {
+            format!(
+                "\"{} m\"",
+                below + own.share * building.storeys[own.floor].height
+            )
+        }
+    };
+    let pairs = gap
+        .contacts
+        .iter()
+        .map(|own| format!("[{}, {}]", place(&own.left, left), place(&own.right, right)));
+    pairs.collect::<Vec<_>>().join(", ")
 }
 
 /// The table of the storeys' yielding, if they yield. Ratios are those of the first storey.

@@ -6,15 +6,27 @@ use std::f64::consts::PI;
 /// and the name of what varies: order and threads do not matter.
 #[must_use]
 pub fn lognormal(id: u64, draw: u64, what: &str, sigma: f64) -> f64 {
-    let mut state = mixed(id ^ mixed(draw));
-    for byte in what.bytes() {
-        state = mixed(state ^ u64::from(byte));
-    }
-    let unit = |bits: u64| ((bits >> 11) as f64 + 0.5) / (1_u64 << 53) as f64;
+    let state = hash(id, draw, what);
     let (one, two) = (unit(mixed(state)), unit(mixed(state ^ 1)));
     // Box and Muller.
     let normal = (-2.0 * libm::log(one)).sqrt() * libm::cos(2.0 * PI * two);
     libm::exp(sigma * normal)
+}
+
+/// A number between 0 and 1, from the same.
+#[must_use]
+pub fn uniform(id: u64, draw: u64, what: &str) -> f64 {
+    unit(mixed(hash(id, draw, what)))
+}
+
+fn hash(id: u64, draw: u64, what: &str) -> u64 {
+    what.bytes().fold(mixed(id ^ mixed(draw)), |state, byte| {
+        mixed(state ^ u64::from(byte))
+    })
+}
+
+fn unit(bits: u64) -> f64 {
+    ((bits >> 11) as f64 + 0.5) / (1_u64 << 53) as f64
 }
 
 /// SplitMix64.

@@ -90,6 +90,6 @@ fn a_capacity_curve_gives_the_published_coefficients() {
         motion: 0,
         scale: 1.0,
     };
-    let text = model(&row, "record = \"el-centro-1940-ns\"", 1e-4).expect("a model");
+    let text = model(&row, "record = \"el-centro-1940-ns\"", 1e-4);
     assert!(text.contains("rule = \"pinched\""));
 }
