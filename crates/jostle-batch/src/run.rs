@@ -70,7 +70,20 @@ pub fn run(
     motions: &[Motion],
     rows: impl IntoIterator<Item = Row>,
     options: &Options,
-    sink: impl FnMut(usize, Peaks) -> ControlFlow<()>,
+    mut sink: impl FnMut(usize, Peaks) -> ControlFlow<()>,
+) -> Result<(), Error> {
+    run_boxed(motions, &mut rows.into_iter(), options, &mut sink)
+}
+
+/// What takes the peaks of a row.
+type Sink<'a> = &'a mut dyn FnMut(usize, Peaks) -> ControlFlow<()>;
+
+/// [`run`] without type parameters, so that stepping is compiled in this crate, as this crate is.
+fn run_boxed(
+    motions: &[Motion],
+    rows: &mut dyn Iterator<Item = Row>,
+    options: &Options,
+    sink: Sink<'_>,
 ) -> Result<(), Error> {
     match options.precision {
         Precision::Single => run_in::<f32, 8>(motions, rows, options.phase, sink),
@@ -81,14 +94,13 @@ pub fn run(
 /// [`run`] with a width.
 pub(crate) fn run_in<T: Real, const W: usize>(
     motions: &[Motion],
-    rows: impl IntoIterator<Item = Row>,
+    rows: &mut dyn Iterator<Item = Row>,
     phase: f64,
-    mut sink: impl FnMut(usize, Peaks) -> ControlFlow<()>,
+    sink: Sink<'_>,
 ) -> Result<(), Error> {
-    let mut rows = rows.into_iter();
     let mut first = 0;
     loop {
-        let taken: Vec<Row> = rows.by_ref().take(TAKEN).collect();
+        let taken: Vec<Row> = (&mut *rows).take(TAKEN).collect();
         if taken.is_empty() {
             return Ok(());
         }
@@ -284,9 +296,9 @@ mod tests {
             acceleration: (0..300).map(wave).collect(),
         };
         let all = |width: usize| {
-            let rows = (0..40).map(row);
+            let rows = &mut (0..40).map(row);
             let mut all = Vec::new();
-            let sink = |_, peaks: Peaks| {
+            let sink = &mut |_, peaks: Peaks| {
                 all.push(peaks);
                 ControlFlow::Continue(())
             };

@@ -8,5 +8,5 @@ mod variability;
 
 pub use class::{Class, Level};
 pub use mdof_lu::{Capacity, Coefficients};
-pub use model::model;
+pub use model::{at_floors, model};
 pub use variability::{lognormal, uniform};

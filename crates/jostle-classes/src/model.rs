@@ -2,13 +2,26 @@
 
 use std::fmt::Write as _;
 
-use jostle_batch::{Building, Face, Gap, Law, Row, Rule, Storey};
+use jostle_batch::{Building, Contact, Face, Gap, Law, Row, Rule, Storey};
 
 /// The row as the text of a model file; `motion` is the table `[motion]` without its heading, such as
 /// `record = "el-centro-1940-ns"`.
+///
+/// Slabs that strike columns strike the nearest floor there, as [`at_floors`] moves them; a remark in the text says so.
 #[must_use]
 pub fn model(row: &Row, motion: &str, tolerance: f64) -> String {
-    let mut text = format!("[motion]\n{motion}\n\n[analysis]\ntolerance = {tolerance:e}\n");
+    let columns = row
+        .gaps
+        .iter()
+        .flat_map(|own| &own.contacts)
+        .any(Contact::strikes_column);
+    let remark = if columns {
+        "# Slabs strike columns between floors here. A shear building has none: they strike the nearest floor instead.\n"
+    } else {
+        ""
+    };
+    let row = &at_floors(row);
+    let mut text = format!("{remark}[motion]\n{motion}\n\n[analysis]\ntolerance = {tolerance:e}\n");
     for (at, own) in row.buildings.iter().enumerate() {
         let list = |value: fn(&Storey) -> f64, unit: &str| {
             let all = own
@@ -61,7 +74,7 @@ pub fn model(row: &Row, motion: &str, tolerance: f64) -> String {
         let (left, right) = (at + 1, at + 2);
         let _ = write!(
             text,
-            "\n[[gap]]\nbetween = [\"B{left}\", \"B{right}\"]\nwidth = \"{} m\"\nfloors = [{}]\n{law}\n",
+            "\n[[gap]]\nbetween = [\"B{left}\", \"B{right}\"]\nwidth = \"{} m\"\n{}\n{law}\n",
             gap.width,
             points(gap, &row.buildings[at], &row.buildings[at + 1])
         );
@@ -69,27 +82,58 @@ pub fn model(row: &Row, motion: &str, tolerance: f64) -> String {
     text
 }
 
-/// Where neighbours touch: floors from 1, or levels of columns.
+/// The row with slabs that strike columns moved to the nearest floors there: the program's shear buildings have no
+/// columns between floors.
+#[must_use]
+pub fn at_floors(row: &Row) -> Row {
+    let mut own = row.clone();
+    for (at, gap) in own.gaps.iter_mut().enumerate() {
+        let nearest = |face: Face, building: usize| {
+            // Half a storey up and more is nearer to the floor above; below the first floor there is only the ground.
+            let floor = if face.share >= 0.5 || face.floor == 0 {
+                face.floor
+            } else {
+                face.floor - 1
+            };
+            debug_assert!(floor < row.buildings[building].storeys.len());
+            Face { floor, share: 1.0 }
+        };
+        let mut contacts: Vec<Contact> = Vec::new();
+        for contact in &gap.contacts {
+            let moved = Contact {
+                left: nearest(contact.left, at),
+                right: nearest(contact.right, at + 1),
+            };
+            if !contacts.contains(&moved) {
+                contacts.push(moved);
+            }
+        }
+        gap.contacts = contacts;
+    }
+    own
+}
+
+/// Where neighbours touch: floors from 1, and the tolerance of their levels where they differ.
 fn points(gap: &Gap, left: &Building, right: &Building) -> String {
-    let place = |own: &Face, building: &Building| {
-        let below: f64 = building.storeys[..own.floor]
+    let level = |own: &Building, floor: usize| {
+        own.storeys[..=floor]
             .iter()
             .map(|own| own.height)
-            .sum();
-        if own.share >= 1.0 {
-            (own.floor + 1).to_string()
-        } else {
-            format!(
-                "\"{} m\"",
-                below + own.share * building.storeys[own.floor].height
-            )
-        }
+            .sum::<f64>()
     };
-    let pairs = gap
-        .contacts
-        .iter()
-        .map(|own| format!("[{}, {}]", place(&own.left, left), place(&own.right, right)));
-    pairs.collect::<Vec<_>>().join(", ")
+    let contacts = gap.contacts.iter();
+    let pairs = contacts.map(|own| format!("[{}, {}]", own.left.floor + 1, own.right.floor + 1));
+    let pairs = pairs.collect::<Vec<_>>().join(", ");
+    let apart = |own: &Contact| (level(left, own.left.floor) - level(right, own.right.floor)).abs();
+    let most = gap.contacts.iter().map(apart).fold(0.0, f64::max);
+    if most > 1e-3 {
+        format!(
+            "floors = [{pairs}]\nlevel_tolerance = \"{:.3} m\"",
+            most + 1e-3
+        )
+    } else {
+        format!("floors = [{pairs}]")
+    }
 }
 
 /// The table of the storeys' yielding, if they yield. Ratios are those of the first storey.

@@ -4,3 +4,4 @@
 
 mod mends;
 mod neighbours;
+mod runs;

@@ -1,0 +1,259 @@
+//! How often buildings are struck, and what becomes of them.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use crate::draw::GapWidths;
+use crate::fault::CityError;
+use crate::run::{Case, City, read_cases};
+use crate::sample::Sampled;
+
+/// Damage states: none, slight, moderate, extensive, complete.
+pub(crate) const STATES: usize = 5;
+
+/// Medians of gaps at which the probability of a strike is kept, over the median of the city file \[–\].
+pub(crate) const MEDIANS: [f64; 9] = [0.125, 0.25, 0.375, 0.5, 0.75, 1.0, 1.5, 2.0, 4.0];
+/// The place of the median itself.
+pub(crate) const OWN: usize = 5;
+
+/// What is known of a building after the run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BuildingAnswer {
+    /// Draws times motions.
+    pub samples: usize,
+    /// Probability that a neighbour strikes it, at medians of the gaps from an eighth to four times that of the file.
+    pub struck: [f64; 9],
+    /// Probability that a slab strikes its columns or it strikes those of a neighbour \[–\].
+    pub column: f64,
+    /// Probabilities of the damage states alone and with neighbours \[–\].
+    pub states: [[f64; STATES]; 2],
+    /// Medians of the greatest drift ratio alone and with neighbours \[–\].
+    pub drift: [f64; 2],
+}
+
+/// What is known of a pair after the run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PairAnswer {
+    /// Probability that they hit each other, from the closing curve \[–\].
+    pub struck: f64,
+    /// Share of the samples in which a slab strikes columns \[–\].
+    pub column: f64,
+    /// Greatest closing of the free buildings: median and 90 % quantile \[m\].
+    pub closing: [f64; 2],
+    /// Force where they hit: median and 90 % quantile; 0 if they never do \[N\].
+    pub force: [f64; 2],
+    /// Share of samples in which contact brings either building to a worse state \[–\].
+    pub worse: f64,
+    /// Share in which it spares either one a state \[–\].
+    pub better: f64,
+}
+
+impl PairAnswer {
+    /// How much a pair deserves a look: strikes on columns, then worse states, then strikes.
+    #[must_use]
+    pub fn concern(&self) -> f64 {
+        2.0 * self.column + 4.0 * self.worse + self.struck
+    }
+}
+
+/// The results of a run.
+#[derive(Clone, Debug, Default)]
+pub struct Answers {
+    /// As the buildings; `None` for those without a neighbour.
+    pub buildings: Vec<Option<BuildingAnswer>>,
+    /// As the pairs.
+    pub pairs: Vec<PairAnswer>,
+    /// Shares of samples of buildings with neighbours whose state contact makes worse, and better \[–\].
+    pub changed: [f64; 2],
+    /// Drift ratio with contact over that alone, where neighbours hit: quantiles 5, 50, 95, 99 % \[–\].
+    pub drift_ratios: [f64; 4],
+    /// Share of pairs that stand in rows of more than two buildings, over all samples \[–\].
+    pub in_rows: f64,
+    /// Runs in full.
+    pub sampled: Sampled,
+}
+
+/// What accumulates of a building.
+#[derive(Default)]
+struct Tally {
+    states: [[u32; STATES]; 2],
+    struck: [f64; 9],
+    column: u32,
+    drift: [Vec<f32>; 2],
+}
+
+impl City {
+    /// Reads all parts of a run and says what they mean.
+    ///
+    /// # Errors
+    ///
+    /// When parts are missing or of another run.
+    pub fn answers(&self, folder: &Path) -> Result<Answers, CityError> {
+        let mut own = Answers {
+            buildings: vec![None; self.inventory.buildings.len()],
+            pairs: vec![PairAnswer::default(); self.neighbours.pairs.len()],
+            ..Answers::default()
+        };
+        let mut ratios = Vec::new();
+        let (mut worse, mut better, mut samples, mut in_rows, mut cases_seen) =
+            (0_usize, 0_usize, 0_usize, 0_usize, 0_usize);
+        for path in self.part_paths(folder) {
+            if !path.exists() {
+                return Err(CityError::lacks(&path, "run"));
+            }
+            let (cases, table) = read_cases(&path)?;
+            self.same_run(&path, &table)?;
+            own.sampled
+                .add_json(table.facts.get("sample").map_or("", String::as_str));
+            cases_seen += cases.len();
+            in_rows += cases.iter().filter(|own| own.row > 2).count();
+            for case in &cases {
+                if case.impacts > 0 {
+                    let both = [0, 1].map(|side| (case.drift[1][side], case.drift[0][side]));
+                    ratios.extend(
+                        both.into_iter()
+                            .filter(|own| own.1 > 0.0)
+                            .map(|own| (own.0 / own.1) as f32),
+                    );
+                }
+            }
+            for of_pair in cases.chunk_by(|a, b| a.pair == b.pair) {
+                own.pairs[of_pair[0].pair] = self.pair_answer(of_pair);
+            }
+            let (found, [bad, good, all]) = self.building_answers(&cases);
+            for (building, answer) in found {
+                own.buildings[building] = Some(answer);
+            }
+            worse += bad;
+            better += good;
+            samples += all;
+        }
+        let share = |part: usize, of: usize| part as f64 / of.max(1) as f64;
+        own.changed = [share(worse, samples), share(better, samples)];
+        own.in_rows = share(in_rows, cases_seen);
+        ratios.sort_by(f32::total_cmp);
+        own.drift_ratios = [0.05, 0.5, 0.95, 0.99].map(|of| f64::from(quantile(&ratios, of)));
+        Ok(own)
+    }
+
+    fn gaps_at(&self, factor: f64) -> GapWidths {
+        let own = self.gaps();
+        GapWidths {
+            median: factor * own.median,
+            ..own
+        }
+    }
+
+    fn pair_answer(&self, cases: &[Case]) -> PairAnswer {
+        let pair = &self.neighbours.pairs[cases[0].pair];
+        let count = cases.len() as f64;
+        let gaps = self.gaps();
+        let share =
+            |of: &dyn Fn(&Case) -> bool| cases.iter().filter(|own| of(own)).count() as f64 / count;
+        let mut closings: Vec<f32> = cases.iter().map(|own| own.closing as f32).collect();
+        closings.sort_by(f32::total_cmp);
+        let mut forces: Vec<f32> = cases
+            .iter()
+            .filter(|own| own.impacts > 0)
+            .map(|own| own.force as f32)
+            .collect();
+        forces.sort_by(f32::total_cmp);
+        let two = |own: &[f32]| [0.5, 0.9].map(|of| f64::from(quantile(own, of)));
+        PairAnswer {
+            struck: cases
+                .iter()
+                .map(|own| gaps.probability_below(own.closing, pair.distance))
+                .sum::<f64>()
+                / count,
+            column: share(&|own| own.column_impacts > 0),
+            closing: two(&closings),
+            force: two(&forces),
+            worse: share(&|own| {
+                [0, 1]
+                    .iter()
+                    .any(|side| own.state[1][*side] > own.state[0][*side])
+            }),
+            better: share(&|own| {
+                [0, 1]
+                    .iter()
+                    .any(|side| own.state[1][*side] < own.state[0][*side])
+            }),
+        }
+    }
+
+    /// Answers of the buildings of a part, and how many of their samples get worse, get better, and are there.
+    fn building_answers(&self, cases: &[Case]) -> (Vec<(usize, BuildingAnswer)>, [usize; 3]) {
+        // A building may stand in several pairs: its sample is the worst of them.
+        let mut of_building: BTreeMap<usize, Vec<(&Case, usize)>> = BTreeMap::new();
+        for case in cases {
+            for (side, building) in self.neighbours.pairs[case.pair]
+                .buildings
+                .into_iter()
+                .enumerate()
+            {
+                of_building.entry(building).or_default().push((case, side));
+            }
+        }
+        let medians = MEDIANS.map(|factor| self.gaps_at(factor));
+        let mut changed = [0; 3];
+        let mut found = Vec::with_capacity(of_building.len());
+        for (building, mut own) in of_building {
+            own.sort_by_key(|(case, _)| (case.draw, case.motion));
+            let mut tally = Tally::default();
+            let mut samples = 0;
+            for sample in own.chunk_by(|a, b| (a.0.draw, a.0.motion) == (b.0.draw, b.0.motion)) {
+                samples += 1;
+                let greatest = |of: &dyn Fn(&(&Case, usize)) -> usize| {
+                    sample.iter().map(of).max().unwrap_or(0)
+                };
+                let states = [0, 1].map(|which| greatest(&|(case, side)| case.state[which][*side]));
+                for which in [0, 1] {
+                    tally.states[which][states[which].min(STATES - 1)] += 1;
+                    let drift = sample
+                        .iter()
+                        .map(|(case, side)| case.drift[which][*side])
+                        .fold(0.0, f64::max);
+                    tally.drift[which].push(drift as f32);
+                }
+                changed[0] += usize::from(states[1] > states[0]);
+                changed[1] += usize::from(states[1] < states[0]);
+                tally.column += u32::from(sample.iter().any(|(case, _)| case.column_impacts > 0));
+                for (at, gaps) in medians.iter().enumerate() {
+                    let free: f64 = sample
+                        .iter()
+                        .map(|(case, _)| {
+                            let distance = self.neighbours.pairs[case.pair].distance;
+                            1.0 - gaps.probability_below(case.closing, distance)
+                        })
+                        .product();
+                    tally.struck[at] += 1.0 - free;
+                }
+            }
+            changed[2] += samples;
+            let count = samples as f64;
+            let median = |own: &mut Vec<f32>| {
+                own.sort_by(f32::total_cmp);
+                f64::from(quantile(own, 0.5))
+            };
+            let answer = BuildingAnswer {
+                samples,
+                struck: tally.struck.map(|own| own / count),
+                column: f64::from(tally.column) / count,
+                states: tally
+                    .states
+                    .map(|own| own.map(|own| f64::from(own) / count)),
+                drift: [median(&mut tally.drift[0]), median(&mut tally.drift[1])],
+            };
+            found.push((building, answer));
+        }
+        (found, changed)
+    }
+}
+
+/// A quantile of sorted values; 0 of none.
+fn quantile(sorted: &[f32], of: f64) -> f32 {
+    match sorted.len() {
+        0 => 0.0,
+        count => sorted[((count - 1) as f64 * of).round() as usize],
+    }
+}

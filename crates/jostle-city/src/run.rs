@@ -1,0 +1,764 @@
+//! Every pair of a city, drawn and shaken: part by part, so that memory stays the same and a stopped run goes on.
+
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+use jostle::GroundMotion;
+use jostle_batch::{Gap, Law, Motion, Options, Peaks, Row};
+use jostle_classes::lognormal;
+use jostle_io::{CityFile, Values, write_values_parquet};
+use sha2::{Digest, Sha256};
+
+use crate::blocks::{Block, Line, blocks, rows};
+use crate::columns::Table;
+use crate::draw::{GapWidths, number_of_pair};
+use crate::fault::CityError;
+use crate::inventory::{Inventory, ReadOptions};
+use crate::neighbours::{Neighbours, Pair};
+use crate::sample::Sampled;
+use crate::structure::{Structure, structures};
+use crate::tables;
+
+/// Pairs times draws times motions of a part.
+const PART: usize = 65_536;
+/// Directions of shaking in plan are rounded to this, so that rows share motions \[°\].
+const DIRECTION: f64 = 10.0;
+/// Of so many rows one is run again in full.
+const SAMPLE_EVERY: usize = 1000;
+
+/// A city ready to be shaken.
+#[derive(Debug)]
+pub struct City {
+    /// What it was made of.
+    pub file: CityFile,
+    /// Buildings.
+    pub inventory: Inventory,
+    /// Pairs within reach.
+    pub neighbours: Neighbours,
+    /// Blocks of them.
+    pub blocks: Vec<Block>,
+    pub(crate) structures: Vec<Structure>,
+    pub(crate) pair_ids: Vec<u64>,
+    motions: Vec<GroundMotion>,
+    fingerprint: String,
+    parts: Vec<std::ops::Range<usize>>,
+}
+
+/// What a run does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RunOptions {
+    /// This share of the parts, from 1, and how many shares there are; `None` for all parts.
+    pub shard: Option<(usize, usize)>,
+}
+
+/// How far a run is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Done {
+    /// Pairs times draws times motions that are finished.
+    pub cases: usize,
+    /// Of so many.
+    pub of: usize,
+    /// Parts that other shares have yet to make.
+    pub missing: usize,
+}
+
+/// A pair in a draw under a motion, as a part keeps it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Case {
+    pub(crate) pair: usize,
+    pub(crate) draw: usize,
+    pub(crate) motion: usize,
+    /// Buildings of the row.
+    pub(crate) row: usize,
+    /// Width \[m\]; `None` for a wall in common.
+    pub(crate) gap: Option<f64>,
+    /// Greatest approach of the free buildings \[m\].
+    pub(crate) closing: f64,
+    pub(crate) force: f64,
+    pub(crate) impulse: f64,
+    pub(crate) impacts: usize,
+    /// Impacts of a slab on columns.
+    pub(crate) column_impacts: usize,
+    /// Greatest drift ratio alone and in the row, left and right \[–\].
+    pub(crate) drift: [[f64; 2]; 2],
+    /// Greatest acceleration alone and in the row, left and right \[m/s²\].
+    pub(crate) acceleration: [[f64; 2]; 2],
+    /// Damage state alone and in the row, left and right.
+    pub(crate) state: [[usize; 2]; 2],
+}
+
+/// A row of a draw under a motion.
+struct Job {
+    line: Line,
+    draw: usize,
+    motion: usize,
+}
+
+impl City {
+    /// Reads the inventory of a city file, finds the neighbours and resolves the motions.
+    ///
+    /// # Errors
+    ///
+    /// When the inventory or the motions cannot be used.
+    pub fn new(file: CityFile) -> Result<Self, CityError> {
+        let options = ReadOptions {
+            columns: tables::columns_of(&file.columns)?,
+            metres: file.metres,
+        };
+        let mut inventory = Inventory::read(&file.inventory, &options)?;
+        let neighbours = Neighbours::within(&inventory.buildings, file.reach);
+        tables::refuse_overlaps(&file.inventory, &inventory, &neighbours)?;
+        let (structures, assumed) = structures(&inventory, &file)?;
+        inventory.mends.extend(assumed);
+        inventory.mends.sort_by_key(|own| own.row);
+        let names = file.motion.records();
+        let resolve = |own: &jostle_io::MotionSpec| {
+            own.resolve()
+                .map_err(|error| CityError::Input(format!("motion: {error}")))
+        };
+        let motions = if names.is_empty() {
+            vec![resolve(&file.motion)?]
+        } else {
+            let one = |name: &String| {
+                resolve(
+                    &file
+                        .motion
+                        .with_one_of_several(name)
+                        .unwrap_or_else(|| file.motion.clone()),
+                )
+            };
+            names.iter().map(one).collect::<Result<Vec<_>, _>>()?
+        };
+        let ids: Vec<u64> = structures.iter().map(|own| own.id).collect();
+        let pair_ids = neighbours
+            .pairs
+            .iter()
+            .map(|own| number_of_pair(&ids, own))
+            .collect();
+        let found = blocks(&neighbours.pairs, inventory.buildings.len());
+        let parts = parts(&found, file.draws * motions.len(), PART);
+        let mut own = Self {
+            file,
+            inventory,
+            neighbours,
+            blocks: found,
+            structures,
+            pair_ids,
+            motions,
+            fingerprint: String::new(),
+            parts,
+        };
+        own.fingerprint = own.fingerprint()?;
+        Ok(own)
+    }
+
+    /// Names of the motions.
+    #[must_use]
+    pub fn motions(&self) -> Vec<String> {
+        self.motions.iter().map(|own| own.name.clone()).collect()
+    }
+
+    /// Pairs times draws times motions.
+    #[must_use]
+    pub fn cases(&self) -> usize {
+        self.neighbours.pairs.len() * self.file.draws * self.motions.len()
+    }
+
+    /// What decides the numbers of a run, as a hash.
+    fn fingerprint(&self) -> Result<String, CityError> {
+        let mut hash = Sha256::new();
+        hash.update(env!("CARGO_PKG_VERSION"));
+        let file = CityFile {
+            title: String::new(),
+            sample: 0,
+            warnings: Vec::new(),
+            ..self.file.clone()
+        };
+        hash.update(format!("{file:?}"));
+        let path = &self.file.inventory;
+        let mut read = jostle_io::open_file(path).map_err(|error| CityError::of(path, error))?;
+        std::io::copy(&mut read, &mut HashWriter(&mut hash))
+            .map_err(|error| CityError::of(path, error))?;
+        for motion in &self.motions {
+            hash.update(format!("{motion:?}"));
+        }
+        Ok(hash
+            .finalize()
+            .iter()
+            .take(16)
+            .map(|byte| format!("{byte:02x}"))
+            .collect())
+    }
+
+    /// Runs what `folder/runs` does not hold yet; `stop` ends after a while with what is finished, `show` hears how far it is.
+    ///
+    /// # Errors
+    ///
+    /// [`CityError::Stopped`] when told to stop; when a folder holds the run of another city, or cannot be written.
+    pub fn run(
+        &self,
+        folder: &Path,
+        options: RunOptions,
+        stop: &dyn Fn() -> bool,
+        show: &mut dyn FnMut(Done),
+    ) -> Result<Done, CityError> {
+        let runs = folder.join("runs");
+        std::fs::create_dir_all(&runs).map_err(|error| CityError::of(&runs, error))?;
+        tables::claim(folder, &self.fingerprint)?;
+        tables::write(folder, self)?;
+        let each = self.file.draws * self.motions.len();
+        let mut done = Done {
+            cases: 0,
+            of: self.cases(),
+            missing: 0,
+        };
+        let of_part = |part: usize| -> usize {
+            self.blocks[self.parts[part].clone()]
+                .iter()
+                .map(|own| own.pairs.len() * each)
+                .sum()
+        };
+        for part in 0..self.parts.len() {
+            let path = part_path(folder, part);
+            let finished = self.holds(&path);
+            let own = options
+                .shard
+                .is_none_or(|(shard, of)| part % of == shard - 1);
+            if !own {
+                done.missing += usize::from(!finished);
+                done.of -= of_part(part);
+                continue;
+            }
+            if !finished {
+                let before = done.cases;
+                self.run_part(part, &path, stop, &mut |cases| {
+                    show(Done {
+                        cases: before + cases,
+                        ..done
+                    });
+                })?;
+            }
+            done.cases += of_part(part);
+            show(done);
+        }
+        Ok(done)
+    }
+
+    /// Whether a part is there, whole, and of this run.
+    fn holds(&self, path: &Path) -> bool {
+        path.exists()
+            && Table::read(path)
+                .is_ok_and(|own| own.facts.get("fingerprint") == Some(&self.fingerprint))
+    }
+
+    /// With smaller parts.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn in_parts_of(mut self, cases: usize) -> Self {
+        self.parts = parts(&self.blocks, self.file.draws * self.motions.len(), cases);
+        self
+    }
+
+    /// Of every case: closing and gap \[m\], buildings of the row, impacts, the pair, the left drift ratio alone and in the row.
+    ///
+    /// # Errors
+    ///
+    /// When a part cannot be read.
+    #[doc(hidden)]
+    pub fn cases_for_tests(&self, folder: &Path) -> Result<Vec<[f64; 7]>, CityError> {
+        let mut all = Vec::new();
+        for path in self.part_paths(folder) {
+            all.extend(read_cases(&path)?.0.iter().map(|own| {
+                let gap = own.gap.unwrap_or(f64::INFINITY);
+                [
+                    own.closing,
+                    gap,
+                    own.row as f64,
+                    own.impacts as f64,
+                    own.pair as f64,
+                    own.drift[0][0],
+                    own.drift[1][0],
+                ]
+            }));
+        }
+        Ok(all)
+    }
+
+    /// Refuses a part of another run.
+    pub(crate) fn same_run(&self, path: &Path, table: &Table) -> Result<(), CityError> {
+        if table.facts.get("fingerprint") == Some(&self.fingerprint) {
+            return Ok(());
+        }
+        Err(CityError::of(
+            path,
+            "is a part of another run: run `jostle city run` again, or remove the folder",
+        ))
+    }
+
+    /// Paths of all parts, in order.
+    pub(crate) fn part_paths(&self, folder: &Path) -> Vec<PathBuf> {
+        (0..self.parts.len())
+            .map(|part| part_path(folder, part))
+            .collect()
+    }
+
+    fn run_part(
+        &self,
+        part: usize,
+        path: &Path,
+        stop: &dyn Fn() -> bool,
+        show: &mut dyn FnMut(usize),
+    ) -> Result<(), CityError> {
+        let own = &self.blocks[self.parts[part].clone()];
+        let jobs = self.jobs(own);
+        let total: usize = jobs.iter().map(|own| own.line.pairs.len()).sum();
+        let motions = self.directed(&jobs);
+        let options = Options::for_tolerance(self.file.tolerance);
+        let fault = |error: jostle_batch::Error| CityError::Analysis(error.to_string());
+        // Free first: how near they come says who can hit at all.
+        let mut free: Vec<Peaks> = Vec::with_capacity(jobs.len());
+        let mut seen = 0;
+        let all = jobs.iter().map(|job| self.row(job, &motions, false));
+        jostle_batch::run(&motions.own, all, &options, |_, peaks| {
+            seen += peaks.gaps.len();
+            free.push(peaks);
+            show(seen / 2);
+            if stop() {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        })
+        .map_err(fault)?;
+        if free.len() < jobs.len() {
+            return Err(CityError::Stopped);
+        }
+        let struck: Vec<usize> = (0..jobs.len())
+            .filter(|at| {
+                let job = &jobs[*at];
+                job.line.pairs.iter().enumerate().any(|(gap, pair)| {
+                    let width = self.width(*pair, job.draw);
+                    width.is_some_and(|own| closing(&free[*at], gap) > own)
+                })
+            })
+            .collect();
+        let mut with: BTreeMap<usize, Peaks> = BTreeMap::new();
+        let hit = struck.iter().map(|at| self.row(&jobs[*at], &motions, true));
+        jostle_batch::run(&motions.own, hit, &options, |at, peaks| {
+            with.insert(struck[at], peaks);
+            show(total / 2 + total * with.len() / (2 * struck.len().max(1)));
+            if stop() {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        })
+        .map_err(fault)?;
+        if with.len() < struck.len() {
+            return Err(CityError::Stopped);
+        }
+        // Some of those that touch are run again in full.
+        let share = (self.file.sample * total).div_ceil(self.cases().max(1));
+        let wanted = match self.file.sample {
+            0 => 0,
+            _ => share.max(struck.len() / SAMPLE_EVERY),
+        };
+        let every = (struck.len() / wanted.max(1)).max(1);
+        let chosen = struck.iter().step_by(every).take(wanted);
+        let mut sample = Sampled::default();
+        for at in chosen {
+            if stop() {
+                return Err(CityError::Stopped);
+            }
+            let row = self.row(&jobs[*at], &motions, true);
+            let building = &self.inventory.buildings[jobs[*at].line.buildings[0]].id;
+            let title = format!("building {building} and its row in draw {}", jobs[*at].draw);
+            sample.add(&row, &motions.own[row.motion], &options, &title)?;
+        }
+        let mut cases = Vec::with_capacity(total);
+        for (at, job) in jobs.iter().enumerate() {
+            cases.extend(self.cases_of(job, &free[at], with.get(&at)));
+        }
+        cases.sort_by_key(|own| (own.pair, own.draw, own.motion));
+        let facts = [
+            ("sample", sample.to_json()),
+            ("fingerprint", self.fingerprint.clone()),
+        ];
+        write_values_parquet(path, &self.file.title, &facts, case_columns(&cases))?;
+        Ok(())
+    }
+
+    /// Every row of some blocks in every draw under every motion.
+    fn jobs(&self, own: &[Block]) -> Vec<Job> {
+        let mut jobs = Vec::new();
+        for draw in 0..self.file.draws {
+            for block in own {
+                let lines = self.lines(block, draw, |width| width);
+                for motion in 0..self.motions.len() {
+                    jobs.extend(lines.iter().map(|line| Job {
+                        line: line.clone(),
+                        draw,
+                        motion,
+                    }));
+                }
+            }
+        }
+        jobs
+    }
+
+    /// The rows of a block in a draw, cut at the widest gaps; `rank` may order them otherwise.
+    pub(crate) fn lines(&self, block: &Block, draw: usize, rank: impl Fn(f64) -> f64) -> Vec<Line> {
+        rows(block, &self.neighbours.pairs, |pair| {
+            rank(self.width(pair, draw).unwrap_or(0.0))
+        })
+    }
+
+    /// The gap of a pair in a draw.
+    pub(crate) fn width(&self, pair: usize, draw: usize) -> Option<f64> {
+        let own = &self.neighbours.pairs[pair];
+        self.gaps()
+            .draw(self.pair_ids[pair], own.distance, draw as u64)
+    }
+
+    pub(crate) fn gaps(&self) -> GapWidths {
+        GapWidths {
+            median: self.file.gap_median,
+            scatter: self.file.gap_scatter,
+            party_wall: self.file.party_wall,
+        }
+    }
+
+    /// Buildings, gaps and motion of a row.
+    fn row(&self, job: &Job, motions: &Directed, contact: bool) -> Row {
+        let draw = job.draw as u64;
+        let structure = |at: &usize| self.structures[*at].drawn(draw, self.file.scatter);
+        let buildings: Vec<_> = job.line.buildings.iter().map(structure).collect();
+        let gaps = job.line.pairs.iter().enumerate().map(|(at, pair)| {
+            let scatter = self.file.contact_scatter;
+            let factor = if scatter > 0.0 {
+                lognormal(self.pair_ids[*pair], draw, "contact", scatter)
+            } else {
+                1.0
+            };
+            let width = self.width(*pair, job.draw);
+            let law = Law::HertzDamp {
+                stiffness: self.file.contact_stiffness * factor,
+                restitution: self.file.restitution,
+            };
+            let law = (contact && width.is_some()).then_some(law);
+            Gap::between(
+                &buildings[at],
+                &buildings[at + 1],
+                width.unwrap_or(0.0),
+                law,
+                0.0,
+            )
+        });
+        Row {
+            gaps: gaps.collect(),
+            motion: motions.of(job.motion, self.direction(&job.line)),
+            scale: 1.0,
+            buildings,
+        }
+    }
+
+    /// A pair as a row of its own in a draw under a motion, and that motion.
+    pub(crate) fn pair_row(&self, pair: usize, draw: usize, motion: usize) -> (Row, Motion) {
+        let line = Line {
+            buildings: self.neighbours.pairs[pair].buildings.to_vec(),
+            pairs: vec![pair],
+        };
+        let jobs = [Job { line, draw, motion }];
+        let motions = self.directed(&jobs);
+        let row = self.row(&jobs[0], &motions, true);
+        let own = motions.own[row.motion].clone();
+        (row, own)
+    }
+
+    /// Whether the motions have directions in plan.
+    fn has_directions(&self) -> bool {
+        self.motions.iter().any(|own| own.bearing.is_some())
+    }
+
+    /// Direction of a row from left to right, in steps of ten degrees; 0 where it does not matter.
+    fn direction(&self, line: &Line) -> usize {
+        if !self.has_directions() {
+            return 0;
+        }
+        let pair: &Pair = &self.neighbours.pairs[line.pairs[0]];
+        let turned = if pair.buildings[0] == line.buildings[0] {
+            0.0
+        } else {
+            180.0
+        };
+        let angle = (pair.normal.to_degrees() + turned).rem_euclid(360.0);
+        (angle / DIRECTION).round() as usize % (360.0 / DIRECTION) as usize
+    }
+
+    /// The motions along the rows of some jobs.
+    fn directed(&self, jobs: &[Job]) -> Directed {
+        let mut wanted: Vec<(usize, usize)> = jobs
+            .iter()
+            .map(|job| (job.motion, self.direction(&job.line)))
+            .collect();
+        wanted.sort_unstable();
+        wanted.dedup();
+        let own = wanted
+            .iter()
+            .map(|(motion, direction)| along(&self.motions[*motion], *direction as f64 * DIRECTION))
+            .collect();
+        Directed { wanted, own }
+    }
+
+    fn cases_of(&self, job: &Job, free: &Peaks, with: Option<&Peaks>) -> Vec<Case> {
+        let of = |peaks: &Peaks, at: usize| {
+            let structure = &self.structures[job.line.buildings[at]];
+            let drift = peaks.buildings[at]
+                .drift
+                .iter()
+                .copied()
+                .fold(0.0, f64::max);
+            let ratio = drift / structure.storey_height;
+            let acceleration = peaks.buildings[at]
+                .acceleration
+                .iter()
+                .copied()
+                .fold(0.0, f64::max);
+            (ratio, acceleration, structure.state(ratio))
+        };
+        let with = with.unwrap_or(free);
+        let pairs = job.line.pairs.iter().enumerate();
+        pairs
+            .map(|(gap, pair)| {
+                // The pair names its buildings in the order of the inventory, the row from left to right.
+                let mut sides = [gap, gap + 1];
+                if job.line.buildings[gap] != self.neighbours.pairs[*pair].buildings[0] {
+                    sides.swap(0, 1);
+                }
+                let contacts = &with.gaps[gap];
+                let mut case = Case {
+                    pair: *pair,
+                    draw: job.draw,
+                    motion: job.motion,
+                    row: job.line.buildings.len(),
+                    gap: self.width(*pair, job.draw),
+                    closing: closing(free, gap),
+                    force: contacts.iter().map(|own| own.force).fold(0.0, f64::max),
+                    impulse: contacts.iter().map(|own| own.impulse).fold(0.0, f64::max),
+                    impacts: contacts.iter().map(|own| own.impacts as usize).sum(),
+                    column_impacts: contacts
+                        .iter()
+                        .filter(|own| own.column)
+                        .map(|own| own.impacts as usize)
+                        .sum(),
+                    ..Case::default()
+                };
+                for (side, at) in sides.into_iter().enumerate() {
+                    for (which, peaks) in [free, with].into_iter().enumerate() {
+                        let (drift, acceleration, state) = of(peaks, at);
+                        case.drift[which][side] = drift;
+                        case.acceleration[which][side] = acceleration;
+                        case.state[which][side] = state;
+                    }
+                }
+                case
+            })
+            .collect()
+    }
+}
+
+/// Motions along rows, each once.
+struct Directed {
+    wanted: Vec<(usize, usize)>,
+    own: Vec<Motion>,
+}
+
+impl Directed {
+    fn of(&self, motion: usize, direction: usize) -> usize {
+        self.wanted
+            .binary_search(&(motion, direction))
+            .unwrap_or_default()
+    }
+}
+
+/// Greatest approach of the buildings of a gap \[m\].
+fn closing(peaks: &Peaks, gap: usize) -> f64 {
+    peaks.gaps[gap]
+        .iter()
+        .map(|own| own.closing)
+        .fold(f64::NEG_INFINITY, f64::max)
+        .max(0.0)
+}
+
+/// A motion along a direction \[°\]; one without a direction of its own acts along every row.
+fn along(motion: &GroundMotion, direction: f64) -> Motion {
+    let step = match &motion.wave {
+        jostle::Wave::Sampled { step, .. } => *step,
+        jostle::Wave::Sine { period, .. } | jostle::Wave::Ricker { period, .. } => period / 200.0,
+    };
+    let (one, other) = match &motion.bearing {
+        None => (1.0, 0.0),
+        Some(own) => {
+            let angle = direction.to_radians() - own.angle;
+            (libm::cos(angle), libm::sin(angle))
+        }
+    };
+    let across = motion.bearing.as_ref().and_then(|own| own.across.as_ref());
+    let points = (motion.duration / step).round() as usize + 1;
+    let acceleration = (0..points).map(|at| {
+        let time = at as f64 * step;
+        one * motion.acceleration(time) + across.map_or(0.0, |own| other * own.acceleration(time))
+    });
+    Motion {
+        step,
+        acceleration: acceleration.collect(),
+    }
+}
+
+/// Blocks of about as many cases together.
+fn parts(blocks: &[Block], each: usize, size: usize) -> Vec<std::ops::Range<usize>> {
+    let (mut parts, mut first, mut cases) = (Vec::new(), 0, 0);
+    for (at, own) in blocks.iter().enumerate() {
+        cases += own.pairs.len() * each;
+        if cases >= size {
+            parts.push(first..at + 1);
+            (first, cases) = (at + 1, 0);
+        }
+    }
+    if first < blocks.len() {
+        parts.push(first..blocks.len());
+    }
+    parts
+}
+
+fn part_path(folder: &Path, part: usize) -> PathBuf {
+    folder.join("runs").join(format!("part-{part:05}.parquet"))
+}
+
+/// A column of a table of cases: its name, and its number of a case.
+type Column = (&'static str, fn(&Case) -> f64);
+
+const WHOLE: [Column; 10] = [
+    ("pair", |own| own.pair as f64),
+    ("draw", |own| own.draw as f64),
+    ("motion", |own| own.motion as f64),
+    ("row_buildings", |own| own.row as f64),
+    ("impacts", |own| own.impacts as f64),
+    ("column_impacts", |own| own.column_impacts as f64),
+    ("left_state_alone", |own| own.state[0][0] as f64),
+    ("right_state_alone", |own| own.state[0][1] as f64),
+    ("left_state", |own| own.state[1][0] as f64),
+    ("right_state", |own| own.state[1][1] as f64),
+];
+const REAL: [Column; 11] = [
+    ("closing_m", |own| own.closing),
+    ("force_n", |own| own.force),
+    ("impulse_ns", |own| own.impulse),
+    ("left_drift_ratio_alone", |own| own.drift[0][0]),
+    ("right_drift_ratio_alone", |own| own.drift[0][1]),
+    ("left_drift_ratio", |own| own.drift[1][0]),
+    ("right_drift_ratio", |own| own.drift[1][1]),
+    ("left_acceleration_alone_m_s2", |own| own.acceleration[0][0]),
+    ("right_acceleration_alone_m_s2", |own| {
+        own.acceleration[0][1]
+    }),
+    ("left_acceleration_m_s2", |own| own.acceleration[1][0]),
+    ("right_acceleration_m_s2", |own| own.acceleration[1][1]),
+];
+
+fn case_columns(cases: &[Case]) -> Vec<(String, Values)> {
+    let mut columns: Vec<(String, Values)> = WHOLE
+        .iter()
+        .map(|(name, of)| {
+            let values = cases.iter().map(|own| Some(of(own) as i32));
+            ((*name).to_owned(), Values::Whole(values.collect()))
+        })
+        .collect();
+    columns.push((
+        "gap_m".to_owned(),
+        Values::Instant(cases.iter().map(|own| own.gap).collect()),
+    ));
+    columns.extend(REAL.iter().map(|(name, of)| {
+        // Batches step with seven digits; the rest would only fill the disk.
+        let values = cases.iter().map(|own| f64::from(of(own) as f32));
+        ((*name).to_owned(), Values::Real(values.collect()))
+    }));
+    columns
+}
+
+/// Cases of a part.
+pub(crate) fn read_cases(path: &Path) -> Result<(Vec<Case>, Table), CityError> {
+    let table = Table::read(path)?;
+    let number = |name: &str| table.numbers(path, name);
+    let whole = |name: &str| -> Result<Vec<usize>, CityError> {
+        Ok(number(name)?.iter().map(|own| *own as usize).collect())
+    };
+    let of = |own: &[f64], at: usize| own[at];
+    let [pair, draw, motion, row] = [
+        whole("pair")?,
+        whole("draw")?,
+        whole("motion")?,
+        whole("row_buildings")?,
+    ];
+    let [impacts, column_impacts] = [whole("impacts")?, whole("column_impacts")?];
+    let states = [
+        [whole("left_state_alone")?, whole("right_state_alone")?],
+        [whole("left_state")?, whole("right_state")?],
+    ];
+    let drifts = [
+        [
+            number("left_drift_ratio_alone")?,
+            number("right_drift_ratio_alone")?,
+        ],
+        [number("left_drift_ratio")?, number("right_drift_ratio")?],
+    ];
+    let accelerations = [
+        [
+            number("left_acceleration_alone_m_s2")?,
+            number("right_acceleration_alone_m_s2")?,
+        ],
+        [
+            number("left_acceleration_m_s2")?,
+            number("right_acceleration_m_s2")?,
+        ],
+    ];
+    let [gap, closing, force, impulse] = [
+        number("gap_m")?,
+        number("closing_m")?,
+        number("force_n")?,
+        number("impulse_ns")?,
+    ];
+    let cases = (0..table.rows)
+        .map(|at| Case {
+            pair: pair[at],
+            draw: draw[at],
+            motion: motion[at],
+            row: row[at],
+            gap: Some(gap[at]).filter(|own| own.is_finite()),
+            closing: closing[at],
+            force: force[at],
+            impulse: impulse[at],
+            impacts: impacts[at],
+            column_impacts: column_impacts[at],
+            drift: drifts.map(|own| own.map(|own| of(own, at))),
+            acceleration: accelerations.map(|own| own.map(|own| of(own, at))),
+            state: [0, 1].map(|which| [0, 1].map(|side| states[which][side][at])),
+        })
+        .collect();
+    Ok((cases, table))
+}
+
+/// A hash as a place to copy a file to.
+struct HashWriter<'a>(&'a mut Sha256);
+
+impl std::io::Write for HashWriter<'_> {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.0.update(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}

@@ -1,0 +1,157 @@
+//! Runs of a small made-up city.
+
+use std::path::Path;
+
+use jostle_city::{City, CityError, RunOptions, example_city};
+use jostle_io::{CityFile, Format};
+
+/// A city of some buildings in a folder.
+fn city(folder: &Path, buildings: usize, extra: &str) -> City {
+    std::fs::write(
+        folder.join("footprints.geojson"),
+        example_city(buildings, 7),
+    )
+    .unwrap();
+    let text = format!(
+        "[inventory]\nfile = \"footprints.geojson\"\n[motion]\nrecord = \"el-centro-1940-ns\"\nduration = \"8 s\"\n{extra}"
+    );
+    City::new(CityFile::parse("city.toml", &text, Format::Toml, folder).unwrap()).unwrap()
+}
+
+fn run(
+    own: &City,
+    out: &Path,
+    shard: Option<(usize, usize)>,
+) -> Result<jostle_city::Done, CityError> {
+    own.run(out, RunOptions { shard }, &|| false, &mut |_| {})
+}
+
+fn bytes_of(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let mut all: Vec<_> = std::fs::read_dir(folder.join("runs"))
+        .unwrap()
+        .map(|own| own.unwrap().path())
+        .map(|own| {
+            (
+                own.file_name().unwrap().to_string_lossy().into_owned(),
+                std::fs::read(&own).unwrap(),
+            )
+        })
+        .collect();
+    all.sort();
+    all
+}
+
+#[test]
+fn a_run_is_the_same_for_any_threads_and_shards_and_goes_on_where_it_stopped() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "[run]\ndraws = 8\nsample = 0\n[gap]\nmedian = \"12 mm\"\n";
+    let own = city(folder.path(), 150, text).in_parts_of(50);
+    let of = |name: &str| folder.path().join(name);
+    let done = run(&own, &of("whole"), None).unwrap();
+    assert_eq!((done.cases, done.missing), (own.cases(), 0));
+    let whole = bytes_of(&of("whole"));
+    assert!(whole.len() > 1, "{} parts", whole.len());
+    let one = rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .build()
+        .unwrap();
+    let first = one
+        .install(|| run(&own, &of("shards"), Some((1, 2))))
+        .unwrap();
+    assert!(first.missing > 0);
+    assert!(own.answers(&of("shards")).is_err());
+    run(&own, &of("shards"), Some((2, 2))).unwrap();
+    assert!(bytes_of(&of("shards")) == whole);
+    // Stopped after the first part; the next run makes the others only.
+    let seen = std::cell::Cell::new(0);
+    let stopped = own.run(
+        &of("stopped"),
+        RunOptions::default(),
+        &|| seen.get() > own.cases() / 2,
+        &mut |done| seen.set(done.cases),
+    );
+    assert!(matches!(stopped, Err(CityError::Stopped)));
+    let kept = bytes_of(&of("stopped"));
+    assert!(!kept.is_empty() && kept.len() < whole.len());
+    run(&own, &of("stopped"), None).unwrap();
+    assert!(bytes_of(&of("stopped")) == whole);
+    // Another city does not go into the same folder.
+    let other = city(folder.path(), 150, "[run]\ndraws = 3\n");
+    let error = run(&other, &of("whole"), None)
+        .expect_err("another city")
+        .to_string();
+    assert!(error.contains("another city file"), "{error}");
+}
+
+#[test]
+fn neighbours_hit_exactly_where_the_free_ones_come_nearer_than_the_gap() {
+    let folder = tempfile::tempdir().unwrap();
+    let own = city(
+        folder.path(),
+        200,
+        "[run]\ndraws = 20\nsample = 12\ntolerance = 0.001\n[gap]\nmedian = \"8 mm\"\n",
+    );
+    let out = folder.path().join("out");
+    run(&own, &out, None).unwrap();
+    let cases = own.cases_for_tests(&out).unwrap();
+    let (mut struck, mut expected, mut alone) = (0, 0.0, 0);
+    let gaps = jostle_city::GapWidths {
+        median: 0.008,
+        scatter: 0.8,
+        party_wall: 0.0,
+    };
+    for case in &cases {
+        let [closing, gap, row, impacts] = [case[0], case[1], case[2], case[3]];
+        if row == 2.0 {
+            assert_eq!(closing > gap, impacts > 0.0, "closing {closing}, gap {gap}");
+            struck += usize::from(impacts > 0.0);
+            let distance = own.neighbours.pairs[case[4] as usize].distance;
+            expected += gaps.probability_below(closing, distance);
+            alone += 1;
+        }
+        if impacts == 0.0 && row == 2.0 {
+            assert_eq!(case[5], case[6]);
+        }
+    }
+    assert!(alone > 200 && struck > 50, "{alone} {struck}");
+    // The closing curve counts what drawn gaps only sample: three standard deviations of a count.
+    let deviation = (expected * (1.0 - expected / f64::from(alone))).sqrt();
+    assert!(
+        (struck as f64 - expected).abs() < 3.0 * deviation,
+        "{struck} {expected}"
+    );
+    let answers = own.answers(&out).unwrap();
+    assert!(answers.sampled.rows >= 12);
+    let (within, worst) = answers.sampled.within(1e-3).unwrap();
+    assert!(within >= 0.99 && worst < 5e-3, "{within} {worst}");
+    for own in answers.buildings.iter().flatten() {
+        assert!(
+            own.struck.windows(2).all(|own| own[0] >= own[1]),
+            "{:?}",
+            own.struck
+        );
+        for states in own.states {
+            assert!((states.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn motions_with_directions_act_along_the_rows() {
+    let folder = tempfile::tempdir().unwrap();
+    // Rows run east: a motion to the north does not move them.
+    let own = city(
+        folder.path(),
+        30,
+        "angle = \"90 deg\"\n[run]\ndraws = 2\nsample = 0\n[gap]\nmedian = \"2 mm\"\n",
+    );
+    let out = folder.path().join("out");
+    run(&own, &out, None).unwrap();
+    let cases = own.cases_for_tests(&out).unwrap();
+    assert!(!cases.is_empty());
+    assert!(
+        cases.iter().all(|own| own[3] == 0.0 && own[0] < 1e-6),
+        "{:?}",
+        cases[0]
+    );
+}
