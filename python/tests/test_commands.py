@@ -130,6 +130,10 @@ TABLE: dict[str, tuple[str, dict[str, str]] | Why] = {
             "--force": "Model.save:force",
         },
     ),
+    **{
+        f"city {step}": Why("a city runs from files to files; its tables are Parquet and CSV, its models open with Model.load")
+        for step in ("check", "pairs", "run", "report", "model", "example")
+    },
     "mcp": Why("an assistant starts it as a program"),
     "compare": (
         "compare",

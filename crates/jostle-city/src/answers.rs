@@ -31,6 +31,11 @@ pub struct BuildingAnswer {
     pub drift: [f64; 2],
 }
 
+impl BuildingAnswer {
+    /// Places of half the median, the median and its double in `struck`.
+    pub const HALF_MEDIAN_DOUBLE: [usize; 3] = [OWN - 2, OWN, OWN + 2];
+}
+
 /// What is known of a pair after the run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PairAnswer {
@@ -49,7 +54,8 @@ pub struct PairAnswer {
 }
 
 impl PairAnswer {
-    /// How much a pair deserves a look: strikes on columns, then worse states, then strikes.
+    /// How much a pair deserves a look: four times the share of worse states, twice that of strikes on columns, and the probability
+    /// of a strike \[–\].
     #[must_use]
     pub fn concern(&self) -> f64 {
         2.0 * self.column + 4.0 * self.worse + self.struck

@@ -1,25 +1,23 @@
-//! Numbers and texts of Parquet files that earlier steps wrote.
+//! Numbers of Parquet files that earlier steps wrote.
 
 use std::collections::HashMap;
 use std::path::Path;
 
-use parquet::basic::Type;
 use parquet::column::reader::ColumnReader;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 
 use crate::fault::CityError;
 
-/// Columns of a table by their names, and the facts about it.
+/// Columns of numbers of a table by their names, and the facts about it.
 #[derive(Debug, Default)]
 pub(crate) struct Table {
     numbers: HashMap<String, Vec<f64>>,
-    texts: HashMap<String, Vec<String>>,
     pub(crate) facts: HashMap<String, String>,
     pub(crate) rows: usize,
 }
 
 impl Table {
-    /// Reads a table. Absent numbers become NaN; columns of bytes that are no text are left out.
+    /// Reads a table. Absent numbers become NaN; other columns are left out.
     pub(crate) fn read(path: &Path) -> Result<Self, CityError> {
         let fault = |error: &dyn std::fmt::Display| CityError::of(path, error);
         let file = jostle_io::open_file(path).map_err(|error| fault(&error))?;
@@ -71,18 +69,6 @@ impl Table {
                         let values = spread(values, &levels, optional);
                         own.numbers.entry(name).or_default().extend(values);
                     }
-                    ColumnReader::ByteArrayColumnReader(reader)
-                        if group.metadata().column(at).column_type() == Type::BYTE_ARRAY =>
-                    {
-                        let values = read!(reader);
-                        let texts: Option<Vec<String>> = values
-                            .iter()
-                            .map(|own| std::str::from_utf8(own.data()).ok().map(str::to_owned))
-                            .collect();
-                        if let Some(texts) = texts {
-                            own.texts.entry(name).or_default().extend(texts);
-                        }
-                    }
                     _ => {}
                 }
             }
@@ -93,14 +79,6 @@ impl Table {
     /// A column of numbers.
     pub(crate) fn numbers(&self, path: &Path, name: &str) -> Result<&[f64], CityError> {
         let found = self.numbers.get(name).filter(|own| own.len() == self.rows);
-        found
-            .map(Vec::as_slice)
-            .ok_or_else(|| CityError::of(path, format!("has no column \"{name}\"")))
-    }
-
-    /// A column of texts.
-    pub(crate) fn texts(&self, path: &Path, name: &str) -> Result<&[String], CityError> {
-        let found = self.texts.get(name).filter(|own| own.len() == self.rows);
         found
             .map(Vec::as_slice)
             .ok_or_else(|| CityError::of(path, format!("has no column \"{name}\"")))

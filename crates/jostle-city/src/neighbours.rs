@@ -39,13 +39,6 @@ impl Position {
             Self::Corner => "corner",
         }
     }
-
-    /// Of its name.
-    pub(crate) fn named(name: &str) -> Option<Self> {
-        [Self::End, Self::Inside, Self::Corner]
-            .into_iter()
-            .find(|own| own.name() == name)
-    }
 }
 
 /// Two buildings within reach of each other.

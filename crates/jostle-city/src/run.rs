@@ -153,6 +153,35 @@ impl City {
         Ok(own)
     }
 
+    /// The city of a folder that a run wrote into, by the city file and the options that it was run with.
+    ///
+    /// # Errors
+    ///
+    /// When the folder holds no run, or its city file or inventory is gone or has changed.
+    pub fn of_folder(folder: &Path) -> Result<Self, CityError> {
+        let known = tables::Known::read(folder)?;
+        let mut file = CityFile::load(&known.city_file)
+            .map_err(|error| CityError::Input(error.to_string()))?;
+        file.draws = known.draws;
+        file.tolerance = known.tolerance;
+        let own = Self::new(file)?;
+        if own.fingerprint != known.fingerprint {
+            return Err(CityError::of(
+                folder,
+                format!(
+                    "{}, its inventory or its motion has changed since the run; run it again into another folder",
+                    known.city_file.display()
+                ),
+            ));
+        }
+        Ok(own)
+    }
+
+    /// The motions as they are scaled.
+    pub(crate) fn resolved(&self) -> &[GroundMotion] {
+        &self.motions
+    }
+
     /// Names of the motions.
     #[must_use]
     pub fn motions(&self) -> Vec<String> {
@@ -169,13 +198,26 @@ impl City {
     fn fingerprint(&self) -> Result<String, CityError> {
         let mut hash = Sha256::new();
         hash.update(env!("CARGO_PKG_VERSION"));
-        let file = CityFile {
-            title: String::new(),
-            sample: 0,
-            warnings: Vec::new(),
-            ..self.file.clone()
-        };
-        hash.update(format!("{file:?}"));
+        // Everything that decides a number, and no path: the same city may be moved.
+        let file = &self.file;
+        let buildings = (
+            file.metres,
+            &file.columns,
+            file.reach,
+            &file.kind,
+            &file.level,
+            file.scatter,
+        );
+        let gaps = (file.gap_median, file.gap_scatter, file.party_wall);
+        let contact = (
+            file.contact_stiffness,
+            file.restitution,
+            file.contact_scatter,
+        );
+        hash.update(format!(
+            "{:?}",
+            (buildings, gaps, contact, file.draws, file.tolerance)
+        ));
         let path = &self.file.inventory;
         let mut read = jostle_io::open_file(path).map_err(|error| CityError::of(path, error))?;
         std::io::copy(&mut read, &mut HashWriter(&mut hash))
@@ -205,7 +247,7 @@ impl City {
     ) -> Result<Done, CityError> {
         let runs = folder.join("runs");
         std::fs::create_dir_all(&runs).map_err(|error| CityError::of(&runs, error))?;
-        tables::claim(folder, &self.fingerprint)?;
+        tables::claim(folder, &self.file, &self.fingerprint)?;
         tables::write(folder, self)?;
         let each = self.file.draws * self.motions.len();
         let mut done = Done {

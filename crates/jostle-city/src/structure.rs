@@ -78,6 +78,9 @@ pub(crate) fn structures(
                 .map_err(|problem| CityError::Input(format!("buildings.level: {problem}")))?,
         ),
     };
+    // Also where every building has a type of its own.
+    Class::of(&file.kind, 1, Level::Moderate)
+        .map_err(|problem| CityError::Input(format!("buildings.type: {problem}")))?;
     let mut mends = Vec::new();
     let mut all = Vec::with_capacity(inventory.buildings.len());
     for own in &inventory.buildings {

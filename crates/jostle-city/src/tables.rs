@@ -1,10 +1,10 @@
 //! Tables of a city: buildings, pairs, blocks, and what was mended.
 
 use std::fmt::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use geo::Polygon;
-use jostle_io::{Values, csv_field, write_atomically, write_values_parquet};
+use jostle_io::{CityFile, Values, csv_field, write_atomically, write_values_parquet};
 use serde_json::json;
 
 use crate::blocks::Block;
@@ -230,19 +230,56 @@ fn mended_csv(mends: &[Mend]) -> String {
     text
 }
 
-/// Says whose results a folder holds; refuses one that holds those of another city file.
-pub(crate) fn claim(folder: &Path, fingerprint: &str) -> Result<(), CityError> {
-    let path = folder.join("city.json");
-    if let Ok(text) = jostle_io::read_text_file(&path, 1 << 20) {
-        let known: serde_json::Value = serde_json::from_str(&text).unwrap_or_default();
-        if known["fingerprint"].as_str() != Some(fingerprint) {
-            return Err(CityError::of(
-                folder,
-                "holds the run of another city file, inventory or motion; choose another folder with --out, or remove it",
-            ));
+/// What a folder says of its run.
+pub(crate) struct Known {
+    pub(crate) city_file: PathBuf,
+    pub(crate) draws: usize,
+    pub(crate) tolerance: f64,
+    pub(crate) fingerprint: String,
+}
+
+impl Known {
+    pub(crate) fn read(folder: &Path) -> Result<Self, CityError> {
+        let path = folder.join(KNOWN);
+        if !path.exists() {
+            return Err(CityError::lacks(&path, "run"));
         }
+        let text = jostle_io::read_text_file(&path, 1 << 20)
+            .map_err(|error| CityError::of(&path, error))?;
+        let known: serde_json::Value =
+            serde_json::from_str(&text).map_err(|error| CityError::of(&path, error))?;
+        let own = || {
+            Some(Self {
+                city_file: PathBuf::from(known["city_file"].as_str()?),
+                draws: usize::try_from(known["draws"].as_u64()?).ok()?,
+                tolerance: known["tolerance"].as_f64()?,
+                fingerprint: known["fingerprint"].as_str()?.to_owned(),
+            })
+        };
+        own().ok_or_else(|| CityError::of(&path, "is not what `jostle city run` wrote"))
     }
-    let known = json!({ "jostle": env!("CARGO_PKG_VERSION"), "fingerprint": fingerprint });
-    write_atomically(&path, format!("{known:#}\n").as_bytes())?;
+}
+
+/// The file that says whose results a folder holds.
+const KNOWN: &str = "city.json";
+
+/// Says whose results a folder holds; refuses one that holds those of another city file.
+pub(crate) fn claim(folder: &Path, file: &CityFile, fingerprint: &str) -> Result<(), CityError> {
+    if folder.join(KNOWN).exists() && Known::read(folder)?.fingerprint != fingerprint {
+        return Err(CityError::of(
+            folder,
+            "holds the run of another city file, inventory or motion, or with other options; choose another folder with \
+             --out, or remove it",
+        ));
+    }
+    let whole = std::path::absolute(&file.path).unwrap_or_else(|_| file.path.clone());
+    let known = json!({
+        "jostle": env!("CARGO_PKG_VERSION"),
+        "city_file": whole,
+        "draws": file.draws,
+        "tolerance": file.tolerance,
+        "fingerprint": fingerprint,
+    });
+    write_atomically(&folder.join(KNOWN), format!("{known:#}\n").as_bytes())?;
     Ok(())
 }

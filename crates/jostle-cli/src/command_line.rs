@@ -64,6 +64,9 @@ pub(crate) enum Command {
     Method(MethodArgs),
     /// Compute cracking and yield of reinforced-concrete sections, by formulas and by fibre analysis
     Section(SectionArgs),
+    /// Find which neighbours of a city collide, from footprints to a map
+    #[command(subcommand)]
+    City(Box<crate::city::CityCommand>),
     /// Show, convert, make and select ground motions
     #[command(subcommand)]
     Motion(Box<crate::motion::MotionCommand>),

@@ -2,6 +2,7 @@
 
 mod args;
 mod check;
+mod city;
 mod collide;
 mod combinations;
 mod command_line;
@@ -51,6 +52,7 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
         Command::Run(args) => run::run(&args),
         Command::Check(args) => check::check(&args),
         Command::Modes(args) => modes::modes(&args),
+        Command::City(command) => city::city(&command),
         Command::Collide(args) => collide::collide(&args),
         Command::Compare(args) => compare::compare(&args),
         Command::ContactAdvice(args) => contact_advice::contact_advice(&args),

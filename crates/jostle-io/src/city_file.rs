@@ -24,6 +24,8 @@ pub enum CityLevel {
 /// A city file, read and checked as far as that is possible without its inventory.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CityFile {
+    /// Where it stands; empty for a text.
+    pub path: PathBuf,
     /// Title of the pages.
     pub title: String,
     /// Path of the footprints.
@@ -77,7 +79,11 @@ impl CityFile {
     pub fn load(path: &Path) -> Result<Self, InputError> {
         let (name, text) = model_file::read_text(path)?;
         let folder = path.parent().unwrap_or(Path::new(""));
-        Self::parse(&name, &text, Format::of_path(path), folder)
+        let read = Self::parse(&name, &text, Format::of_path(path), folder)?;
+        Ok(Self {
+            path: path.to_owned(),
+            ..read
+        })
     }
 
     /// Reads the text of a city file. `name` stands in messages; paths start from `folder`.
@@ -165,6 +171,7 @@ fn read_root(
     let sample = count(reader, run.as_ref(), "sample", 20, [0, 100_000]);
     let (inventory, metres, columns, reach) = inventory?;
     Some(CityFile {
+        path: PathBuf::new(),
         title: title.unwrap_or_else(|| "City".to_owned()),
         inventory,
         metres,

@@ -57,6 +57,7 @@ pub use calculation::{Calculation, TitleBlockPart};
 pub use collisions::{CollidedLaw, Collisions, loops_svg, render_collisions};
 pub use comparison::{ComparedHistory, ComparedImpactTimes, ComparisonPage, render_comparison};
 pub use contact_box::ContactBox;
+pub use document::render_document;
 pub use method::render_method;
 pub use motion_page::{MotionPage, render_motion};
 pub use pushover::{Demand, render_pushover};

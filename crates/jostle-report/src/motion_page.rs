@@ -4,10 +4,10 @@ use jostle_motion::{
     Accelerogram, Measures, MotionFault, Reading, SpectrumCurve, displacement, fourier_spectrum,
     husid, response_spectrum, spaced_periods, velocity,
 };
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{Markup, html};
 use serde_json::{Value, json};
 
-use crate::document::{POLICY, STYLE, theme_button};
+use crate::document::render_document;
 use crate::encode::Packed;
 use crate::format;
 use crate::message;
@@ -79,35 +79,7 @@ pub fn render_motion(page: &MotionPage) -> Result<String, MotionFault> {
 }
 
 pub(crate) fn frame(title: &str, kicker: &str, body: &Markup, data: &Value) -> String {
-    // A closing tag inside a name must not end the script.
-    let data = data.to_string().replace('<', "\\u003c");
-    let script = SCRIPTS.concat();
-    let page = html! {
-        (DOCTYPE)
-        html lang=(message::language_code()) {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                meta http-equiv="Content-Security-Policy" content=(POLICY);
-                title { (title) " – jostle" }
-                link rel="icon" href="data:,";
-                style { (PreEscaped(STYLE)) }
-            }
-            body {
-                header.head {
-                    div { p.kicker { (kicker) } h1 { (title) } }
-                    (theme_button())
-                }
-                main { (body) }
-                footer { (message::made_by_jostle_version(crate::version())) }
-                noscript { p.note { (message::the_charts_need_javascript()) } }
-                script #page-data type="application/json" { (PreEscaped(data)) }
-                (message::for_scripts(&script))
-                script type="module" { (PreEscaped(script)) }
-            }
-        }
-    };
-    page.into_string()
+    render_document(title, kicker, &body.0, data, "", &SCRIPTS.concat())
 }
 
 pub(crate) fn spectrum_controls(quantities: bool) -> Markup {

@@ -75,7 +75,7 @@ pub(crate) struct StudyArgs {
 }
 
 /// `3/8`: the third of eight.
-fn shard(text: &str) -> Result<(u64, u64), String> {
+pub(crate) fn shard(text: &str) -> Result<(u64, u64), String> {
     let number = |text: &str| text.trim().parse::<u64>().ok();
     let parsed = text
         .split_once('/')

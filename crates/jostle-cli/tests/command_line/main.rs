@@ -1,5 +1,6 @@
 //! The program as a user meets it, and what holds for the whole workspace. One binary: two dozen would take longer to link.
 
+mod city;
 mod codes;
 mod collide;
 mod commands;

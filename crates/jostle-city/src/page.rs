@@ -1,0 +1,409 @@
+//! The map of a city, the list of its pairs to look at, and the same as GeoJSON and GeoParquet.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use geo::CoordsIter;
+use jostle_io::{Values, csv_field, write_atomically};
+use maud::{Markup, html};
+use serde_json::json;
+
+use crate::answers::{Answers, BuildingAnswer, MEDIANS, OWN, STATES};
+use crate::fault::CityError;
+use crate::inventory::extent;
+use crate::run::City;
+use crate::tables::{building_columns, write_buildings};
+
+/// Pairs of the list on the page.
+const LISTED: usize = 100;
+/// Names of damage states.
+pub(crate) const STATE_NAMES: [&str; STATES] =
+    ["none", "slight", "moderate", "extensive", "complete"];
+
+impl City {
+    /// Writes the results of a run: `index.html` (the map), `worst-pairs.csv`, `buildings.parquet` and `buildings.geojson`
+    /// with the answers.
+    ///
+    /// # Errors
+    ///
+    /// When parts of the run are missing, or a file cannot be written.
+    pub fn report(&self, folder: &Path) -> Result<(Answers, Vec<PathBuf>), CityError> {
+        let answers = self.answers(folder)?;
+        let order = ranked(&answers);
+        let page = folder.join("index.html");
+        write_atomically(&page, self.page(&answers, &order).as_bytes())?;
+        let worst = folder.join("worst-pairs.csv");
+        write_atomically(&worst, self.pairs_csv(&answers, &order).as_bytes())?;
+        let table = folder.join("buildings.parquet");
+        let mut columns = building_columns(&self.inventory.buildings);
+        columns.extend(self.answer_columns(&answers));
+        write_buildings(&table, &self.inventory, columns)?;
+        let map = folder.join("buildings.geojson");
+        write_atomically(&map, self.geojson(&answers).as_bytes())?;
+        Ok((answers, vec![page, worst, table, map]))
+    }
+
+    /// Columns of the answers of buildings; absent without a neighbour.
+    fn answer_columns(&self, answers: &Answers) -> Vec<(String, Values)> {
+        let real = |of: &dyn Fn(&BuildingAnswer) -> f64| {
+            Values::Instant(
+                answers
+                    .buildings
+                    .iter()
+                    .map(|own| own.as_ref().map(of))
+                    .collect(),
+            )
+        };
+        let classes = self.structures.iter().map(|own| own.class.name.to_owned());
+        let levels = self
+            .structures
+            .iter()
+            .map(|own| own.class.level.name().to_owned());
+        let half = OWN - 2;
+        let twice = OWN + 2;
+        let mut columns = vec![
+            ("class".to_owned(), Values::Text(classes.collect())),
+            ("level".to_owned(), Values::Text(levels.collect())),
+            ("p_struck".to_owned(), real(&|own| own.struck[OWN])),
+            (
+                "p_struck_half_gaps".to_owned(),
+                real(&|own| own.struck[half]),
+            ),
+            (
+                "p_struck_double_gaps".to_owned(),
+                real(&|own| own.struck[twice]),
+            ),
+            ("p_column_strike".to_owned(), real(&|own| own.column)),
+            ("drift_ratio_alone".to_owned(), real(&|own| own.drift[0])),
+            ("drift_ratio".to_owned(), real(&|own| own.drift[1])),
+        ];
+        for (which, suffix) in ["_alone", ""].into_iter().enumerate() {
+            for (state, name) in STATE_NAMES.into_iter().enumerate() {
+                columns.push((
+                    format!("p_{name}{suffix}"),
+                    real(&|own| own.states[which][state]),
+                ));
+            }
+        }
+        columns
+    }
+
+    /// Every pair, the worst first.
+    fn pairs_csv(&self, answers: &Answers, order: &[usize]) -> String {
+        let mut text = String::from(
+            "pair,left,right,position,distance_m,face_m,p_struck,p_column_strike,closing_median_m,closing_q90_m,\
+             force_median_n,force_q90_n,p_worse,p_better\n",
+        );
+        for at in order {
+            let (pair, own) = (&self.neighbours.pairs[*at], &answers.pairs[*at]);
+            let [left, right] = pair
+                .buildings
+                .map(|at| csv_field(&self.inventory.buildings[at].id));
+            let _ = writeln!(
+                text,
+                "{at},{left},{right},{},{:.3},{:.2},{:.4},{:.4},{:.5},{:.5},{:.0},{:.0},{:.4},{:.4}",
+                pair.position.name(),
+                pair.distance,
+                pair.face,
+                own.struck,
+                own.column,
+                own.closing[0],
+                own.closing[1],
+                own.force[0],
+                own.force[1],
+                own.worse,
+                own.better
+            );
+        }
+        text
+    }
+
+    fn geojson(&self, answers: &Answers) -> String {
+        let mut text = String::from("{\"type\":\"FeatureCollection\",\"features\":[\n");
+        for (at, own) in self.inventory.buildings.iter().enumerate() {
+            let outline = self.inventory.plane.outline(&own.outline);
+            let mut ring = String::new();
+            for (corner, place) in outline.exterior_coords_iter().enumerate() {
+                let comma = if corner == 0 { "" } else { "," };
+                let _ = write!(ring, "{comma}[{:.8},{:.8}]", place.x, place.y);
+            }
+            let mut known = json!({ "id": own.id, "storeys": own.likely_storeys(), "class": self.structures[at].class.name });
+            if let Some(own) = &answers.buildings[at] {
+                let round = |value: f64| (value * 1e4).round() / 1e4;
+                known["p_struck"] = json!(round(own.struck[OWN]));
+                known["p_column_strike"] = json!(round(own.column));
+                for (which, suffix) in ["_alone", ""].into_iter().enumerate() {
+                    let worse: f64 = own.states[which][2..].iter().sum();
+                    known[format!("p_moderate_or_worse{suffix}")] = json!(round(worse));
+                }
+            }
+            let comma = if at == 0 { "" } else { ",\n" };
+            let _ = write!(
+                text,
+                "{comma}{{\"type\":\"Feature\",\"properties\":{known},\"geometry\":{{\"type\":\"Polygon\",\"coordinates\":[[{ring}]]}}}}"
+            );
+        }
+        text.push_str("\n]}\n");
+        text
+    }
+
+    fn page(&self, answers: &Answers, order: &[usize]) -> String {
+        let body = self.body(answers, order);
+        let data = self.data(answers);
+        jostle_report::render_document(
+            &self.file.title,
+            "Which neighbours collide",
+            &body.into_string(),
+            &data,
+            include_str!("../assets/city.css"),
+            include_str!("../assets/city.js"),
+        )
+    }
+
+    /// Outlines and answers for the map: about forty bytes a building.
+    fn data(&self, answers: &Answers) -> serde_json::Value {
+        let corner =
+            extent(&self.inventory.buildings).map_or([0.0; 2], |own| [own.min().x, own.min().y]);
+        let (mut outlines, mut last) = (Vec::new(), [0_i64; 2]);
+        for own in &self.inventory.buildings {
+            let ring: Vec<_> = own.outline.exterior().0.iter().skip(1).collect();
+            number(&mut outlines, ring.len() as u64);
+            for place in ring {
+                for (k, value) in [place.x, place.y].into_iter().enumerate() {
+                    let here = ((value - corner[k]) * 10.0).round() as i64;
+                    let step = here - last[k];
+                    last[k] = here;
+                    number(&mut outlines, ((step << 1) ^ (step >> 63)) as u64);
+                }
+            }
+        }
+        let width = MEDIANS.len() + 1 + 2 * (STATES - 1);
+        let byte = |value: f64| (255.0 * value.clamp(0.0, 1.0)).round() as u8;
+        let mut values = Vec::with_capacity(width * answers.buildings.len());
+        for own in &answers.buildings {
+            let Some(own) = own else {
+                values.extend(std::iter::repeat_n(0, width));
+                continue;
+            };
+            values.extend(own.struck.map(byte));
+            values.push(byte(own.column));
+            for states in own.states {
+                values.extend((1..STATES).map(|state| byte(states[state..].iter().sum())));
+            }
+        }
+        let mut what: Vec<String> = Vec::new();
+        let kinds = self.structures.iter().map(|own| {
+            let name = format!("{}, {} code", own.class.name, own.class.level.name());
+            what.iter()
+                .position(|known| *known == name)
+                .unwrap_or_else(|| {
+                    what.push(name);
+                    what.len() - 1
+                })
+        });
+        let kinds: Vec<usize> = kinds.collect();
+        let known: Vec<u8> = answers
+            .buildings
+            .iter()
+            .map(|own| u8::from(own.is_some()))
+            .collect();
+        json!({
+            "count": self.inventory.buildings.len(),
+            "outlines": STANDARD.encode(outlines),
+            "known": STANDARD.encode(known),
+            "values": STANDARD.encode(values),
+            "width": width,
+            "medians_mm": MEDIANS.map(|own| 1e3 * own * self.file.gap_median),
+            "median_mm": 1e3 * self.file.gap_median,
+            "ids": self.inventory.buildings.iter().map(|own| own.id.as_str()).collect::<Vec<_>>(),
+            "storeys": self.structures.iter().map(|own| own.storeys).collect::<Vec<_>>(),
+            "kinds": kinds,
+            "what": what,
+        })
+    }
+
+    fn body(&self, answers: &Answers, order: &[usize]) -> Markup {
+        let count = self.inventory.buildings.len();
+        let with = answers.buildings.iter().flatten().count();
+        let mean = |of: &dyn Fn(&BuildingAnswer) -> f64| {
+            answers.buildings.iter().flatten().map(of).sum::<f64>() / with.max(1) as f64
+        };
+        let percent = |value: f64| format!("{:.1} %", 100.0 * value);
+        let struck = mean(&|own| own.struck[OWN]);
+        let [half, twice] = [OWN - 2, OWN + 2].map(|at| mean(&|own| own.struck[at]));
+        let millimetres = 1e3 * self.file.gap_median;
+        let moderate = [0, 1].map(|which| mean(&|own| own.states[which][2..].iter().sum()));
+        let [_, middle, high, _] = answers.drift_ratios;
+        let tiles = [
+            (
+                "Struck by a neighbour",
+                percent(struck),
+                format!(
+                    "of buildings with a neighbour, gaps with a median of {millimetres:.0} mm; {} with half of it, {} with double",
+                    percent(half),
+                    percent(twice)
+                ),
+            ),
+            (
+                "Neighbours within reach",
+                percent(with as f64 / count.max(1) as f64),
+                format!(
+                    "of {count} buildings, in {} pairs and {} blocks",
+                    self.neighbours.pairs.len(),
+                    self.blocks.len()
+                ),
+            ),
+            (
+                "Slabs strike columns",
+                percent(mean(&|own| own.column)),
+                "of buildings with a neighbour: the kind of pounding that breaks columns"
+                    .to_owned(),
+            ),
+            (
+                "Moderate damage and worse",
+                percent(moderate[1]),
+                format!(
+                    "with neighbours, {} alone; contact worsens the state in {} of the samples and spares one in {}",
+                    percent(moderate[0]),
+                    percent(answers.changed[0]),
+                    percent(answers.changed[1])
+                ),
+            ),
+        ];
+        let motions = self.motions();
+        let shaken = match motions.as_slice() {
+            [one] => format!("one motion, {one}"),
+            many => format!("{} motions", many.len()),
+        };
+        let sampled = answers.sampled.within(self.file.tolerance).map_or_else(
+            || "No row was run again in full.".to_owned(),
+            |(within, worst)| {
+                format!(
+                    "{} rows were run again by the program's own stepping at 1e-4: {} of their peaks lie within {} of it, the \
+                     worst {worst:.1e} away.",
+                    answers.sampled.rows,
+                    percent(within),
+                    self.file.tolerance
+                )
+            },
+        );
+        let mended = self.inventory.mends.len();
+        let gaps = if self.file.gap_is_given {
+            "as the city file says"
+        } else {
+            "an assumption, because no survey of gaps is public"
+        };
+        html! {
+            p.verdict {
+                "A building with a neighbour is struck with a probability of " (percent(struck)) " in this shaking ("
+                (shaken) ", " (self.file.draws) " draws)."
+            }
+            div.tiles {
+                @for (name, value, note) in &tiles {
+                    div.tile { p.tile-name { (name) } p.tile-value { (value) } p.tile-note { (note) } }
+                }
+            }
+            section {
+                h2 { "Map" }
+                div.controls {
+                    label { "Show "
+                        select #show {
+                            option value="struck" { "probability of being struck" }
+                            option value="column" { "probability that a slab strikes columns" }
+                            option value="moderate" { "moderate damage and worse, with neighbours" }
+                            option value="extensive" { "extensive damage and worse, with neighbours" }
+                            option value="change" { "change of moderate and worse by neighbours" }
+                        }
+                    }
+                    label { "Median gap "
+                        input #median type="range" min="-3" max="2" step="0.05" value="0";
+                        output #median-text {}
+                    }
+                    span.buttons role="group" aria-label="Zoom" {
+                        button #zoom-in type="button" aria-label="Zoom in" { "+" }
+                        button #zoom-out type="button" aria-label="Zoom out" { "−" }
+                        button #zoom-all type="button" { "Whole city" }
+                    }
+                }
+                div #legend.scale {}
+                div.city {
+                    canvas #map aria-label="Map of the buildings" {}
+                    aside #detail {}
+                }
+                p.quiet { "The slider redraws the probability of a strike from the closing of the free buildings: no run is needed for other gaps." }
+            }
+            section {
+                h2 { "Pairs to look at first" }
+                p.quiet {
+                    "Ranked by four times the share of samples in which contact worsens a state, twice the share with strikes on columns, and the probability of a strike. All " (order.len())
+                    " pairs are in worst-pairs.csv. Any of them becomes a model file by " code { "jostle city model FOLDER --pair NUMBER --draw 0" } "."
+                }
+                div.worst tabindex="0" { table {
+                    thead { tr {
+                        th { "Pair" } th { "Left" } th { "Right" } th { "Storeys" } th { "On the map" } th { "Struck" }
+                        th { "On columns" } th { "Closing, median" } th { "90 %" } th { "Force, median" } th { "Worse" }
+                    } }
+                    tbody {
+                        @for at in order.iter().take(LISTED) {
+                            @let pair = &self.neighbours.pairs[*at];
+                            @let own = &answers.pairs[*at];
+                            @let [left, right] = pair.buildings;
+                            tr tabindex="0" data-left=(left) data-right=(right) {
+                                td { (at) }
+                                td { (self.inventory.buildings[left].id) }
+                                td { (self.inventory.buildings[right].id) }
+                                td { (self.structures[left].storeys) " | " (self.structures[right].storeys) }
+                                td { (format!("{:.0} mm", 1e3 * pair.distance)) }
+                                td { (percent(own.struck)) }
+                                td { (percent(own.column)) }
+                                td { (format!("{:.0} mm", 1e3 * own.closing[0])) }
+                                td { (format!("{:.0} mm", 1e3 * own.closing[1])) }
+                                td { @if own.force[0] > 0.0 { (format!("{:.2} MN", 1e-6 * own.force[0])) } @else { "–" } }
+                                td { (percent(own.worse)) }
+                            }
+                        }
+                    }
+                } }
+            }
+            section {
+                h2 { "What was known, and what was drawn" }
+                div.note {
+                    p { b { "No building's fate. " } "These are probabilities over draws: they say which kinds of neighbours deserve a look, not what will happen to one of them." }
+                    p { "Known from the inventory: outlines, and storeys, height, year and type where it has them; " (mended)
+                        " rows were mended, left out or assumed, all listed in mended.csv." }
+                    p { "Drawn: gaps, lognormal with a median of " (format!("{millimetres:.0}")) " mm and a scatter of "
+                        (self.file.gap_scatter) " (" (gaps) "); stiffness, strength, damping and contact stiffness. Maps say who stands beside whom, not how far apart." }
+                    p { "Buildings are shear buildings of their HAZUS class. Slabs in line and slabs against columns are followed; walls that fall out of their plane, "
+                        "torsion and the failure of a struck column are not. Where neighbours hit, the drift with contact over that alone is " (format!("{middle:.2}"))
+                        " in the median and " (format!("{high:.2}")) " in the 95 % quantile." }
+                    p { "Blocks are cut into rows of at most 32 buildings in a line at their widest gaps; " (percent(answers.in_rows))
+                        " of the pairs' samples ran in rows of more than two." }
+                    p { (sampled) }
+                }
+            }
+        }
+    }
+}
+
+/// Pairs, the most worrying first.
+fn ranked(answers: &Answers) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..answers.pairs.len()).collect();
+    order.sort_by(|a, b| {
+        answers.pairs[*b]
+            .concern()
+            .total_cmp(&answers.pairs[*a].concern())
+            .then(a.cmp(b))
+    });
+    order
+}
+
+/// A whole number, seven bits a byte, the lowest first.
+fn number(bytes: &mut Vec<u8>, mut value: u64) {
+    while value >= 128 {
+        bytes.push((value & 127) as u8 | 128);
+        value >>= 7;
+    }
+    bytes.push(value as u8);
+}

@@ -1,0 +1,503 @@
+//! `jostle city`: which neighbours of a city collide, from footprints to a map.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use jostle_city::{
+    Answers, Attribute, City, CityError, Columns, Inventory, Neighbours, Position, ReadOptions,
+    RunOptions, blocks, example_city, refuse_overlaps, write_tables,
+};
+use jostle_io::{CityFile, Dimension, parse_quantity, write_atomically};
+use jostle_run::{BOLD, FolderClaim, counted_grouped, styled};
+
+use crate::failure::Failure;
+use crate::stop::stop_on_interrupt;
+use crate::study::shard;
+use crate::terminal;
+
+/// Shortest duration with a progress bar.
+const PATIENCE: Duration = Duration::from_millis(500);
+
+/// Steps from footprints to a map.
+#[derive(Debug, clap::Subcommand)]
+pub(crate) enum CityCommand {
+    /// Read footprints and say what they hold, what is mended and who stands beside whom, without writing anything
+    Check(CheckArgs),
+    /// Write buildings, pairs of neighbours and blocks as tables
+    Pairs(PairsArgs),
+    /// Draw gaps and buildings, shake every row with and without contact, and write the map
+    Run(RunArgs),
+    /// Write the map and tables again from a run
+    Report(FolderArgs),
+    /// Print a pair of a run as an ordinary model file
+    Model(ModelArgs),
+    /// Write a made-up city to try with: footprints and a city file
+    Example(ExampleArgs),
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct InventoryArgs {
+    /// Footprints: GeoJSON, GeoParquet, or CSV with outlines as WKT or GeoJSON
+    inventory: PathBuf,
+    /// Column of an attribute that has another name than the usual ones, such as storeys=FLOORS; attributes are id, footprint,
+    /// storeys, height, year and type
+    #[arg(long = "column", value_name = "ATTRIBUTE=NAME")]
+    columns: Vec<String>,
+    /// Coordinates are metres, not degrees of longitude and latitude
+    #[arg(long)]
+    metres: bool,
+    /// Buildings no farther apart on the map are neighbours [default: "0.5 m"]
+    #[arg(long, value_name = "QUANTITY")]
+    reach: Option<String>,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct CheckArgs {
+    #[command(flatten)]
+    inventory: InventoryArgs,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct PairsArgs {
+    #[command(flatten)]
+    inventory: InventoryArgs,
+    /// Folder for the tables
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct RunArgs {
+    /// City file
+    city: PathBuf,
+    /// Folder for the results [default: the name of the city file with -city]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Draws of gaps and buildings for every motion, instead of those of the city file
+    #[arg(long)]
+    draws: Option<usize>,
+    /// Relative error of peaks, 0.01 or 0.001, instead of that of the city file
+    #[arg(long)]
+    tolerance: Option<f64>,
+    /// One share of the parts, such as 3/8; whoever finishes last writes the map
+    #[arg(long, value_name = "I/N", value_parser = shard)]
+    shard: Option<(u64, u64)>,
+    /// Threads [default: all]
+    #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u16).range(1..))]
+    jobs: Option<u16>,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct FolderArgs {
+    /// Folder of a run
+    folder: PathBuf,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct ModelArgs {
+    /// Folder of a run
+    folder: PathBuf,
+    /// Number of the pair, from the list of the map or worst-pairs.csv
+    #[arg(long)]
+    pair: usize,
+    /// Number of the draw, from 0
+    #[arg(long, default_value_t = 0)]
+    draw: usize,
+    /// Number of the motion, from 0
+    #[arg(long, default_value_t = 0)]
+    motion: usize,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct ExampleArgs {
+    /// Folder for city.geojson and city.toml
+    folder: PathBuf,
+    /// Buildings
+    #[arg(long, default_value_t = 2000, value_parser = clap::value_parser!(u32).range(1..=2_000_000))]
+    buildings: u32,
+    /// Random seed
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Replace files that are there
+    #[arg(long)]
+    force: bool,
+}
+
+impl From<CityError> for Failure {
+    fn from(error: CityError) -> Self {
+        match error {
+            CityError::Input(text) => Self::Input(text),
+            CityError::Stopped => Self::Stopped,
+            other => Self::Analysis(other.to_string()),
+        }
+    }
+}
+
+pub(crate) fn city(command: &CityCommand) -> Result<(), Failure> {
+    match command {
+        CityCommand::Check(args) => terminal::print(&args.inventory.read()?.described()),
+        CityCommand::Pairs(args) => pairs(args),
+        CityCommand::Run(args) => run(args),
+        CityCommand::Report(args) => report(&args.folder),
+        CityCommand::Model(args) => {
+            let own = City::of_folder(&args.folder)?;
+            terminal::print(&own.model(args.pair, args.draw, args.motion)?)
+        }
+        CityCommand::Example(args) => example(args),
+    }
+}
+
+/// An inventory with its neighbours.
+struct Read {
+    inventory: Inventory,
+    neighbours: Neighbours,
+    reach: f64,
+}
+
+impl InventoryArgs {
+    fn read(&self) -> Result<Read, Failure> {
+        let mut columns = Columns::default();
+        for text in &self.columns {
+            let fault = |problem: String| Failure::Input(format!("--column {text}: {problem}"));
+            let (attribute, name) = text
+                .split_once('=')
+                .ok_or_else(|| fault("expected ATTRIBUTE=NAME, such as storeys=FLOORS".into()))?;
+            let attribute: Attribute = attribute.trim().parse().map_err(fault)?;
+            columns.0.insert(attribute, name.trim().to_owned());
+        }
+        let reach = match &self.reach {
+            None => 0.5,
+            Some(text) => match parse_quantity(text, Dimension::Length) {
+                Ok(value) if value > 0.0 && value <= 100.0 => value,
+                Ok(_) => {
+                    return Err(Failure::Input(format!(
+                        "--reach {text}: must be greater than 0 and at most 100 m"
+                    )));
+                }
+                Err(problem) => return Err(Failure::Input(format!("--reach: {problem}"))),
+            },
+        };
+        let options = ReadOptions {
+            columns,
+            metres: self.metres,
+        };
+        let inventory = Inventory::read(&self.inventory, &options)?;
+        let neighbours = Neighbours::within(&inventory.buildings, reach);
+        refuse_overlaps(&self.inventory, &inventory, &neighbours)?;
+        Ok(Read {
+            inventory,
+            neighbours,
+            reach,
+        })
+    }
+}
+
+impl Read {
+    /// What footprints hold, for people.
+    fn described(&self) -> String {
+        let own = &self.inventory;
+        let count = own.buildings.len();
+        let mut text = String::new();
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "{}: {} of {} rows",
+            styled(BOLD, "Buildings"),
+            counted(count, "building"),
+            own.rows
+        );
+        let named: Vec<String> = own
+            .columns
+            .iter()
+            .map(|(attribute, name)| format!("{} from \"{name}\"", attribute.name()))
+            .collect();
+        let _ = writeln!(text, "  {}", named.join(", "));
+        let known = |of: &dyn Fn(&jostle_city::Building) -> bool| {
+            100.0 * own.buildings.iter().filter(|own| of(own)).count() as f64 / count as f64
+        };
+        let _ = writeln!(
+            text,
+            "  storeys of {:.0} %, height of {:.0} %, year of {:.0} %, type of {:.0} % are given",
+            known(&|own| own.storeys.is_some()),
+            known(&|own| own.height.is_some()),
+            known(&|own| own.year.is_some()),
+            known(&|own| own.kind.is_some())
+        );
+        let mut mends: BTreeMap<&str, usize> = BTreeMap::new();
+        for mend in &own.mends {
+            *mends.entry(mend.what).or_default() += 1;
+        }
+        if !mends.is_empty() {
+            let _ = writeln!(text, "{}:", styled(BOLD, "Mends"));
+            for (what, count) in mends {
+                let first = own.mends.iter().find(|own| own.what == what);
+                let first = first.map_or_else(String::new, |own| {
+                    format!(", such as row {}: {}", own.row, own.detail)
+                });
+                let _ = writeln!(text, "  {count} {what}{first}");
+            }
+        }
+        let pairs = &self.neighbours.pairs;
+        let found = blocks(pairs, count);
+        let held: usize = found.iter().map(|own| own.buildings.len()).sum();
+        let at = |position: Position| pairs.iter().filter(|own| own.position == position).count();
+        let _ = writeln!(
+            text,
+            "{} within {} m: {}; {:.0} % of the buildings have one",
+            styled(BOLD, "Neighbours"),
+            self.reach,
+            counted(pairs.len(), "pair"),
+            100.0 * held as f64 / count as f64
+        );
+        let largest = found
+            .iter()
+            .map(|own| own.buildings.len())
+            .max()
+            .unwrap_or(0);
+        let _ = writeln!(
+            text,
+            "  {} inside, {} at an end, {} at a corner; {}, the largest of {largest}",
+            at(Position::Inside),
+            at(Position::End),
+            at(Position::Corner),
+            counted(found.len(), "block")
+        );
+        if !self.neighbours.overlaps.is_empty() {
+            let _ = writeln!(
+                text,
+                "  {} share more than a fifth of the smaller outline and count as no neighbours",
+                counted(self.neighbours.overlaps.len(), "pair")
+            );
+        }
+        text
+    }
+}
+
+fn pairs(args: &PairsArgs) -> Result<(), Failure> {
+    let read = args.inventory.read()?;
+    let found = blocks(&read.neighbours.pairs, read.inventory.buildings.len());
+    write_tables(&args.out, &read.inventory, &read.neighbours, &found)?;
+    let written = format!(
+        "{}Written to {}: buildings.parquet, pairs.parquet, blocks.parquet, mended.csv\n",
+        read.described(),
+        args.out.display()
+    );
+    terminal::print(&written)
+}
+
+fn run(args: &RunArgs) -> Result<(), Failure> {
+    let mut file = CityFile::load(&args.city)?;
+    if let Some(draws) = args.draws {
+        if !(1..=1 << 16).contains(&draws) {
+            return Err(Failure::Input(format!(
+                "--draws {draws}: must lie between 1 and 65536"
+            )));
+        }
+        file.draws = draws;
+    }
+    if let Some(tolerance) = args.tolerance {
+        if !(1e-3..=1e-1).contains(&tolerance) {
+            return Err(Failure::Input(format!(
+                "--tolerance {tolerance}: must lie between 0.001 and 0.1"
+            )));
+        }
+        file.tolerance = tolerance;
+    }
+    terminal::warn_all(&file.warnings);
+    if !file.gap_is_given {
+        terminal::warn(
+            "gap.median is not given: gaps have a median of 25 mm, which nobody has measured; look at the results for half and \
+             double of it",
+        );
+    }
+    let out = args.out.clone().unwrap_or_else(|| {
+        let stem = args.city.file_stem().unwrap_or_default().to_string_lossy();
+        PathBuf::from(format!("{stem}-city"))
+    });
+    let work = || -> Result<(), Failure> {
+        let city = City::new(file)?;
+        std::fs::create_dir_all(&out)
+            .map_err(|error| Failure::Analysis(format!("{}: {error}", out.display())))?;
+        // Shares work beside each other in one folder: their parts differ, and every file is written whole.
+        let claim = match args.shard {
+            None => Some(FolderClaim::new(&out)?),
+            Some(_) => None,
+        };
+        let flag = stop_on_interrupt();
+        let mut bar = Bar::new();
+        let shard = args.shard.map(|(at, of)| (at as usize + 1, of as usize));
+        let done = city.run(
+            &out,
+            RunOptions { shard },
+            &|| flag.load(Ordering::Relaxed),
+            &mut |done| bar.show(done.cases, done.of),
+        );
+        bar.finish();
+        drop(claim);
+        let done = match done {
+            Err(CityError::Stopped) => {
+                terminal::remark(
+                    "stopped: finished parts are kept; the same command continues from here",
+                );
+                return Err(Failure::Stopped);
+            }
+            other => other?,
+        };
+        if done.missing > 0 {
+            return terminal::print(&format!(
+                "This share is finished; {} of other shares are missing. Whoever finishes last writes the map.\n",
+                counted(done.missing, "part")
+            ));
+        }
+        write_report(&city, &out)
+    };
+    match args.jobs {
+        None => work(),
+        Some(jobs) => rayon::ThreadPoolBuilder::new()
+            .num_threads(usize::from(jobs))
+            .build()
+            .map_err(|error| Failure::Analysis(error.to_string()))?
+            .install(work),
+    }
+}
+
+fn report(folder: &Path) -> Result<(), Failure> {
+    write_report(&City::of_folder(folder)?, folder)
+}
+
+fn write_report(city: &City, folder: &Path) -> Result<(), Failure> {
+    let (answers, files) = city.report(folder)?;
+    let names: Vec<String> = files
+        .iter()
+        .filter_map(|own| Some(own.file_name()?.to_string_lossy().into_owned()))
+        .collect();
+    let written = format!("Written to {}: {}\n", folder.display(), names.join(", "));
+    terminal::print(&(described(city, &answers) + &written))
+}
+
+/// What a run found, for people.
+fn described(city: &City, answers: &Answers) -> String {
+    let with: Vec<_> = answers.buildings.iter().flatten().collect();
+    let mean = |of: &dyn Fn(&jostle_city::BuildingAnswer) -> f64| {
+        100.0 * with.iter().map(|own| of(own)).sum::<f64>() / with.len().max(1) as f64
+    };
+    let mut text = String::new();
+    let [half, middle, twice] = jostle_city::BuildingAnswer::HALF_MEDIAN_DOUBLE;
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        text,
+        "{}: {} of {} with a neighbour, {} draws, {}",
+        styled(BOLD, &city.file.title),
+        counted(with.len(), "building"),
+        city.inventory.buildings.len(),
+        city.file.draws,
+        counted(city.motions().len(), "motion"),
+    );
+    let _ = writeln!(
+        text,
+        "  struck by a neighbour: {:.1} % of them (gaps with a median of {:.0} mm; half of it {:.1} %, double {:.1} %)",
+        mean(&|own| own.struck[middle]),
+        1e3 * city.file.gap_median,
+        mean(&|own| own.struck[half]),
+        mean(&|own| own.struck[twice])
+    );
+    let _ = writeln!(
+        text,
+        "  a slab strikes columns: {:.1} %",
+        mean(&|own| own.column)
+    );
+    let _ = writeln!(
+        text,
+        "  moderate damage and worse: {:.1} % alone, {:.1} % with neighbours; contact worsens the state in {:.1} % of the \
+         samples and spares one in {:.1} %",
+        mean(&|own| own.states[0][2..].iter().sum()),
+        mean(&|own| own.states[1][2..].iter().sum()),
+        100.0 * answers.changed[0],
+        100.0 * answers.changed[1]
+    );
+    if let Some((within, worst)) = answers.sampled.within(city.file.tolerance) {
+        let _ = writeln!(
+            text,
+            "  {} again in full: {:.1} % of their peaks within {}, the worst {worst:.1e} away",
+            counted(answers.sampled.rows, "row"),
+            100.0 * within,
+            city.file.tolerance
+        );
+    }
+    let _ = writeln!(
+        text,
+        "  Probabilities over draws, not the fate of any building; gaps and what the inventory lacks are assumed."
+    );
+    text
+}
+
+fn example(args: &ExampleArgs) -> Result<(), Failure> {
+    let [map, file] = ["city.geojson", "city.toml"].map(|name| args.folder.join(name));
+    for path in [&map, &file] {
+        if path.exists() && !args.force {
+            return Err(Failure::Input(format!(
+                "{} exists; choose another folder, or replace it with --force",
+                path.display()
+            )));
+        }
+    }
+    std::fs::create_dir_all(&args.folder)
+        .map_err(|error| Failure::Analysis(format!("{}: {error}", args.folder.display())))?;
+    write_atomically(
+        &map,
+        example_city(args.buildings as usize, args.seed).as_bytes(),
+    )?;
+    write_atomically(&file, include_str!("city.toml").as_bytes())?;
+    terminal::print(&format!(
+        "Written: {} and {}\nNext: jostle city run {}\n",
+        map.display(),
+        file.display(),
+        file.display()
+    ))
+}
+
+/// A bar over the cases of a run, which appears only on a terminal and only after a while.
+struct Bar {
+    bar: ProgressBar,
+    started: Instant,
+    shown: bool,
+}
+
+impl Bar {
+    fn new() -> Self {
+        let bar = ProgressBar::with_draw_target(Some(1), ProgressDrawTarget::hidden());
+        let template = "{wide_bar} {percent:>3} %  {human_pos} of {human_len} pairs  {eta} left";
+        if let Ok(style) = ProgressStyle::with_template(template) {
+            bar.set_style(style);
+        }
+        Self {
+            bar,
+            started: Instant::now(),
+            shown: false,
+        }
+    }
+
+    fn show(&mut self, cases: usize, of: usize) {
+        if !self.shown && terminal::is_watched() && self.started.elapsed() > PATIENCE {
+            self.bar.set_draw_target(ProgressDrawTarget::stderr());
+            self.shown = true;
+        }
+        if self.shown {
+            self.bar.set_length(of as u64);
+            self.bar.set_position(cases as u64);
+        }
+    }
+
+    fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+/// A count with its noun.
+fn counted(count: usize, thing: &str) -> String {
+    counted_grouped(count as u64, thing)
+}
