@@ -10,7 +10,7 @@ use crate::peaks::Peaks;
 use crate::row::{Building, Law, MOST_BUILDINGS, MOST_STOREYS, Motion, Row, Rule};
 
 /// Rows taken at once: many enough to fill lanes with alike rows, few enough for constant memory.
-const TAKEN: usize = 4096;
+const TAKEN: usize = 16384;
 
 /// Numbers of a lane.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -65,7 +65,7 @@ pub struct Error {
 ///
 /// # Errors
 ///
-/// When a row has a number out of range; rows before it in earlier portions of 4,096 were handed on.
+/// When a row has a number out of range; rows before it in earlier portions of 16,384 were handed on.
 pub fn run(
     motions: &[Motion],
     rows: impl IntoIterator<Item = Row>,

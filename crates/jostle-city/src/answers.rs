@@ -75,6 +75,8 @@ pub struct Answers {
     pub drift_ratios: [f64; 4],
     /// Share of pairs that stand in rows of more than two buildings, over all samples \[–\].
     pub in_rows: f64,
+    /// Change of the drift of buildings in blocks that are cut otherwise: how many, median and 95 % quantile \[–\].
+    pub cut: (usize, [f64; 2]),
     /// Runs in full.
     pub sampled: Sampled,
 }
@@ -101,6 +103,7 @@ impl City {
             ..Answers::default()
         };
         let mut ratios = Vec::new();
+        let mut cut: Vec<f32> = Vec::new();
         let (mut worse, mut better, mut samples, mut in_rows, mut cases_seen) =
             (0_usize, 0_usize, 0_usize, 0_usize, 0_usize);
         for path in self.part_paths(folder) {
@@ -111,6 +114,11 @@ impl City {
             self.same_run(&path, &table)?;
             own.sampled
                 .add_json(table.facts.get("sample").map_or("", String::as_str));
+            let other: Option<Vec<f32>> = table
+                .facts
+                .get("cut")
+                .and_then(|own| serde_json::from_str(own).ok());
+            cut.extend(other.into_iter().flatten());
             cases_seen += cases.len();
             in_rows += cases.iter().filter(|own| own.row > 2).count();
             for case in &cases {
@@ -137,6 +145,11 @@ impl City {
         let share = |part: usize, of: usize| part as f64 / of.max(1) as f64;
         own.changed = [share(worse, samples), share(better, samples)];
         own.in_rows = share(in_rows, cases_seen);
+        cut.sort_by(f32::total_cmp);
+        own.cut = (
+            cut.len(),
+            [0.5, 0.95].map(|of| f64::from(quantile(&cut, of))),
+        );
         ratios.sort_by(f32::total_cmp);
         own.drift_ratios = [0.05, 0.5, 0.95, 0.99].map(|of| f64::from(quantile(&ratios, of)));
         Ok(own)

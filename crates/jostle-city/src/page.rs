@@ -379,7 +379,12 @@ impl City {
                         "torsion and the failure of a struck column are not. Where neighbours hit, the drift with contact over that alone is " (format!("{middle:.2}"))
                         " in the median and " (format!("{high:.2}")) " in the 95 % quantile." }
                     p { "Blocks are cut into rows of at most 32 buildings in a line at their widest gaps; " (percent(answers.in_rows))
-                        " of the pairs' samples ran in rows of more than two." }
+                        " of the pairs' samples ran in rows of more than two."
+                        @if answers.cut.0 > 0 {
+                            " Cut at the narrowest gaps instead, the drift of " (answers.cut.0) " buildings of such blocks changes by "
+                            (percent(answers.cut.1[0])) " in the median and " (percent(answers.cut.1[1])) " in the 95 % quantile."
+                        }
+                    }
                     p { (sampled) }
                 }
             }

@@ -26,6 +26,8 @@ const PART: usize = 65_536;
 const DIRECTION: f64 = 10.0;
 /// Of so many rows one is run again in full.
 const SAMPLE_EVERY: usize = 1000;
+/// Blocks that are cut otherwise, to see what cutting changes.
+const CUT_BLOCKS: usize = 200;
 
 /// A city ready to be shaken.
 #[derive(Debug)]
@@ -423,26 +425,76 @@ impl City {
             cases.extend(self.cases_of(job, &free[at], with.get(&at)));
         }
         cases.sort_by_key(|own| (own.pair, own.draw, own.motion));
+        let base = Drifts::of(&jobs, |at| with.get(&at).unwrap_or(&free[at]));
+        let cut = self.cut_otherwise(own, &base, &options)?;
         let facts = [
             ("sample", sample.to_json()),
+            ("cut", serde_json::json!(cut).to_string()),
             ("fingerprint", self.fingerprint.clone()),
         ];
         write_values_parquet(path, &self.file.title, &facts, case_columns(&cases))?;
         Ok(())
     }
 
-    /// Every row of some blocks in every draw under every motion.
+    /// Blocks that are cut, cut at their narrowest gaps instead: how much the drift of each of their buildings changes, over
+    /// that of the usual cut \[–\].
+    fn cut_otherwise(
+        &self,
+        own: &[Block],
+        base: &Drifts,
+        options: &Options,
+    ) -> Result<Vec<f64>, CityError> {
+        let lines = own
+            .iter()
+            .map(|block| (self.lines(block, 0, |width| width), block));
+        let cut: Vec<&Block> = lines
+            .filter(|(lines, _)| lines.len() > 1)
+            .map(|(_, block)| block)
+            .collect();
+        let pairs: usize = own.iter().map(|own| own.pairs.len()).sum();
+        let wanted = (CUT_BLOCKS * pairs).div_ceil(self.neighbours.pairs.len().max(1));
+        let every = (cut.len() / wanted.max(1)).max(1);
+        let mut jobs = Vec::new();
+        for block in cut.into_iter().step_by(every).take(wanted) {
+            let lines = self.lines(block, 0, |width| -width);
+            jobs.extend(lines.into_iter().map(|line| Job {
+                line,
+                draw: 0,
+                motion: 0,
+            }));
+        }
+        let motions = self.directed(&jobs);
+        let mut peaks = Vec::with_capacity(jobs.len());
+        let rows = jobs.iter().map(|job| self.row(job, &motions, true));
+        jostle_batch::run(&motions.own, rows, options, |_, own| {
+            peaks.push(own);
+            ControlFlow::Continue(())
+        })
+        .map_err(|error| CityError::Analysis(error.to_string()))?;
+        let other = Drifts::of(&jobs, |at| &peaks[at]);
+        let change = |(building, drift): (&usize, &f64)| {
+            let usual = *base.0.get(building)?;
+            (usual > 0.0).then(|| (drift / usual - 1.0).abs())
+        };
+        Ok(other.0.iter().filter_map(change).collect())
+    }
+
+    /// Every row of some blocks in every draw under every motion. Draws of a row follow each other: alike rows fill the
+    /// lanes of a batch.
     fn jobs(&self, own: &[Block]) -> Vec<Job> {
         let mut jobs = Vec::new();
-        for draw in 0..self.file.draws {
-            for block in own {
-                let lines = self.lines(block, draw, |width| width);
-                for motion in 0..self.motions.len() {
-                    jobs.extend(lines.iter().map(|line| Job {
+        for block in own {
+            let draws: Vec<Vec<Line>> = (0..self.file.draws)
+                .map(|draw| self.lines(block, draw, |width| width))
+                .collect();
+            for motion in 0..self.motions.len() {
+                for (draw, lines) in draws.iter().enumerate() {
+                    let line = |line: &Line| Job {
                         line: line.clone(),
                         draw,
                         motion,
-                    }));
+                    };
+                    jobs.extend(lines.iter().map(line));
                 }
             }
         }
@@ -607,6 +659,27 @@ impl City {
                 case
             })
             .collect()
+    }
+}
+
+/// Greatest drift of buildings over the rows that they stand in, in the first draw under the first motion \[m\].
+struct Drifts(BTreeMap<usize, f64>);
+
+impl Drifts {
+    fn of<'p>(jobs: &[Job], peaks: impl Fn(usize) -> &'p Peaks) -> Self {
+        let mut greatest = BTreeMap::new();
+        for (at, job) in jobs
+            .iter()
+            .enumerate()
+            .filter(|(_, job)| job.draw == 0 && job.motion == 0)
+        {
+            for (building, peaks) in job.line.buildings.iter().zip(&peaks(at).buildings) {
+                let own = peaks.drift.iter().copied().fold(0.0, f64::max);
+                let kept = greatest.entry(*building).or_insert(0.0_f64);
+                *kept = kept.max(own);
+            }
+        }
+        Self(greatest)
     }
 }
 
