@@ -73,6 +73,7 @@ const dark = () => {
   const theme = document.documentElement.dataset.theme;
   return theme ? theme === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
 };
+const IDLE = () => (dark() ? "#4a535f" : "#c3cad2");
 const choice = element("show");
 const colours = () => choice.value === "change" ? (dark() ? DARK_CHANGE : LIGHT_CHANGE) : (dark() ? DARK : LIGHT);
 const bin = (own, v) => { let k = 0; while (k < own.steps.length && v >= own.steps[k]) k++; return k; };
@@ -122,9 +123,12 @@ const draw = () => {
       pen.fill();
       if (scale > 1.2) { pen.lineWidth = 1; pen.strokeStyle = edge; pen.stroke(); }
     };
-    pen.globalAlpha = 0.45;
-    fill(idle, dark() ? "#3a424c" : "#d5dae0");
-    pen.globalAlpha = 1;
+    // Buildings without a neighbour are outlines: they have no number.
+    pen.beginPath();
+    for (const at of idle) outline(at);
+    pen.lineWidth = Math.min(1.5, 0.4 * scale) * (devicePixelRatio || 1);
+    pen.strokeStyle = IDLE();
+    pen.stroke();
     groups.forEach((list, k) => fill(list, palette[k]));
     for (const at of [chosen, mate]) {
       if (at < 0) continue;
@@ -148,10 +152,10 @@ const legend = () => {
     const text = k === 0 ? `below ${own.text(own.steps[0])}` : k === palette.length - 1 ? `${own.text(own.steps[k - 1])} and more` : `${own.text(own.steps[k - 1])} to ${own.text(own.steps[k])}`;
     return [colour, text];
   });
-  parts.push([dark() ? "#3a424c" : "#d5dae0", "no neighbour within reach"]);
+  parts.push(["", "no neighbour within reach"]);
   element("legend").replaceChildren(...parts.map(([colour, text]) => {
     const item = document.createElement("span"), box = document.createElement("i");
-    box.style.background = colour;
+    if (colour) box.style.background = colour; else box.style.border = `1.5px solid ${IDLE()}`;
     item.append(box, text);
     return item;
   }));

@@ -1,6 +1,6 @@
 //! What is wrong with an inventory or a folder of a city.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Why a step of a city's study cannot be done.
 #[derive(Debug, thiserror::Error)]
@@ -27,7 +27,7 @@ impl CityError {
     }
 
     /// A folder that an earlier step has not written.
-    pub(crate) fn lacks(path: &PathBuf, step: &str) -> Self {
+    pub(crate) fn lacks(path: &Path, step: &str) -> Self {
         Self::Input(format!(
             "{} is missing: run `jostle city {step}` first",
             path.display()

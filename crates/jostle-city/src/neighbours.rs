@@ -196,7 +196,7 @@ fn facing(a: &Polygon, b: &Polygon, reach: f64) -> (f64, Option<f64>) {
         .collect();
     let (mut face, mut sum) = (0.0, [0.0, 0.0]);
     for edge in a.exterior().lines().filter(|own| near(own, &box_b)) {
-        let length = edge.dx().hypot(edge.dy());
+        let length = libm::hypot(edge.dx(), edge.dy());
         if length < 1e-6 {
             continue;
         }
@@ -204,7 +204,7 @@ fn facing(a: &Polygon, b: &Polygon, reach: f64) -> (f64, Option<f64>) {
         // Outlines run anticlockwise, so outward is to the right.
         let outward = [along[1], -along[0]];
         for other in &edges_b {
-            let other_length = other.dx().hypot(other.dy());
+            let other_length = libm::hypot(other.dx(), other.dy());
             if other_length < 1e-6 {
                 continue;
             }

@@ -52,7 +52,7 @@ impl Plane {
             Self::Degrees { origin } => {
                 let azimuth = libm::atan2(at.x, at.y).to_degrees();
                 let (y, x): (f64, f64) =
-                    EARTH.direct(origin[1], origin[0], azimuth, at.x.hypot(at.y));
+                    EARTH.direct(origin[1], origin[0], azimuth, libm::hypot(at.x, at.y));
                 Coord { x, y }
             }
         }
