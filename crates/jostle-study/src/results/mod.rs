@@ -359,22 +359,18 @@ fn write_csv(study: &Study, folder: &Path) -> Result<(), StudyError> {
     Ok(jostle_io::put_in_place(&part, &path)?)
 }
 
-fn csv(columns: &[(String, Values)]) -> String {
-    let length = |values: &Values| match values {
-        Values::Real(values) => values.len(),
-        Values::Instant(values) => values.len(),
-        Values::Whole(values) => values.len(),
-        Values::Text(values) => values.len(),
-    };
+pub(crate) fn csv(columns: &[(String, Values)]) -> String {
     let cell = |values: &Values, row: usize| match values {
         Values::Real(values) => values[row].to_string(),
         Values::Instant(values) => values[row].map_or(String::new(), |value| value.to_string()),
         Values::Whole(values) => values[row].map_or(String::new(), |value| value.to_string()),
         Values::Text(values) => csv_field(&values[row]),
+        // No table of a study has bytes.
+        Values::Bytes(_) => String::new(),
     };
     let heads: Vec<String> = columns.iter().map(|(name, _)| csv_field(name)).collect();
     let mut text = heads.join(",") + "\n";
-    for row in 0..columns.first().map_or(0, |(_, values)| length(values)) {
+    for row in 0..columns.first().map_or(0, |(_, values)| values.len()) {
         let cells: Vec<String> = columns
             .iter()
             .map(|(_, values)| cell(values, row))
