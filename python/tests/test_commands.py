@@ -130,6 +130,7 @@ TABLE: dict[str, tuple[str, dict[str, str]] | Why] = {
             "--force": "Model.save:force",
         },
     ),
+    "classes": Why("it writes a folder of tables, which pandas and OpenQuake read; jostle.main offers the command"),
     "mcp": Why("an assistant starts it as a program"),
     "compare": (
         "compare",

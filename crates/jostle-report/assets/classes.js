@@ -95,7 +95,7 @@ function drawCurves() {
   const most = data.range[1];
   const x = (value) => left + (width * value) / most;
   const y = (value) => top + height * (1 - value);
-  const picture = svg("svg", { viewBox: `0 0 ${left + width + 20} ${top + height + 44}`, role: "img", "aria-label": say("classes_probability") });
+  const picture = svg("svg", { viewBox: `0 0 ${left + width + 20} ${top + height + 44}`, role: "img", "aria-label": say("classes_probability"), style: "max-width:640px" });
   for (const part of [0, 0.25, 0.5, 0.75, 1]) {
     picture.append(svg("line", { x1: left, x2: left + width, y1: y(part), y2: y(part), stroke: "var(--rule)" }));
     picture.append(svg("text", { x: left - 6, y: y(part) + 4, "text-anchor": "end" }, part));
@@ -119,7 +119,7 @@ function drawCurves() {
     }
   });
   at("curve").replaceChildren(picture);
-  const heads = [say("classes_state"), say("classes_median_without"), say("classes_median_with"), say("classes_interval"), say("classes_factor"), say("classes_note")];
+  const heads = [say("classes_state"), say("classes_median_without"), say("classes_median_with"), say("classes_interval"), say("classes_factor_short"), say("classes_note")];
   const row = (cells, tag) => {
     const line = document.createElement("tr");
     line.append(...cells.map((text) => Object.assign(document.createElement(tag), { textContent: text })));

@@ -41,7 +41,9 @@ pub fn render_classes(title: &str, data: &Value) -> String {
                 }
                 main {
                     p.verdict { (message::classes_cases(number("cases"), number("motions"), number("draws"))) }
-                    p.quiet { (message::classes_checked(number("checked"), deviation("drift_deviation"), deviation("force_deviation"))) }
+                    @if number("checked") > 0.0 {
+                        p.quiet { (message::classes_checked(number("checked"), deviation("drift_deviation"), deviation("force_deviation"))) }
+                    }
                     @for own in warnings.iter().filter_map(Value::as_str) {
                         p.note { (message::warning()) " " (own) }
                     }

@@ -37,6 +37,7 @@ messages! {
     classes_limits = "Limits";
     classes_limits_text = "Shear models by the capacity curves of HAZUS and the formulas of Lu and Guan. Damage is peak storey drift. Out-of-plane failure of masonry, local damage of columns that slabs strike, torsion and P-Delta are not modelled. Gaps are assumed, not surveyed.";
     classes_factor = "pounding factor: median with contact over median without";
+    classes_factor_short = "pounding factor";
     classes_median_with = "median with contact [g]";
     classes_median_without = "median without contact [g]";
     classes_touching = "share of cases with impacts";

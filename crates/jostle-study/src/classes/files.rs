@@ -190,6 +190,17 @@ fn curve_columns(results: &ClassesResults) -> Vec<(String, Values)> {
             Some(own.band.as_ref()?.dispersion[at])
         });
     }
+    let of_group = |own: &Fragility| {
+        let group = results
+            .curves
+            .chunks(STATES.len())
+            .position(|curves| (curves[0].pair, curves[0].gap) == (own.pair, own.gap));
+        results.shared.get(group?)?.as_ref().ok()
+    };
+    optional("shared_median_m_s2", &|own| {
+        Some(of_group(own)?.medians[own.state])
+    });
+    optional("shared_dispersion", &|own| Some(of_group(own)?.dispersion));
     optional("greatest_misfit", &|own| own.misfit);
     let factors = (0..curves.len()).map(|at| results.pounding_factor(at));
     columns.push(("pounding_factor".into(), Values::Instant(factors.collect())));
@@ -220,46 +231,29 @@ fn curve_columns(results: &ClassesResults) -> Vec<(String, Values)> {
 /// Curves of one pair and gap, state by state.
 type Group<'a> = Vec<(&'a Fragility, Lognormal)>;
 
-/// Groups whose four curves exist and keep their order over the range of intensities, and why others do not.
+/// Groups that have curves of one dispersion, and why others have none.
 fn whole_groups<'a>(
     file: &ClassesFile,
     results: &'a ClassesResults,
 ) -> (Vec<Group<'a>>, Vec<String>) {
-    let [low, high] = range(file, results);
     let (mut groups, mut left_out) = (Vec::new(), Vec::new());
     if file.measure == ClassesMeasure::AvgSa {
         left_out.push(format!(
             "{PELICUN} has no rows: Pelicun has no name for AvgSA"
         ));
     }
-    for curves in results.curves.chunks(STATES.len()) {
-        let Some(first) = curves.first() else {
-            continue;
-        };
-        let name = group_name(results, first);
-        let fitted: Group<'_> = curves
-            .iter()
-            .filter_map(|own| Some((own, own.fit.as_ref().ok().copied()?)))
-            .collect();
-        if fitted.len() < STATES.len() {
-            let missing = curves.iter().filter(|own| own.fit.is_err());
-            let missing: Vec<&str> = missing.map(|own| STATES[own.state]).collect();
-            left_out.push(format!("{name}: no curve for {}", missing.join(", ")));
-            continue;
+    let all = results.curves.chunks(STATES.len());
+    for (curves, shared) in all.zip(&results.shared) {
+        match shared {
+            Err(reason) => left_out.push(format!("{}: {reason}", group_name(results, &curves[0]))),
+            Ok(own) => {
+                let fit = |median| Lognormal {
+                    median,
+                    dispersion: own.dispersion,
+                };
+                groups.push(curves.iter().zip(own.medians.map(fit)).collect());
+            }
         }
-        let crossing = (0..=100).any(|step| {
-            let at = low + (high - low) * f64::from(step) / 100.0;
-            fitted
-                .windows(2)
-                .any(|pair| pair[1].1.probability(at) > pair[0].1.probability(at) + 1e-9)
-        });
-        if crossing {
-            left_out.push(format!(
-                "{name}: curves of states cross between {low:.3} and {high:.3} m/s²"
-            ));
-            continue;
-        }
-        groups.push(fitted);
     }
     (groups, left_out)
 }
@@ -411,8 +405,7 @@ fn page(file: &ClassesFile, results: &ClassesResults) -> Value {
         .pairs
         .iter()
         .map(|own| {
-            let class =
-                |of: &super::pair::Member| format!("{} {}", of.class.name, of.class.level.name());
+            let class = |of: &super::pair::Member| format!("{} {}", of.kind, of.class.level.name());
             json!({
                 "class": class(&own.own), "storeys": own.own.storeys,
                 "neighbour": class(&own.neighbour), "beside": own.neighbour.storeys,

@@ -6,6 +6,7 @@ mod curves;
 mod files;
 mod pair;
 mod run;
+mod shared;
 mod words;
 
 pub use check::Checked;

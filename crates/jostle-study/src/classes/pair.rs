@@ -7,6 +7,8 @@ use jostle_io::{ClassesFile, ClassesSide, InputError};
 /// A class of some storeys.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Member {
+    /// Type as the file names it.
+    pub(crate) kind: String,
     pub(crate) class: Class,
     pub(crate) storeys: usize,
 }
@@ -66,9 +68,16 @@ fn members(file: &ClassesFile, side: &ClassesSide) -> Result<Vec<Member>, InputE
         for &storeys in &side.storeys {
             let class = Class::of(kind, storeys, level)
                 .map_err(|problem| file.fault(&format!("{}.types[{at}]", side.path), problem))?;
-            let member = Member { class, storeys };
+            let member = Member {
+                kind: kind.clone(),
+                class,
+                storeys,
+            };
             // Two names may lead to one class.
-            if !members.contains(&member) {
+            if !members
+                .iter()
+                .any(|own: &Member| own.name() == member.name())
+            {
                 members.push(member);
             }
         }
@@ -147,6 +156,19 @@ impl Pair {
     /// Which building of a row is the class.
     pub(crate) fn own_place(&self) -> usize {
         usize::from(self.middle)
+    }
+
+    /// Whether slabs meet slabs only.
+    pub(crate) fn has_common_floors(&self, file: &ClassesFile) -> bool {
+        let draw = Draw {
+            number: 0,
+            motion: 0,
+            scale: 1.0,
+            gap: None,
+        };
+        let row = self.row(file, draw);
+        let mut contacts = row.gaps.iter().flat_map(|gap| &gap.contacts);
+        contacts.all(|own| !own.strikes_column())
     }
 
     /// The row of a draw.

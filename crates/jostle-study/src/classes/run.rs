@@ -11,6 +11,7 @@ use super::cases::Motions;
 use super::check::{Checked, check};
 use super::curves::{Fragility, curves};
 use super::pair::{Draw, Pair, pairs};
+use super::shared::{Shared, shared};
 
 /// Factors on records beyond which their shape is doubtful.
 const USUAL_FACTORS: std::ops::RangeInclusive<f64> = 0.1..=10.0;
@@ -64,6 +65,8 @@ pub struct ClassesResults {
     pub rows: usize,
     /// Curves without contact and with every gap.
     pub curves: Vec<Fragility>,
+    /// Curves of one dispersion for every pair and gap, in the order of `curves`, or why there are none.
+    pub(crate) shared: Vec<Result<Shared, String>>,
     /// Rows that were run again in full.
     pub checked: Vec<Checked>,
     /// What a reader must know.
@@ -171,13 +174,24 @@ fn run_here(
             factors[0], factors[1]
         ));
     }
+    let uneven = pairs.iter().filter(|own| !own.has_common_floors(file));
+    let uneven = uneven.count();
+    if uneven > 0 {
+        warnings.push(format!(
+            "in {uneven} of {} pairs slabs strike columns; no case of these is run again in full, since shear buildings of \
+             model files have no columns between floors",
+            pairs.len()
+        ));
+    }
     let Some(checked) = check(file, &pairs, &motions, &cases, rows, stop)? else {
         return Ok(None);
     };
     let Some(curves) = curves(file, &pairs, &cases, stop) else {
         return Ok(None);
     };
+    let shared = shared(file, &curves, &cases, pairs.len());
     Ok(Some(ClassesResults {
+        shared,
         pairs,
         motions: motions.names,
         cases,

@@ -18,25 +18,20 @@ impl ClassesResults {
             self.rows,
             touching
         );
-        let [drift, force] = self.worst_deviations();
-        let _ = writeln!(
-            text,
-            "{} cases run again in full: drift within {:.2e}, force within {:.2e}",
-            self.checked.len(),
-            drift,
-            force
-        );
+        if !self.checked.is_empty() {
+            let [drift, force] = self.worst_deviations();
+            let _ = writeln!(
+                text,
+                "{} cases run again in full: drift within {drift:.2e}, force within {force:.2e}",
+                self.checked.len(),
+            );
+        }
         let fitted = self.curves.iter().filter(|own| own.fit.is_ok()).count();
         let _ = writeln!(text, "{fitted} of {} curves fitted", self.curves.len());
         for (state, name) in STATES.iter().enumerate() {
-            let factors: Vec<f64> = self
-                .curves
-                .iter()
-                .enumerate()
-                .collect::<Vec<_>>()
-                .iter()
-                .filter(|(_, own)| own.state == state)
-                .filter_map(|(at, _)| self.pounding_factor(*at))
+            let factors: Vec<f64> = (0..self.curves.len())
+                .filter(|at| self.curves[*at].state == state)
+                .filter_map(|at| self.pounding_factor(at))
                 .collect();
             let least = factors.iter().copied().fold(f64::INFINITY, f64::min);
             let most = factors.iter().copied().fold(0.0, f64::max);
