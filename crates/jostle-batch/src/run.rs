@@ -70,7 +70,17 @@ pub fn run(
     motions: &[Motion],
     rows: impl IntoIterator<Item = Row>,
     options: &Options,
-    sink: impl FnMut(usize, Peaks) -> ControlFlow<()>,
+    mut sink: impl FnMut(usize, Peaks) -> ControlFlow<()>,
+) -> Result<(), Error> {
+    run_any(motions, &mut rows.into_iter(), options, &mut sink)
+}
+
+/// [`run`] without type parameters: compiled once, with this crate's optimisation also in development.
+fn run_any(
+    motions: &[Motion],
+    rows: &mut dyn Iterator<Item = Row>,
+    options: &Options,
+    sink: &mut dyn FnMut(usize, Peaks) -> ControlFlow<()>,
 ) -> Result<(), Error> {
     match options.precision {
         Precision::Single => run_in::<f32, 8>(motions, rows, options.phase, sink),

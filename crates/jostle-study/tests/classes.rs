@@ -124,6 +124,11 @@ fn files_are_complete_and_nrml_has_moments_of_the_intensity() {
     assert!(xml.contains("A &lt; B &amp; C"));
     let functions = xml.matches("<fragilityFunction").count();
     assert!(functions > 0, "{left_out:?}");
+    let names = xml.split("<fragilityFunction id=\"").skip(1);
+    for name in names.filter_map(|own| own.split('"').next()) {
+        let fits = |c: char| c.is_ascii_alphanumeric() || "_-:".contains(c);
+        assert!(name.len() <= 75 && name.chars().all(fits), "{name}");
+    }
     let rows = read("pelicun.csv").lines().count() - 1;
     let groups = own.curves.len() / 4;
     assert_eq!(

@@ -130,6 +130,7 @@ fn again(
 fn model_text(file: &ClassesFile, pair: &Pair, draw: Draw) -> String {
     let row = pair.row(file, draw);
     let text = jostle_classes::model(&row, "record = \"el-centro-1940-ns\"", TOLERANCE);
-    // Draws may leave what is usual.
-    text.replacen("[analysis]\n", "[analysis]\naccept_unusual = true\n", 1)
+    // Draws may leave what is usual, and batches go on at drifts at which a run would end as collapsed.
+    let keys = "[analysis]\naccept_unusual = true\ncollapse_drift = 1\n";
+    text.replacen("[analysis]\n", keys, 1)
 }

@@ -269,15 +269,16 @@ fn range(file: &ClassesFile, results: &ClassesResults) -> [f64; 2] {
     })
 }
 
-/// Name of a pair and gap without characters that identifiers cannot have, such as `C1L-low-2.URML-pre-2.end.floors.10mm`.
+/// Name of a pair and gap, such as `C1L-low-2_URML-pre-2_end_floors_10mm`: OpenQuake takes letters, digits, `_`, `-` and
+/// `:`, at most 75 of them.
 fn group_name(results: &ClassesResults, own: &Fragility) -> String {
     let pair = &results.pairs[own.pair];
     let gap = own.gap.map_or_else(
         || "alone".to_owned(),
-        |gap| format!("{}mm", shown(1e3 * gap)),
+        |gap| format!("{}mm", shown(1e3 * gap).replace('.', "_")),
     );
     format!(
-        "{}.{}.{}.{}.{gap}",
+        "{}_{}_{}_{}_{gap}",
         pair.own.name(),
         pair.neighbour.name(),
         position(pair.middle),
