@@ -134,6 +134,7 @@ TABLE: dict[str, tuple[str, dict[str, str]] | Why] = {
         f"city {step}": Why("a city runs from files to files; its tables are Parquet and CSV, its models open with Model.load")
         for step in ("check", "pairs", "run", "report", "model", "example")
     },
+    "classes": Why("it writes a folder of tables, which pandas and OpenQuake read; jostle.main offers the command"),
     "mcp": Why("an assistant starts it as a program"),
     "compare": (
         "compare",

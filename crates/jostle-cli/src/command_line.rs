@@ -72,6 +72,8 @@ pub(crate) enum Command {
     Motion(Box<crate::motion::MotionCommand>),
     /// Run many cases of one model; any key of the model file can vary
     Study(crate::study::StudyArgs),
+    /// Fragility of classes of buildings (HAZUS, GEM) with and without pounding
+    Classes(crate::classes::ClassesArgs),
     /// Find the smallest gap without pounding, and compare it with rules and codes
     Gap(crate::gap::GapArgs),
     /// Search the least damper, gap or other key that keeps conditions, such as no impact

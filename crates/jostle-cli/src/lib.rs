@@ -3,6 +3,7 @@
 mod args;
 mod check;
 mod city;
+mod classes;
 mod collide;
 mod combinations;
 mod command_line;
@@ -65,6 +66,7 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
         Command::Live(args) => live::live(&args),
         Command::Mcp(args) => mcp::mcp(&args),
         Command::Motion(command) => motion::run(&command),
+        Command::Classes(args) => classes::classes(&args),
         Command::Section(args) => section::section(&args),
         Command::Size(args) => size::size(&args),
         Command::New(args) => starter::new(&args),

@@ -234,7 +234,7 @@ fn inventory(reader: &mut Reader<'_>, view: &View<'_>, folder: &Path) -> Option<
     Some((folder.join(file?), metres, columns, reach?))
 }
 
-fn table<'n>(
+pub(crate) fn table<'n>(
     reader: &mut Reader<'_>,
     view: &View<'n>,
     key: &'static str,
@@ -250,7 +250,7 @@ fn text(reader: &mut Reader<'_>, view: Option<&View<'_>>, key: &'static str) -> 
 }
 
 /// A number within limits, or the usual one where the key is absent.
-fn number(
+pub(crate) fn number(
     reader: &mut Reader<'_>,
     view: Option<&View<'_>>,
     key: &'static str,
@@ -272,7 +272,7 @@ fn number(
 }
 
 /// A whole number within limits, or the usual one where the key is absent.
-fn count(
+pub(crate) fn count(
     reader: &mut Reader<'_>,
     view: Option<&View<'_>>,
     key: &'static str,

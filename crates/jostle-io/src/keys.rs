@@ -188,6 +188,16 @@ pub(crate) enum Section {
     CityContact,
     /// How much is run.
     CityRun,
+    /// A classes file.
+    Classes,
+    /// Its classes, or their neighbours.
+    ClassesSide,
+    /// How they stand side by side.
+    ClassesPair,
+    /// How strong its motions are.
+    ClassesIntensity,
+    /// How much of it is run.
+    ClassesRun,
 }
 
 /// Type of a value.
@@ -412,6 +422,14 @@ pub(crate) const FIBRE_ENDS: &[&str] = &["both", "base"];
 pub(crate) const HINGE_SOURCES: &[&str] = &["section"];
 pub(crate) const HINGE_METHODS: &[&str] = &["formula", "fibre"];
 pub(crate) const WAVES: &[&str] = &["sine", "ricker"];
+/// Design levels of classes.
+pub(crate) const LEVELS: [&str; 4] = ["high", "moderate", "low", "pre"];
+/// How the floors of neighbours lie.
+pub(crate) const ALIGNMENTS: [&str; 2] = ["floors", "half-storey"];
+/// Where a class stands in its row.
+pub(crate) const POSITIONS: [&str; 2] = ["end", "middle"];
+/// Measures of the intensity of motions.
+pub(crate) const MEASURES: [&str; 3] = ["PGA", "Sa(T1)", "AvgSA"];
 /// Rules for the capacity of columns and beams, in the order of
 /// [`ShearRule::ALL`](jostle_section::capacity::ShearRule::ALL).
 pub(crate) const CAPACITY_RULES: &[&str] =
@@ -1318,6 +1336,35 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::CityRun, "draws", Count, "25", "Draws of gaps, stiffness, strength and damping for every motion."),
     default(S::CityRun, "tolerance", Quantity(D::Dimensionless), "0.01", "Relative error of peaks, 0.01 or 0.001, that 99.5 % of them keep.").usual("a tolerance", 1e-4, 0.1),
     default(S::CityRun, "sample", Count, "20", "Least number of rows that are run again in full, to see how good the batches are."),
+
+    optional(S::Classes, "title", Text, "Title of the page."),
+    required(S::Classes, "class", Kind::Table(S::ClassesSide), "Classes whose fragility is sought."),
+    default(S::Classes, "neighbour", Kind::Table(S::ClassesSide), "as class", "Their neighbours."),
+    optional(S::Classes, "pair", Kind::Table(S::ClassesPair), "How they stand side by side."),
+    optional(S::Classes, "contact", Kind::Table(S::CityContact), "How slabs hit each other."),
+    required(S::Classes, "motion", Kind::Table(S::Motion), "Ground motion, or several: record may be a list."),
+    optional(S::Classes, "intensity", Kind::Table(S::ClassesIntensity), "How strong motions are said to be, and to what they are scaled."),
+    optional(S::Classes, "run", Kind::Table(S::ClassesRun), "How much is run."),
+
+    required(S::ClassesSide, "types", Kind::Texts, "Structural types: names of HAZUS such as \"C1\" (the height follows from the storeys) or \"C1M\", or the taxonomy of GEM such as \"CR/LFM\"."),
+    required(S::ClassesSide, "storeys", Counts, "Numbers of storeys, 1 to 16; every type is taken with each."),
+    default(S::ClassesSide, "level", Choice(&LEVELS), "\"moderate\"", "Design level for earthquakes."),
+
+    default(S::ClassesPair, "gaps", Quantities(D::Length), "[\"10 mm\", \"50 mm\"]", "Widths of gaps, rising. Nobody has surveyed them: take several.").range(GAP),
+    default(S::ClassesPair, "alignment", Kind::Texts, "[\"floors\"]", "\"floors\": floors of equal height hit each other. \"half-storey\": the neighbour stands half of its storey higher, so that slabs hit columns."),
+    default(S::ClassesPair, "position", Kind::Texts, "[\"end\"]", "\"end\": one neighbour. \"middle\": the same neighbour on both sides."),
+    default(S::ClassesPair, "area", Quantity(D::Area), "\"200 m2\"", "Area of a floor of every building; masses are 1000 kg/m².").usual("an area of a floor", 20.0, 1e4),
+
+    default(S::ClassesIntensity, "measure", Choice(&MEASURES), "\"PGA\"", "PGA: peak ground acceleration. Sa(T1): pseudo-acceleration at the first period of the class, damping 5 %. AvgSA: geometric mean of it from 0.2 to 3 times that period."),
+    default(S::ClassesIntensity, "levels", Quantities(D::Acceleration), "motions as they are", "Intensities, rising, to which every motion is scaled.").usual("an intensity", 0.01, 50.0),
+
+    default(S::ClassesRun, "draws", Count, "10", "Draws of stiffness, strength, damping and contact stiffness for every motion."),
+    default(S::ClassesRun, "stiffness_scatter", Quantity(D::Dimensionless), "0.1", "Standard deviation of the logarithm of storey stiffness between buildings.").usual("a scatter", 1e-4, 2.0),
+    default(S::ClassesRun, "strength_scatter", Quantity(D::Dimensionless), "0.25", "The same of strength.").usual("a scatter", 1e-4, 2.0),
+    default(S::ClassesRun, "damping_scatter", Quantity(D::Dimensionless), "0.1", "The same of damping.").usual("a scatter", 1e-4, 2.0),
+    default(S::ClassesRun, "tolerance", Quantity(D::Dimensionless), "0.01", "Relative error of peaks, 0.01 or 0.001, that 99.5 % of them keep.").usual("a tolerance", 1e-4, 0.1),
+    default(S::ClassesRun, "sample", Count, "20", "Least number of rows that are run again in full, to see how good the batches are."),
+    default(S::ClassesRun, "resamples", Count, "200", "Resamples of the bootstrap over records, for 90 % intervals of medians; 0 makes none."),
 ];
 
 /// The keys of some sections, in order.

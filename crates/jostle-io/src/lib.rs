@@ -12,6 +12,7 @@ mod builtin_model;
 mod checks_page;
 mod choices;
 mod city_file;
+mod classes_file;
 mod comparison_map;
 mod csv;
 mod fault;
@@ -54,6 +55,7 @@ pub use builtin::{BUILTIN_RECORDS, BuiltinRecord, builtin_motions, builtin_recor
 pub use builtin_model::{builtin_model, model_names, model_text};
 pub use checks_page::{check_list, check_reference};
 pub use city_file::{CityFile, CityLevel};
+pub use classes_file::{ClassesFile, ClassesMeasure, ClassesSide};
 pub use comparison_map::{
     ComparedColumn, ComparedImpacts, ComparisonMap, ImpactSign, NamedColumn, TableMotion,
 };

@@ -53,13 +53,15 @@ pub enum Dimension {
     StiffnessPerLength,
     /// Stiffness of a Hertz contact per length \[N/m^1.5/m\].
     HertzStiffnessPerLength,
+    /// Area \[m²\].
+    Area,
     /// A plain number; `%` is understood.
     Dimensionless,
 }
 
 impl Dimension {
     /// Every dimension.
-    pub const ALL: [Self; 23] = [
+    pub const ALL: [Self; 24] = [
         Self::Length,
         Self::Mass,
         Self::Time,
@@ -82,6 +84,7 @@ impl Dimension {
         Self::Slowness,
         Self::StiffnessPerLength,
         Self::HertzStiffnessPerLength,
+        Self::Area,
         Self::Dimensionless,
     ];
 
@@ -111,6 +114,7 @@ impl Dimension {
             Self::Slowness => ("an inverse speed", "50 s/m", "s/m", [-1.0, 0.0, 1.0]),
             Self::StiffnessPerLength => ("a stiffness per length", "20 MN/m/m", "N/m/m", [-1.0, 1.0, -2.0]),
             Self::HertzStiffnessPerLength => ("a Hertz contact stiffness per length", "2e8 N/m^1.5/m", "N/m^1.5/m", [-1.5, 1.0, -2.0]),
+            Self::Area => ("an area", "200 m2", "m2", [2.0, 0.0, 0.0]),
             Self::Dimensionless => ("a number without unit", "0.05", "1", [0.0; 3]),
         }
     }

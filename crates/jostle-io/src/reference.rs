@@ -311,6 +311,19 @@ const TABLES: &[(Section, &str, &str)] = &[
     (Section::CityContact, "City file: `[contact]`", ""),
     (Section::CityRun, "City file: `[run]`", ""),
     (
+        Section::Classes,
+        "Classes file: top",
+        "A file of its own, for `jostle classes`; see [Fragility of classes with pounding](how-to/classes.md).",
+    ),
+    (
+        Section::ClassesSide,
+        "Classes file: `[class]` and `[neighbour]`",
+        "",
+    ),
+    (Section::ClassesPair, "Classes file: `[pair]`", ""),
+    (Section::ClassesIntensity, "Classes file: `[intensity]`", ""),
+    (Section::ClassesRun, "Classes file: `[run]`", ""),
+    (
         Section::Comparison,
         "Map of a comparison: top",
         "A file of its own, for `jostle compare`; see [Compare with a shake-table test](how-to/shake-table.md).",

@@ -8,6 +8,7 @@ mod bounds;
 mod build;
 mod calculation;
 mod checks;
+mod classes_page;
 mod collisions;
 mod comparison;
 mod contact_box;
@@ -54,6 +55,7 @@ mod walls;
 
 pub use build::{BUILD, version};
 pub use calculation::{Calculation, TitleBlockPart};
+pub use classes_page::render_classes;
 pub use collisions::{CollidedLaw, Collisions, loops_svg, render_collisions};
 pub use comparison::{ComparedHistory, ComparedImpactTimes, ComparisonPage, render_comparison};
 pub use contact_box::ContactBox;

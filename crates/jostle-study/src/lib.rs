@@ -7,6 +7,7 @@
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))] // bits of results depend on no processor
 
 mod case;
+pub mod classes;
 pub mod dataset;
 mod design;
 mod layout;

@@ -246,6 +246,19 @@ record = "el-centro-1940-ns"
 [run]
 "#;
 
+/// A classes file that has every table.
+const CLASSES: &str = r#"
+[class]
+types = ["C1"]
+storeys = [3]
+[pair]
+[contact]
+[motion]
+record = "el-centro-1940-ns"
+[intensity]
+[run]
+"#;
+
 /// Keys that the reader of models asks for.
 fn asked_of_models() -> BTreeSet<(Section, &'static str)> {
     let mut asked = BTreeSet::new();
@@ -303,6 +316,9 @@ fn every_key_of_the_table_is_read() {
     let source = Source::new("city.toml", CITY);
     let root = parse(&source, Format::Toml).unwrap_or_else(|error| panic!("{error}"));
     asked.extend(crate::city_file::keys_asked(&source, &root));
+    let source = Arc::new(Source::new("classes.toml", CLASSES));
+    let root = parse(&source, Format::Toml).unwrap_or_else(|error| panic!("{error}"));
+    asked.extend(crate::classes_file::keys_asked(&source, &root));
     let known: BTreeSet<_> = KEYS.iter().map(|key| (key.section, key.name)).collect();
     let unread: Vec<_> = known.difference(&asked).collect();
     assert!(

@@ -21,6 +21,35 @@ messages! {
     // calculation/elevation
     gap_width(width) = "gap {width}";
 
+    // classes_page
+    fragility_of_classes = "Fragility of classes of buildings, with and without pounding";
+    classes_cases(cases, motions, draws) = "{cases} cases: {motions} motions, {draws} draws of stiffness, strength and damping for each.";
+    classes_checked(checked, drift, force) = "{checked} cases were run again by the full solver: drift agrees within {drift}, contact force within {force}.";
+    classes_map = "Pairs by their storeys";
+    classes_class = "class";
+    classes_neighbour = "neighbour";
+    classes_place = "place";
+    classes_state = "damage";
+    classes_gap = "gap";
+    classes_map_help = "Click a cell to see its curves. A factor below 1 means that pounding brings the damage about at a lower intensity. An empty cell has no curve; point at it for the reason.";
+    classes_curves = "Fragility curves of the chosen pair";
+    classes_curves_help = "Solid: with contact. Dashed: without. Points: share of cases at each intensity.";
+    classes_limits = "Limits";
+    classes_limits_text = "Shear models by the capacity curves of HAZUS and the formulas of Lu and Guan. Damage is peak storey drift. Out-of-plane failure of masonry, local damage of columns that slabs strike, torsion and P-Delta are not modelled. Gaps are assumed, not surveyed.";
+    classes_factor = "pounding factor: median with contact over median without";
+    classes_factor_short = "pounding factor";
+    classes_median_with = "median with contact [g]";
+    classes_median_without = "median without contact [g]";
+    classes_touching = "share of cases with impacts";
+    classes_columns = "share of cases in which a slab strikes a column";
+    classes_storeys_of_class = "storeys of the class";
+    classes_storeys_of_neighbour = "storeys of the neighbour";
+    classes_no_curve = "no curve";
+    classes_chosen = "{class}, {storeys} storeys, beside {neighbour}, {beside} storeys; gap {gap} mm";
+    classes_probability = "Probability of damage over intensity";
+    classes_interval = "90 % interval [g]";
+    classes_note = "note";
+
     // collisions
     time_ms = "time [ms]";
     indentation_mm = "indentation [mm]";

@@ -359,7 +359,7 @@ fn write_csv(study: &Study, folder: &Path) -> Result<(), StudyError> {
     Ok(jostle_io::put_in_place(&part, &path)?)
 }
 
-fn csv(columns: &[(String, Values)]) -> String {
+pub(crate) fn csv(columns: &[(String, Values)]) -> String {
     let cell = |values: &Values, row: usize| match values {
         Values::Real(values) => values[row].to_string(),
         Values::Instant(values) => values[row].map_or(String::new(), |value| value.to_string()),

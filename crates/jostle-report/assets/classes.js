@@ -1,0 +1,142 @@
+// Heat map of pairs by storeys, and the curves of the chosen pair.
+
+const data = JSON.parse(document.getElementById("page-data").textContent);
+const at = (id) => document.getElementById(id);
+const NS = "http://www.w3.org/2000/svg";
+
+/** An SVG element with attributes, and a text or children. */
+function svg(name, attributes, ...inside) {
+  const node = document.createElementNS(NS, name);
+  for (const [key, value] of Object.entries(attributes)) node.setAttribute(key, value);
+  node.append(...inside);
+  return node;
+}
+
+const curveOf = new Map();
+for (const one of data.curves) curveOf.set([one.pair, one.gap, one.state].join("|"), one);
+const find = (pair, gap, state) => curveOf.get([pair, gap, state].join("|"));
+const SHOWN = { factor: say("classes_factor"), median: say("classes_median_with"), touching: say("classes_touching"), columns: say("classes_columns") };
+const place = (pair) => `${pair.position} · ${pair.alignment}`;
+const distinct = (values) => [...new Set(values)];
+
+function options(id, values) {
+  at(id).replaceChildren(...values.map(([value, text]) => new Option(text, value)));
+}
+const same = (value) => [value, value];
+options("class", distinct(data.pairs.map((pair) => pair.class)).map(same));
+options("neighbour", distinct(data.pairs.map((pair) => pair.neighbour)).map(same));
+options("place", distinct(data.pairs.map(place)).map(same));
+options("state", data.states.map((name, i) => [i, name]));
+options("shown", Object.entries(SHOWN));
+at("state").value = 1;
+at("gap").max = data.gaps.length - 1;
+at("gap").value = 0;
+let chosen = null;
+
+const digits = (value) => (value === null || value === undefined ? "–" : Number(value.toPrecision(3)).toString());
+
+/** Pairs of the chosen classes and place. */
+function chosenPairs() {
+  const wanted = (pair) => pair.class === at("class").value && pair.neighbour === at("neighbour").value && place(pair) === at("place").value;
+  return data.pairs.map((pair, index) => ({ pair, index })).filter(({ pair }) => wanted(pair));
+}
+
+function drawMap() {
+  const gap = data.gaps[at("gap").value];
+  at("gap-width").textContent = `${digits(1000 * gap)} mm`;
+  const state = Number(at("state").value);
+  const shown = at("shown").value;
+  const pairs = chosenPairs();
+  const rising = (values) => distinct(values).sort((a, b) => a - b);
+  const rows = rising(pairs.map(({ pair }) => pair.storeys));
+  const columns = rising(pairs.map(({ pair }) => pair.beside));
+  if (!pairs.some(({ index }) => index === chosen)) chosen = pairs[0]?.index ?? null;
+  const values = pairs.map(({ index }) => find(index, gap, state)?.[shown]).filter((value) => value !== null && value !== undefined);
+  const low = shown === "factor" ? Math.min(0.8, ...values) : 0;
+  const high = shown === "factor" ? Math.max(1.2, ...values) : Math.max(shown === "median" ? 0.1 : 1, ...values);
+  const [left, top, side] = [64, 26, 64];
+  const picture = svg("svg", { viewBox: `0 0 ${left + side * columns.length + 160} ${top + side * rows.length + 46}`, role: "img", "aria-label": SHOWN[shown], style: `max-width:${left + side * columns.length + 160}px` });
+  picture.append(svg("text", { x: 0, y: 14 }, say("classes_storeys_of_class")));
+  rows.forEach((row, r) => picture.append(svg("text", { x: left - 8, y: top + side * (rows.length - r - 0.5) + 4, "text-anchor": "end" }, row)));
+  columns.forEach((column, c) => picture.append(svg("text", { x: left + side * (c + 0.5), y: top + side * rows.length + 18, "text-anchor": "middle" }, column)));
+  picture.append(svg("text", { x: left, y: top + side * rows.length + 38 }, say("classes_storeys_of_neighbour")));
+  for (const { pair, index } of pairs) {
+    const one = find(index, gap, state);
+    const value = one?.[shown];
+    const known = value !== null && value !== undefined;
+    const share = known ? (value - low) / (high - low) : 0;
+    const [x, y] = [left + side * columns.indexOf(pair.beside), top + side * (rows.length - 1 - rows.indexOf(pair.storeys))];
+    const cell = svg("rect", { class: `study-cell${known ? "" : " empty"}${index === chosen ? " linked" : ""}`, x: x + 1, y: y + 1, width: side - 2, height: side - 2, style: `--s:${(100 * share).toFixed(1)}%`, tabindex: 0, role: "button", "aria-label": `${pair.storeys} / ${pair.beside}: ${digits(value)}` });
+    cell.append(svg("title", {}, known ? `${SHOWN[shown]}: ${digits(value)}` : one?.note ?? say("classes_no_curve")));
+    const choose = () => { chosen = index; draw(); };
+    cell.addEventListener("click", choose);
+    cell.addEventListener("keydown", (event) => { if (event.key === "Enter") choose(); });
+    picture.append(cell, svg("text", { class: `study-number${share > 0.5 ? " on-dark" : ""}`, x: x + side / 2, y: y + side / 2 + 4, "text-anchor": "middle" }, digits(value)));
+  }
+  const bar = left + side * columns.length + 20;
+  for (let i = 0; i < 24; i++) picture.append(svg("rect", { class: "study-cell", x: bar, y: top + (side * rows.length * (23 - i)) / 24, width: 12, height: (side * rows.length) / 24 + 0.3, style: `--s:${((100 * (i + 0.5)) / 24).toFixed(1)}%` }));
+  for (const part of [0, 0.5, 1]) picture.append(svg("text", { x: bar + 18, y: top + side * rows.length * (1 - part) + 4 }, digits(low + part * (high - low))));
+  at("map").replaceChildren(picture);
+}
+
+/** Standard normal distribution function, within 1e-7 (Abramowitz and Stegun 26.2.17). */
+function normal(z) {
+  const t = 1 / (1 + 0.2316419 * Math.abs(z));
+  const tail = 0.3989422804 * Math.exp(-0.5 * z * z) * t * (0.31938153 + t * (-0.356563782 + t * (1.781477937 + t * (-1.821255978 + t * 1.330274429))));
+  return z > 0 ? 1 - tail : tail;
+}
+
+function drawCurves() {
+  if (chosen === null) return;
+  const gap = data.gaps[at("gap").value];
+  const pair = data.pairs[chosen];
+  at("chosen").textContent = say("classes_chosen", { storeys: pair.storeys, class: pair.class, beside: pair.beside, neighbour: pair.neighbour, gap: digits(1000 * gap) });
+  const [left, top, width, height] = [46, 12, 520, 260];
+  const most = data.range[1];
+  const x = (value) => left + (width * value) / most;
+  const y = (value) => top + height * (1 - value);
+  const picture = svg("svg", { viewBox: `0 0 ${left + width + 20} ${top + height + 44}`, role: "img", "aria-label": say("classes_probability"), style: "max-width:640px" });
+  for (const part of [0, 0.25, 0.5, 0.75, 1]) {
+    picture.append(svg("line", { x1: left, x2: left + width, y1: y(part), y2: y(part), stroke: "var(--rule)" }));
+    picture.append(svg("text", { x: left - 6, y: y(part) + 4, "text-anchor": "end" }, part));
+    picture.append(svg("text", { x: x(part * most), y: top + height + 18, "text-anchor": "middle" }, digits(part * most)));
+  }
+  picture.append(svg("text", { x: left + width / 2, y: top + height + 38, "text-anchor": "middle" }, `${data.measure} [g]`));
+  data.states.forEach((name, state) => {
+    const colour = `var(--c${state})`;
+    for (const [own, dash] of [[find(chosen, null, state), "5 4"], [find(chosen, gap, state), "none"]]) {
+      if (!own) continue;
+      if (own.median !== null) {
+        const points = Array.from({ length: 121 }, (_, i) => (most * (i + 0.01)) / 120);
+        const line = points.map((value) => `${x(value).toFixed(1)},${y(normal(Math.log(value / own.median) / own.dispersion)).toFixed(1)}`);
+        picture.append(svg("polyline", { points: line.join(" "), fill: "none", stroke: colour, "stroke-width": 2, "stroke-dasharray": dash }));
+      }
+      for (const [level, cases, reached] of own.counts) {
+        const dot = svg("circle", { cx: x(level), cy: y(reached / cases), r: 3.4, stroke: colour, fill: dash === "none" ? colour : "var(--paper)" });
+        dot.append(svg("title", {}, `${name}: ${reached} / ${cases}`));
+        picture.append(dot);
+      }
+    }
+  });
+  at("curve").replaceChildren(picture);
+  const heads = [say("classes_state"), say("classes_median_without"), say("classes_median_with"), say("classes_interval"), say("classes_factor_short"), say("classes_note")];
+  const row = (cells, tag) => {
+    const line = document.createElement("tr");
+    line.append(...cells.map((text) => Object.assign(document.createElement(tag), { textContent: text })));
+    return line;
+  };
+  const lines = data.states.map((name, state) => {
+    const [alone, own] = [find(chosen, null, state), find(chosen, gap, state)];
+    const line = row([name, digits(alone?.median), digits(own?.median), own?.interval ? own.interval.map(digits).join(" – ") : "–", digits(own?.factor), own?.note ?? alone?.note ?? ""], "td");
+    line.style.borderLeft = `4px solid var(--c${state})`;
+    return line;
+  });
+  at("numbers").replaceChildren(row(heads, "th"), ...lines);
+}
+
+function draw() {
+  drawMap();
+  drawCurves();
+}
+for (const id of ["class", "neighbour", "place", "state", "shown", "gap"]) at(id).addEventListener("input", draw);
+draw();
