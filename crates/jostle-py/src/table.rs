@@ -5,8 +5,8 @@ use std::sync::Arc;
 use arrow_array::ffi::FFI_ArrowSchema;
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
 use arrow_array::{
-    ArrayRef, Float64Array, Int32Array, RecordBatch, RecordBatchIterator, RecordBatchOptions,
-    StringArray, BinaryArray,
+    ArrayRef, BinaryArray, Float64Array, Int32Array, RecordBatch, RecordBatchIterator,
+    RecordBatchOptions, StringArray,
 };
 use arrow_schema::{ArrowError, DataType, Field, Schema};
 use jostle_io::Values;

@@ -50,7 +50,10 @@ fn classes_agree_with_counts_and_with_the_full_solver() {
     for case in &own.cases {
         assert_eq!(case.impacts > 0, case.force > 0.0, "{case:?}");
         assert!(case.impacts == 0 || case.closing > case.gap, "{case:?}");
-        assert!(case.impacts > 0 || case.closing < case.gap * 1.001, "{case:?}");
+        assert!(
+            case.impacts > 0 || case.closing < case.gap * 1.001,
+            "{case:?}"
+        );
         if case.gap >= case.closing {
             assert_eq!(case.with, case.alone, "{case:?}");
         }

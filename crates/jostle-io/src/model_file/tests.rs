@@ -316,7 +316,7 @@ fn every_key_of_the_table_is_read() {
     let source = Source::new("city.toml", CITY);
     let root = parse(&source, Format::Toml).unwrap_or_else(|error| panic!("{error}"));
     asked.extend(crate::city_file::keys_asked(&source, &root));
-    let source = Arc::new(Source::new("classes.toml", CLASSES));
+    let source = std::sync::Arc::new(Source::new("classes.toml", CLASSES));
     let root = parse(&source, Format::Toml).unwrap_or_else(|error| panic!("{error}"));
     asked.extend(crate::classes_file::keys_asked(&source, &root));
     let known: BTreeSet<_> = KEYS.iter().map(|key| (key.section, key.name)).collect();
