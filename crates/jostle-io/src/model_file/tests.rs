@@ -251,6 +251,9 @@ const CLASSES: &str = r#"
 [class]
 types = ["C1"]
 storeys = [3]
+[neighbour]
+types = ["C1"]
+storeys = [3]
 [pair]
 [contact]
 [motion]
@@ -316,7 +319,7 @@ fn every_key_of_the_table_is_read() {
     let source = Source::new("city.toml", CITY);
     let root = parse(&source, Format::Toml).unwrap_or_else(|error| panic!("{error}"));
     asked.extend(crate::city_file::keys_asked(&source, &root));
-    let source = Arc::new(Source::new("classes.toml", CLASSES));
+    let source = std::sync::Arc::new(Source::new("classes.toml", CLASSES));
     let root = parse(&source, Format::Toml).unwrap_or_else(|error| panic!("{error}"));
     asked.extend(crate::classes_file::keys_asked(&source, &root));
     let known: BTreeSet<_> = KEYS.iter().map(|key| (key.section, key.name)).collect();
