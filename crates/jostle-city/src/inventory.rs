@@ -10,6 +10,7 @@ use std::path::Path;
 
 use geo::{Area, BoundingRect, Coord, Geometry, MapCoords, Polygon};
 
+use crate::building::Building;
 use crate::fault::CityError;
 use crate::mend::{Mend, repeats, whole};
 use crate::plane::Plane;
@@ -18,47 +19,6 @@ pub use columns::{Attribute, Columns};
 
 /// Footprints below this are sheds and slivers \[m²\].
 pub(crate) const LEAST_AREA: f64 = 20.0;
-/// Height of a storey where only the height of the building is known \[m\].
-pub(crate) const STOREY: f64 = 3.2;
-
-/// A building of a city.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Building {
-    /// Its name in the inventory, or the number of its row.
-    pub id: String,
-    /// Row of the inventory, from 1.
-    pub row: usize,
-    /// Outline in the plane \[m\].
-    pub outline: Polygon,
-    /// Area of the outline \[m²\].
-    pub area: f64,
-    /// Storeys above the ground, where known.
-    pub storeys: Option<usize>,
-    /// Height above the ground, where known \[m\].
-    pub height: Option<f64>,
-    /// Year of construction, where known.
-    pub year: Option<i32>,
-    /// Structural type as the inventory names it.
-    pub kind: Option<String>,
-}
-
-impl Building {
-    /// Storeys, from the height at 3.2 m each if need be, or 1.
-    #[must_use]
-    pub fn likely_storeys(&self) -> usize {
-        let of_height = || {
-            self.height
-                .map(|own| ((own / STOREY).round() as usize).max(1))
-        };
-        self.storeys.or_else(of_height).unwrap_or(1)
-    }
-
-    /// Height, from the storeys at 3.2 m each if need be \[m\].
-    #[must_use]
-    pub fn likely_height(&self) -> f64 {
-        self.height.unwrap_or(self.likely_storeys() as f64 * STOREY)
-    }
-}
 
 /// A file of footprints, read and mended.
 #[derive(Clone, Debug)]

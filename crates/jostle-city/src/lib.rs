@@ -8,6 +8,7 @@
 
 mod answers;
 mod blocks;
+mod building;
 mod columns;
 mod draw;
 mod example;
@@ -25,10 +26,11 @@ mod tables;
 
 pub use answers::{Answers, BuildingAnswer, PairAnswer};
 pub use blocks::{Block, Line, blocks, rows};
+pub use building::Building;
 pub use draw::{GapWidths, number_of};
 pub use example::example_city;
 pub use fault::CityError;
-pub use inventory::{Attribute, Building, Columns, Inventory, ReadOptions};
+pub use inventory::{Attribute, Columns, Inventory, ReadOptions};
 pub use mend::Mend;
 pub use neighbours::{Neighbours, Pair, Position};
 pub use plane::Plane;

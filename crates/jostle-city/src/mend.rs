@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use geo::{Area, BooleanOps, Centroid, LineString, MultiPolygon, Orient, Polygon, Validation};
 
-use crate::inventory::Building;
+use crate::building::Building;
 
 /// What was changed of a row.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
-use crate::inventory::{Building, STOREY};
+use crate::building::{Building, STOREY};
 
 /// Walls face each other where their outward normals differ from opposite ones by less than 45°: minus its cosine.
 const FACING: f64 = -0.707;

@@ -250,7 +250,7 @@ impl City {
         let runs = folder.join("runs");
         std::fs::create_dir_all(&runs).map_err(|error| CityError::of(&runs, error))?;
         tables::claim(folder, &self.file, &self.fingerprint)?;
-        tables::write(folder, self)?;
+        tables::write_tables(folder, &self.inventory, &self.neighbours, &self.blocks)?;
         let each = self.file.draws * self.motions.len();
         let mut done = Done {
             cases: 0,

@@ -8,12 +8,12 @@ use jostle_io::{CityFile, Values, csv_field, write_atomically, write_values_parq
 use serde_json::json;
 
 use crate::blocks::Block;
+use crate::building::Building;
 use crate::fault::CityError;
-use crate::inventory::{Attribute, Building, Columns, Inventory};
+use crate::inventory::{Attribute, Columns, Inventory};
 use crate::mend::Mend;
 use crate::neighbours::Neighbours;
 use crate::plane::Plane;
-use crate::run::City;
 
 /// Overlaps per building above which footprints are refused \[–\].
 const MOST_OVERLAPS: f64 = 0.05;
@@ -144,11 +144,6 @@ pub fn write_tables(
         mended_csv(&inventory.mends).as_bytes(),
     )?;
     Ok(())
-}
-
-/// The tables of a city that is run.
-pub(crate) fn write(folder: &Path, city: &City) -> Result<(), CityError> {
-    write_tables(folder, &city.inventory, &city.neighbours, &city.blocks)
 }
 
 /// What is known of buildings, without their outlines.

@@ -108,6 +108,8 @@ pub fn at_floors(row: &Row) -> Row {
                 contacts.push(moved);
             }
         }
+        // From the ground up, as a model has its contacts.
+        contacts.sort_by_key(|own| (own.left.floor, own.right.floor));
         gap.contacts = contacts;
     }
     own

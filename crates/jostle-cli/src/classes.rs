@@ -90,7 +90,7 @@ pub(crate) fn classes(args: &ClassesArgs) -> Result<(), Failure> {
     }
     let mut text = results.text();
     text += &format!(
-        "{:.1} s\nPage: {}",
+        "in {:.1} s\nPage: {}",
         started.elapsed().as_secs_f64(),
         out.join("index.html").display()
     );

@@ -28,7 +28,9 @@ options("neighbour", distinct(data.pairs.map((pair) => pair.neighbour)).map(same
 options("place", distinct(data.pairs.map(place)).map(same));
 options("state", data.states.map((name, i) => [i, name]));
 options("shown", Object.entries(SHOWN));
-at("state").value = 1;
+// The state with most factors first.
+const filled = data.states.map((_, state) => data.pairs.filter((_, pair) => (find(pair, data.gaps[0], state)?.factor ?? null) !== null).length);
+at("state").value = filled.indexOf(Math.max(...filled));
 at("gap").max = data.gaps.length - 1;
 at("gap").value = 0;
 let chosen = null;
@@ -128,6 +130,7 @@ function drawCurves() {
   const lines = data.states.map((name, state) => {
     const [alone, own] = [find(chosen, null, state), find(chosen, gap, state)];
     const line = row([name, digits(alone?.median), digits(own?.median), own?.interval ? own.interval.map(digits).join(" – ") : "–", digits(own?.factor), own?.note ?? alone?.note ?? ""], "td");
+    line.lastChild.className = "in-words";
     line.style.borderLeft = `4px solid var(--c${state})`;
     return line;
   });

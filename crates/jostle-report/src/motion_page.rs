@@ -301,8 +301,8 @@ mod tests {
         );
         assert_eq!(
             text.matches("</script>").count(),
-            3,
-            "data, texts and the script"
+            4,
+            "data, texts, the script, and that of light and dark"
         );
     }
 

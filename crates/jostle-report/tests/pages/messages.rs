@@ -12,6 +12,7 @@ use crate::sources::{self, Literal, pages, rust_literals, script_literals, scrip
 /// Literals that look like texts and are none: classes, anchors, styles, commands, names of columns.
 const NO_TEXT: &[&str] = &[
     "mrad",
+    "Enter",
     "translate({:.1} {:.1}) rotate(-90)",
     "system-ui, sans-serif",
     "jostle contact-advice",
