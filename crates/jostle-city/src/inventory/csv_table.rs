@@ -57,7 +57,15 @@ fn footprint(text: &str) -> Result<Geometry<f64>, String> {
         return Err("no geometry".to_owned());
     }
     if !text.starts_with('{') {
-        return Geometry::try_from_wkt_str(text).map_err(|error| format!("no WKT: {error}"));
+        // Collections may hold collections without end, and hold no building.
+        let kind: String = text.chars().take_while(char::is_ascii_alphabetic).collect();
+        return match kind.to_ascii_uppercase().as_str() {
+            "POLYGON" | "MULTIPOLYGON" => {
+                Geometry::try_from_wkt_str(text).map_err(|error| format!("no WKT: {error}"))
+            }
+            "POINT" | "MULTIPOINT" => Ok(Geometry::Point(geo::Point::new(0.0, 0.0))),
+            _ => Err("neither POLYGON nor MULTIPOLYGON".to_owned()),
+        };
     }
     let parsed: GeoJson = text
         .parse()

@@ -19,7 +19,9 @@ pub(super) fn read(path: &Path, gathered: &mut Gathered<'_>) -> Result<(), CityE
         let feature = feature.map_err(|error| {
             CityError::of(
                 path,
-                format!("feature {row}: no feature of a GeoJSON FeatureCollection: {error}"),
+                format!(
+                    "feature {row}: a GeoJSON FeatureCollection of polygons is needed ({error})"
+                ),
             )
         })?;
         gathered.take(record(feature, row))?;

@@ -79,7 +79,26 @@ pub(super) fn read(path: &Path, gathered: &mut Gathered<'_>) -> Result<(), CityE
 }
 
 fn footprint(bytes: &[u8]) -> Result<Geometry<f64>, String> {
+    // Collections may hold collections without end, and hold no building.
+    match kind(bytes) {
+        Some(3 | 6) => {}
+        Some(1 | 4) => return Ok(Geometry::Point(geo::Point::new(0.0, 0.0))),
+        Some(_) => return Err("neither a polygon nor a multipolygon".to_owned()),
+        None => return Err("no WKB: cut short".to_owned()),
+    }
     let read = wkb::reader::read_wkb(bytes).map_err(|error| format!("no WKB: {error}"))?;
     read.try_to_geometry()
         .ok_or_else(|| "an empty geometry".to_owned())
+}
+
+/// Kind of a geometry by the head of its WKB: 1 point, 3 polygon, 4 multipoint, 6 multipolygon, whatever its dimensions.
+fn kind(bytes: &[u8]) -> Option<u32> {
+    let word: [u8; 4] = bytes.get(1..5)?.try_into().ok()?;
+    let word = if bytes[0] == 0 {
+        u32::from_be_bytes(word)
+    } else {
+        u32::from_le_bytes(word)
+    };
+    // The upper bits say in EWKB, the thousands in ISO, that there are Z, M or a reference system.
+    Some((word & 0x0fff_ffff) % 1000)
 }

@@ -130,3 +130,52 @@ fn what_cannot_be_used_is_refused_with_row_column_and_remedy() {
         .to_string();
     assert!(error.contains("--metres"), "{error}");
 }
+
+#[test]
+fn geometries_within_geometries_without_end_are_refused() {
+    let deep = 100_000;
+    let square = "POLYGON((0 0,10 0,10 10,0 10,0 0))";
+    let nested = format!(
+        "{}POINT(0 0){}",
+        "GEOMETRYCOLLECTION(".repeat(deep),
+        ")".repeat(deep)
+    );
+    let inventory = read(
+        "deep.csv",
+        &format!("id,storeys,wkt\n1,2,\"{nested}\"\n2,2,\"{square}\"\n"),
+    )
+    .unwrap();
+    assert_eq!(inventory.buildings.len(), 1);
+    assert_eq!(inventory.mends[0].what, "no outline");
+    // WKB of a collection of a collection …; a square; and one that is cut short.
+    let collection: Vec<u8> = [1, 7, 0, 0, 0, 1, 0, 0, 0].repeat(deep);
+    let corners = [
+        [0.0_f64, 0.0],
+        [10.0, 0.0],
+        [10.0, 10.0],
+        [0.0, 10.0],
+        [0.0, 0.0],
+    ];
+    let mut square: Vec<u8> =
+        [[1, 3, 0, 0, 0, 1, 0, 0, 0].as_slice(), &5_u32.to_le_bytes()].concat();
+    square.extend(corners.iter().flatten().flat_map(|own| own.to_le_bytes()));
+    let cut = square[..square.len() - 9].to_vec();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("deep.parquet");
+    let columns = vec![
+        ("storeys".to_owned(), jostle_io::Values::Real(vec![2.0; 3])),
+        (
+            "geometry".to_owned(),
+            jostle_io::Values::Bytes(vec![collection, square, cut]),
+        ),
+    ];
+    jostle_io::write_values_parquet(&path, "deep", &[], columns).unwrap();
+    let options = ReadOptions {
+        metres: true,
+        ..ReadOptions::default()
+    };
+    let inventory = Inventory::read(&path, &options).unwrap();
+    assert_eq!(inventory.buildings.len(), 1);
+    assert!((inventory.buildings[0].area - 100.0).abs() < 1e-9);
+    assert_eq!(inventory.mends.len(), 2);
+}
