@@ -6,6 +6,9 @@ use geo::{Area, BooleanOps, Centroid, LineString, MultiPolygon, Orient, Polygon,
 
 use crate::building::Building;
 
+/// Corners above which an outline is mended without asking whether it must be.
+const LONG: usize = 1000;
+
 /// What was changed of a row.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mend {
@@ -37,11 +40,13 @@ pub(crate) fn whole(parts: Vec<Polygon>) -> (Option<Polygon>, Option<String>) {
     for part in parts {
         let (exterior, _) = part.into_inner();
         let outline = Polygon::new(exterior, Vec::new());
-        if outline.is_valid() {
+        // The check compares every wall with every other; the rule below does not.
+        let long = outline.exterior().0.len() > LONG;
+        if !long && outline.is_valid() {
             mended.push(outline);
             continue;
         }
-        invalid = true;
+        invalid |= !long;
         // The even–odd rule gives what the ring encloses.
         let empty = MultiPolygon::<f64>::new(Vec::new());
         mended.extend(MultiPolygon::new(vec![outline]).union(&empty).0);
