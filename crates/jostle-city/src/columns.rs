@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 use std::path::Path;
 
+use jostle_io::undamaged;
 use parquet::column::reader::ColumnReader;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 
@@ -19,6 +20,18 @@ pub(crate) struct Table {
 impl Table {
     /// Reads a table. Absent numbers become NaN; other columns are left out.
     pub(crate) fn read(path: &Path) -> Result<Self, CityError> {
+        undamaged(|| Self::read_whole(path)).map_err(|problem| {
+            // Faults of the file name it already.
+            let named = problem.starts_with(&path.display().to_string());
+            if named {
+                CityError::Input(problem)
+            } else {
+                CityError::of(path, problem)
+            }
+        })
+    }
+
+    fn read_whole(path: &Path) -> Result<Self, CityError> {
         let fault = |error: &dyn std::fmt::Display| CityError::of(path, error);
         let file = jostle_io::open_file(path).map_err(|error| fault(&error))?;
         let reader = SerializedFileReader::new(file).map_err(|error| fault(&error))?;

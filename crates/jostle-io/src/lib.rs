@@ -46,6 +46,7 @@ mod tables;
 mod target;
 mod templates;
 mod tree;
+mod undamaged;
 mod unit;
 mod unusual;
 
@@ -114,4 +115,5 @@ pub use tables::{
 pub use target::{TARGET_CODES, TargetError, TargetWords, read_target_file};
 pub use templates::{TEMPLATE_NAMES, template};
 pub use tree::Format;
+pub use undamaged::undamaged;
 pub use unusual::parse_option;

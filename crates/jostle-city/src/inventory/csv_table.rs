@@ -6,6 +6,7 @@ use geo::Geometry;
 use geojson::GeoJson;
 use wkt::TryFromWkt;
 
+use super::geojson_file::outlines;
 use super::{Gathered, Record};
 use crate::fault::CityError;
 
@@ -78,5 +79,5 @@ fn footprint(text: &str) -> Result<Geometry<f64>, String> {
         }
     };
     let geometry = geometry.ok_or("no geometry")?;
-    Geometry::try_from(geometry).map_err(|error| error.to_string())
+    outlines(geometry)
 }

@@ -4,7 +4,7 @@ use std::io::BufReader;
 use std::path::Path;
 
 use geo::Geometry;
-use geojson::{Feature, FeatureReader, JsonValue};
+use geojson::{Feature, FeatureReader, GeometryValue, JsonValue};
 
 use super::{Gathered, Record};
 use crate::fault::CityError;
@@ -51,11 +51,33 @@ pub(super) fn record(feature: Feature, row: usize) -> Record {
     }
     let geometry = match feature.geometry {
         None => Err("no geometry".to_owned()),
-        Some(own) => Geometry::try_from(own).map_err(|error| error.to_string()),
+        Some(own) => outlines(own),
     };
     Record {
         row,
         geometry,
         fields,
     }
+}
+
+/// The outlines of a geometry. Positions of fewer than two numbers would end the conversion.
+pub(super) fn outlines(own: geojson::Geometry) -> Result<Geometry<f64>, String> {
+    let whole = |polygon: &Vec<Vec<geojson::Position>>| {
+        polygon
+            .iter()
+            .flatten()
+            .all(|own| own.as_slice().len() >= 2)
+    };
+    let sound = match &own.value {
+        GeometryValue::Polygon { coordinates } => whole(coordinates),
+        GeometryValue::MultiPolygon { coordinates } => coordinates.iter().all(whole),
+        GeometryValue::Point { .. } | GeometryValue::MultiPoint { .. } => {
+            return Ok(Geometry::Point(geo::Point::new(0.0, 0.0)));
+        }
+        _ => return Err("neither a polygon nor a multipolygon".to_owned()),
+    };
+    if !sound {
+        return Err("a position of fewer than two numbers".to_owned());
+    }
+    Geometry::try_from(own).map_err(|error| error.to_string())
 }

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use geo::Geometry;
 use geo_traits::to_geo::ToGeoGeometry;
+use jostle_io::undamaged;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 use serde_json::Value;
@@ -12,6 +13,18 @@ use super::{Gathered, Record};
 use crate::fault::CityError;
 
 pub(super) fn read(path: &Path, gathered: &mut Gathered<'_>) -> Result<(), CityError> {
+    undamaged(|| read_whole(path, gathered)).map_err(|problem| {
+        // Faults of the file name it already.
+        let named = problem.starts_with(&path.display().to_string());
+        if named {
+            CityError::Input(problem)
+        } else {
+            CityError::of(path, problem)
+        }
+    })
+}
+
+fn read_whole(path: &Path, gathered: &mut Gathered<'_>) -> Result<(), CityError> {
     let fault = |error: &dyn std::fmt::Display| CityError::of(path, error);
     let file = jostle_io::open_file(path).map_err(|error| fault(&error))?;
     let reader = SerializedFileReader::new(file).map_err(|error| fault(&error))?;

@@ -5,3 +5,4 @@
 mod mends;
 mod neighbours;
 mod runs;
+mod scan;

@@ -15,6 +15,7 @@ use super::factor::{Level, number_of_text};
 use crate::files::open_file;
 use crate::model_tree::TreeValue;
 use crate::quantity::Dimension;
+use crate::undamaged::undamaged;
 
 /// Rows of a block.
 const BLOCK: u64 = 4096;
@@ -95,7 +96,7 @@ impl InputTable {
             .extension()
             .is_some_and(|end| end.eq_ignore_ascii_case("parquet"));
         let table = if is_parquet {
-            Self::parquet(path).map_err(|error| error.to_string())?
+            undamaged(|| Self::parquet(path))?
         } else {
             Self::csv(path)?
         };
@@ -173,9 +174,7 @@ impl InputTable {
             return Ok(Arc::clone(block));
         }
         let block = match &self.blocks {
-            Blocks::Parquet(groups) => self
-                .parquet_block(groups, number)
-                .map_err(|error| error.to_string()),
+            Blocks::Parquet(groups) => undamaged(|| self.parquet_block(groups, number)),
             Blocks::Csv(starts, mark) => self.csv_block(starts, *mark, number),
         };
         let block = Arc::new(block.map_err(|error| format!("{}: {error}", self.path.display()))?);

@@ -1,0 +1,18 @@
+//! Readers of other libraries that end the program where a file is damaged.
+
+use std::fmt::Display;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// What a reader says; where it panics instead, that the file is damaged. The reader of Parquet does so for some files whose
+/// pages are not what their heads say.
+///
+/// # Errors
+/// The reader's own, or that the file is damaged.
+pub fn undamaged<T, E: Display>(read: impl FnOnce() -> Result<T, E>) -> Result<T, String> {
+    match catch_unwind(AssertUnwindSafe(read)) {
+        Ok(read) => read.map_err(|error| error.to_string()),
+        Err(_) => {
+            Err("is damaged: its pages are not what their heads say; write it again".to_owned())
+        }
+    }
+}
