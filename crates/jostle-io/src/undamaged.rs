@@ -16,3 +16,18 @@ pub fn undamaged<T, E: Display>(read: impl FnOnce() -> Result<T, E>) -> Result<T
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::undamaged;
+
+    #[test]
+    fn a_reader_that_panics_says_that_the_file_is_damaged() {
+        let read = |pages: &[u8], at: usize| undamaged(|| Ok::<u8, String>(pages[at]));
+        assert_eq!(read(&[7, 8], 1), Ok(8));
+        let problem = read(&[7, 8], 2).expect_err("beyond the page");
+        assert!(problem.contains("damaged"), "{problem}");
+        let problem = undamaged(|| Err::<u8, _>("no such page")).expect_err("its own");
+        assert_eq!(problem, "no such page");
+    }
+}
