@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use crate::case::{Case, read_cases};
 use crate::draw::GapWidths;
 use crate::fault::CityError;
-use crate::run::{Case, City, read_cases};
+use crate::run::City;
 use crate::sample::Sampled;
 
 /// Damage states: none, slight, moderate, extensive, complete.

@@ -9,6 +9,7 @@
 mod answers;
 mod blocks;
 mod building;
+mod case;
 mod columns;
 mod draw;
 mod example;
