@@ -152,3 +152,19 @@ fn the_example_has_the_statistics_of_a_dense_city_and_every_pair_is_in_one_row()
     pairs.sort_unstable();
     assert_eq!(pairs, (0..found.pairs.len()).collect::<Vec<_>>());
 }
+
+#[test]
+fn neighbours_around_a_corner_stand_in_rows_of_their_own() {
+    let buildings = [
+        rectangle(0, [0.0, 0.0, 10.0, 10.0], 2),
+        rectangle(1, [10.1, 0.0, 10.0, 10.0], 2),
+        rectangle(2, [0.0, 10.1, 10.0, 10.0], 2),
+    ];
+    let pairs = Neighbours::within(&buildings, 0.12).pairs;
+    let found = blocks(&pairs, buildings.len());
+    let lines = rows(&found[0], &pairs, |pair| pair as f64);
+    assert!(
+        lines.iter().all(|own| own.buildings.len() == 2),
+        "{lines:?}"
+    );
+}

@@ -155,3 +155,38 @@ fn motions_with_directions_act_along_the_rows() {
         cases[0]
     );
 }
+
+#[test]
+fn the_sides_of_a_pair_are_those_of_the_inventory_whatever_the_order_of_its_row() {
+    let folder = tempfile::tempdir().unwrap();
+    // From left to right stand b, a and c: a is the first of both its pairs, and the right one of the first.
+    let square = |x: f64| {
+        format!(
+            "\"POLYGON(({x} 0,{} 0,{} 10,{x} 10,{x} 0))\"",
+            x + 10.0,
+            x + 10.0
+        )
+    };
+    let table = format!(
+        "id,storeys,type,wkt\na,3,C1,{}\nb,1,W1,{}\nc,5,URM,{}\n",
+        square(10.1),
+        square(0.0),
+        square(20.2)
+    );
+    std::fs::write(folder.path().join("a.csv"), table).unwrap();
+    let text = "[inventory]\nfile = \"a.csv\"\nmetres = true\n[motion]\nrecord = \"el-centro-1940-ns\"\nduration = \"4 s\"\n\
+                [run]\ndraws = 3\nsample = 0\n";
+    let file = CityFile::parse("city.toml", text, Format::Toml, folder.path()).unwrap();
+    let own = City::new(file).unwrap();
+    let out = folder.path().join("out");
+    run(&own, &out, None).unwrap();
+    let cases = own.cases_for_tests(&out).unwrap();
+    let alone = |pair: f64| {
+        cases
+            .iter()
+            .filter(move |own| own[4] == pair)
+            .map(|own| own[5])
+    };
+    assert_eq!(cases.len(), 6);
+    assert!(alone(0.0).eq(alone(1.0)), "{cases:?}");
+}
