@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import csv
-import json
 import math
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ._errors import MissingFileError, ModelError
 
@@ -35,17 +34,8 @@ def read(
     for row in _rows(listed, ("TH_file",)):
         name = row["TH_file"].strip()
         record = listed.parent / (name if name.lower().endswith(".json") else f"{name}.json")
-        tree = _json(record)
-        key = f"data_{component}"
-        values, step = tree.get(key), tree.get("dT")
-        if not isinstance(values, list) or not isinstance(step, (int, float)):
-            known = ", ".join(sorted(own for own in tree if own.startswith("data_"))) or "none"
-            raise ModelError(f"{record}: has no {key} with dT; components: {known}")
         factor = _number(listed, "factor", row.get("factor") or "1")
-        try:
-            motion = Motion(values, step=float(step), unit=unit, name=Path(name).stem)
-        except (ModelError, TypeError, ValueError) as error:
-            raise ModelError(f"{record}: {error}") from None
+        motion = Motion.read(record, unit=unit, component=component, format="simcenter")
         motions.append(motion if factor == 1.0 else motion.scaled(factor))
     if not motions:
         raise ModelError(f"{listed}: lists no record")
@@ -70,24 +60,6 @@ def _rows(path: Path, needed: tuple[str, ...]) -> list[dict[str, str]]:
         raise ModelError(f"{path}: has no column {missing[0]}; its columns are {', '.join(names) or 'none'}")
     reader.fieldnames = names
     return [{key: value or "" for key, value in row.items() if key} for row in reader]
-
-
-def _json(path: Path) -> dict[str, Any]:
-    try:
-        tree = json.loads(_text(path))
-    except ValueError as error:
-        raise ModelError(f"{path}: is no JSON: {error}") from None
-    if not isinstance(tree, dict):
-        raise ModelError(f"{path}: is no record, which is a table with dT and data_x")
-    # Some hold the whole event.
-    events = tree.get("Events")
-    if isinstance(events, list) and events and isinstance(events[0], dict):
-        series = events[0].get("timeSeries")
-        for own in series if isinstance(series, list) else []:
-            if isinstance(own, dict):
-                tree[str(own.get("name"))] = own.get("data")
-                tree["dT"] = own.get("dT", events[0].get("dT"))
-    return tree
 
 
 def _number(path: Path, what: str, text: str) -> float:

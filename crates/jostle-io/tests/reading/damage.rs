@@ -71,6 +71,7 @@ fn is_stated_once(fixture: &Fixture, at: usize) -> bool {
         "at2, count first" => b"    0.0100    NPTS",
         "one column" => b"# step = 0.01 s",
         "afad" => b"SAMPLING INTERVAL (sec) : 0.01",
+        "simcenter" => b"\"dT\": 0.005",
         // Values that are not packed have neither a checksum nor a last value stated: nothing tells how many the
         // last record of the channel has, the fifth of six.
         "miniseed int32" | "miniseed int16" | "miniseed float32" | "miniseed float64" => {

@@ -22,6 +22,7 @@ mod knet;
 mod miniseed;
 mod nees;
 mod sac;
+mod simcenter;
 mod smc;
 
 /// A format of ground-motion records.
@@ -54,11 +55,13 @@ pub enum RecordFormat {
     MiniSeed,
     /// SAC, binary, of either byte order.
     Sac,
+    /// Records of NHERI SimCenter, JSON.
+    SimCenter,
 }
 
 impl RecordFormat {
     /// Every format.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::At2,
         Self::Columns,
         Self::Cosmos,
@@ -72,6 +75,7 @@ impl RecordFormat {
         Self::Nees,
         Self::MiniSeed,
         Self::Sac,
+        Self::SimCenter,
     ];
 
     /// The word for it in model files and on the command line.
@@ -97,6 +101,7 @@ impl RecordFormat {
             Self::Nees => Facts::text("nees", "NEES asc", |bytes, _| nees::read(bytes)),
             Self::MiniSeed => Facts::binary("miniseed", "miniSEED", |bytes, _| miniseed::read(bytes)),
             Self::Sac => Facts::binary("sac", "SAC", sac::read),
+            Self::SimCenter => Facts::text("simcenter", "SimCenter JSON", |bytes, _| simcenter::read(bytes)),
         }
     }
 
@@ -276,6 +281,9 @@ pub(crate) const AT2_HEADER_LINES: usize = 12;
 /// Every format has more than one mark, so that a damaged first line does not silently change the format.
 fn detect_text(bytes: &[u8]) -> RecordFormat {
     use RecordFormat as F;
+    if simcenter::is_table(bytes) {
+        return F::SimCenter;
+    }
     let mut starred = false;
     let mut accelerogram = false;
     let mut npts = false;
