@@ -52,6 +52,9 @@ pub struct PairAnswer {
     pub worse: f64,
     /// Share in which it spares either one a state \[–\].
     pub better: f64,
+    /// Draw and motion that show most: of those that worsen the states most, the one with the greatest force; `None` where
+    /// they never hit.
+    pub telling: Option<[usize; 2]>,
 }
 
 impl PairAnswer {
@@ -198,6 +201,15 @@ impl City {
                     .iter()
                     .any(|side| own.state[1][*side] < own.state[0][*side])
             }),
+            telling: cases
+                .iter()
+                .filter(|own| own.impacts > 0)
+                .max_by(|a, b| {
+                    worsened(a)
+                        .cmp(&worsened(b))
+                        .then(a.force.total_cmp(&b.force))
+                })
+                .map(|own| [own.draw, own.motion]),
         }
     }
 
@@ -268,6 +280,12 @@ impl City {
         }
         (found, changed)
     }
+}
+
+/// States by which contact makes both buildings of a pair worse.
+fn worsened(case: &Case) -> usize {
+    let of = |side: usize| case.state[1][side].saturating_sub(case.state[0][side]);
+    of(0) + of(1)
 }
 
 /// A quantile of sorted values; 0 of none.

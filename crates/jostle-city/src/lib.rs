@@ -22,6 +22,7 @@ mod page;
 mod plane;
 mod run;
 mod sample;
+mod shaking;
 mod structure;
 mod tables;
 
@@ -33,6 +34,7 @@ pub use example::example_city;
 pub use fault::CityError;
 pub use inventory::{Attribute, Columns, Inventory, ReadOptions};
 pub use mend::Mend;
+pub use model::{PairModel, Runner};
 pub use neighbours::{Neighbours, Pair, Position};
 pub use plane::Plane;
 pub use run::{City, Done, RunOptions};

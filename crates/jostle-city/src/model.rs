@@ -1,15 +1,47 @@
 //! A pair of a city as an ordinary model file.
 
+use jostle::GroundMotion;
 use jostle_classes::model;
-use jostle_io::{MotionSource, RecordOptions};
+use jostle_io::{Files, MotionSource, RecordOptions, builtin_record};
 
+use crate::answers::Answers;
 use crate::fault::CityError;
 use crate::run::City;
 
 /// Tolerance of the model file.
 const TOLERANCE: f64 = 1e-4;
 
+/// A pair of the list of a page as a model file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PairModel {
+    /// Number of the pair.
+    pub pair: usize,
+    /// Draw and motion that it was taken from.
+    pub sample: [usize; 2],
+    /// Text of the model file.
+    pub text: String,
+}
+
+/// Makes a page that runs models, and gives the address for each of them; none if no page can be made.
+pub type Runner<'r> = dyn FnMut(&[PairModel]) -> Result<Vec<String>, CityError> + 'r;
+
 impl City {
+    /// Models of pairs, each in its most telling draw under its most telling motion; pairs that never hit have none.
+    pub(crate) fn pair_models(
+        &self,
+        answers: &Answers,
+        pairs: &[usize],
+    ) -> Result<Vec<PairModel>, CityError> {
+        let hit = pairs
+            .iter()
+            .filter_map(|pair| Some((*pair, answers.pairs[*pair].telling?)));
+        let one = |(pair, sample): (usize, [usize; 2])| {
+            let text = self.model(pair, sample[0], sample[1])?;
+            Ok(PairModel { pair, sample, text })
+        };
+        hit.map(one).collect()
+    }
+
     /// The text of a model file of a pair as it was drawn, under a motion, each counted from 0. The pair stands alone in
     /// it, also where the run had it in a longer row.
     ///
@@ -34,7 +66,7 @@ impl City {
                 "pair {pair} shares a wall in draw {draw} and cannot hit; choose another draw"
             )));
         }
-        let (row, _) = self.pair_row(pair, draw, motion);
+        let (row, _) = self.pair_row(pair, draw, motion)?;
         let [left, right] = self.neighbours.pairs[pair].buildings;
         let told = |at: usize| {
             let structure = &self.structures[at];
@@ -53,24 +85,23 @@ impl City {
             told(left),
             told(right)
         );
-        Ok(heading + &model(&row, &self.motion_table(motion), TOLERANCE))
+        Ok(heading + &model(&row, &self.motion_table(pair, motion)?, TOLERANCE))
     }
 
-    /// The table `[motion]` of a motion, without its heading.
-    fn motion_table(&self, motion: usize) -> String {
-        let resolved = &self.resolved()[motion];
-        let spec = &self.file.motion;
+    /// The table `[motion]` of a motion at a pair, without its heading.
+    fn motion_table(&self, pair: usize, motion: usize) -> Result<String, CityError> {
+        let strength = self
+            .shaking()
+            .at(self.neighbours.pairs[pair].buildings[0], motion);
+        let resolved = self.shaking().motion(strength.motion)?;
+        let spec = self.shaking().spec(strength.motion);
+        let scale = resolved.scale * strength.factor;
         let mut text = match &spec.source {
             MotionSource::Record {
                 name,
                 files,
                 options,
             } => record(name, files, options),
-            MotionSource::Records {
-                names,
-                files,
-                options,
-            } => record(&names[motion], files, options),
             MotionSource::Sine { amplitude, period } => {
                 format!(
                     "kind = \"sine\"\namplitude = \"{amplitude} m/s2\"\nperiod = \"{period} s\"\n"
@@ -83,33 +114,51 @@ impl City {
             } => format!(
                 "kind = \"ricker\"\namplitude = \"{amplitude} m/s2\"\nperiod = \"{period} s\"\ncentre = \"{centre} s\"\n"
             ),
-            MotionSource::Given(own) => {
-                format!("# The motion \"{}\" was given by a program.\n", own.name)
+            MotionSource::Given(GroundMotion { name, .. }) => {
+                format!("# The motion \"{name}\" was given by a program.\n")
             }
+            // Lists were taken apart.
+            MotionSource::Records { .. } => String::new(),
         };
-        text += &format!("scale = {}\n", resolved.scale.abs());
-        if resolved.scale < 0.0 {
+        text += &format!("scale = {}\n", scale.abs());
+        if scale < 0.0 {
             text += "reverse = true\n";
         }
         text += &format!("duration = \"{} s\"", resolved.duration);
         if resolved.bearing.is_some() {
             text += "\n# In the city this motion has a direction in plan, and the pair is shaken by its part along the row.";
         }
-        text
+        Ok(text)
     }
 }
 
-fn record(name: &str, files: &jostle_io::Files, options: &RecordOptions) -> String {
-    let built_in = jostle_io::builtin_record(name).is_some();
-    let shown = if built_in {
+/// A record, and how it is read.
+fn record(name: &str, files: &Files, options: &RecordOptions) -> String {
+    let text = |own: &str| serde_json::Value::String(own.to_owned()).to_string();
+    let shown = if builtin_record(name).is_some() {
         name.to_owned()
     } else {
         files.shown(name).display().to_string()
     };
-    let remark = if *options == RecordOptions::default() {
-        ""
-    } else {
-        "# Add how the record is read (unit, step, column, …) from the city file.\n"
+    let mut lines = String::new();
+    let mut add = |key: &str, value: Option<String>| {
+        if let Some(value) = value {
+            lines += &format!("{key} = {value}\n");
+        }
     };
-    format!("{remark}record = {}\n", serde_json::Value::String(shown))
+    add("record", Some(text(&shown)));
+    add("unit", options.unit.as_deref().map(text));
+    add("step", options.step.map(|own| own.to_string()));
+    add("column", options.column.map(|own| own.to_string()));
+    add("component", options.component.as_deref().map(text));
+    add("format", options.format.map(|own| text(own.key())));
+    add("record_scale", options.scale.map(|own| own.to_string()));
+    add(
+        "remove_mean",
+        options.remove_mean.map(|own| own.to_string()),
+    );
+    if !options.layout.is_empty() {
+        lines = "# Add read = { … } from the city file.\n".to_owned() + &lines;
+    }
+    lines
 }

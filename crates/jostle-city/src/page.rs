@@ -1,5 +1,6 @@
 //! The map of a city, the list of its pairs to look at, and the same as GeoJSON and GeoParquet.
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -13,8 +14,12 @@ use serde_json::json;
 use crate::answers::{Answers, BuildingAnswer, MEDIANS, OWN, STATES};
 use crate::fault::CityError;
 use crate::inventory::extent;
+use crate::model::{PairModel, Runner};
 use crate::run::City;
 use crate::tables::{building_columns, write_buildings};
+
+/// Of pairs the model that shows most, and the address that runs it.
+type Links<'m> = BTreeMap<usize, (&'m PairModel, String)>;
 
 /// Pairs of the list on the page.
 const LISTED: usize = 100;
@@ -24,16 +29,27 @@ pub(crate) const STATE_NAMES: [&str; STATES] =
 
 impl City {
     /// Writes the results of a run: `index.html` (the map), `worst-pairs.csv`, `buildings.parquet` and `buildings.geojson`
-    /// with the answers.
+    /// with the answers. `runner` may make a page that runs the pairs of the list, to which the map then leads.
     ///
     /// # Errors
     ///
     /// When parts of the run are missing, or a file cannot be written.
-    pub fn report(&self, folder: &Path) -> Result<(Answers, Vec<PathBuf>), CityError> {
+    pub fn report(
+        &self,
+        folder: &Path,
+        runner: &mut Runner<'_>,
+    ) -> Result<(Answers, Vec<PathBuf>), CityError> {
         let answers = self.answers(folder)?;
         let order = ranked(&answers);
+        let models = self.pair_models(&answers, &order[..LISTED.min(order.len())])?;
+        let links = runner(&models)?;
+        let links: Links<'_> = models
+            .iter()
+            .zip(links)
+            .map(|(own, link)| (own.pair, (own, link)))
+            .collect();
         let page = folder.join("index.html");
-        write_atomically(&page, self.page(&answers, &order).as_bytes())?;
+        write_atomically(&page, self.page(&answers, &order, &links).as_bytes())?;
         let worst = folder.join("worst-pairs.csv");
         write_atomically(&worst, self.pairs_csv(&answers, &order).as_bytes())?;
         let table = folder.join("buildings.parquet");
@@ -149,8 +165,8 @@ impl City {
         text
     }
 
-    fn page(&self, answers: &Answers, order: &[usize]) -> String {
-        let body = self.body(answers, order);
+    fn page(&self, answers: &Answers, order: &[usize], links: &Links<'_>) -> String {
+        let body = self.body(answers, order, links);
         let data = self.data(answers);
         jostle_report::render_document(
             &self.file.title,
@@ -224,7 +240,7 @@ impl City {
         })
     }
 
-    fn body(&self, answers: &Answers, order: &[usize]) -> Markup {
+    fn body(&self, answers: &Answers, order: &[usize], links: &Links<'_>) -> Markup {
         let count = self.inventory.buildings.len();
         let with = answers.buildings.iter().flatten().count();
         let mean = |of: &dyn Fn(&BuildingAnswer) -> f64| {
@@ -273,10 +289,11 @@ impl City {
             ),
         ];
         let motions = self.motions();
-        let shaken = match motions.as_slice() {
+        let shaken = match motions {
             [one] => format!("one motion, {one}"),
             many => format!("{} motions", many.len()),
         };
+        let differs = self.told();
         let sampled = answers.sampled.within(self.file.tolerance).map_or_else(
             || "No row was run again in full.".to_owned(),
             |(within, worst)| {
@@ -339,11 +356,15 @@ impl City {
                 p.quiet {
                     "Ranked by four times the share of samples in which contact worsens a state, twice the share with strikes on columns, and the probability of a strike. All " (order.len())
                     " pairs are in worst-pairs.csv. Any of them becomes a model file by " code { "jostle city model FOLDER --pair NUMBER --draw 0" } "."
+                    @if !links.is_empty() {
+                        " Run opens a pair here in the browser, in the draw that shows most of what contact does to it; every number can be changed there."
+                    }
                 }
                 div.worst tabindex="0" { table {
                     thead { tr {
                         th { "Pair" } th { "Left" } th { "Right" } th { "Storeys" } th { "On the map" } th { "Struck" }
                         th { "On columns" } th { "Closing, median" } th { "90 %" } th { "Force, median" } th { "Worse" }
+                        @if !links.is_empty() { th { "Model" } }
                     } }
                     tbody {
                         @for at in order.iter().take(LISTED) {
@@ -362,6 +383,10 @@ impl City {
                                 td { (format!("{:.0} mm", 1e3 * own.closing[1])) }
                                 td { @if own.force[0] > 0.0 { (format!("{:.2} MN", 1e-6 * own.force[0])) } @else { "–" } }
                                 td { (percent(own.worse)) }
+                                @if let Some((model, link)) = links.get(at) {
+                                    @let [draw, motion] = model.sample;
+                                    td { a href=(link) title=(format!("draw {draw}, motion {motion}")) { "Run" } }
+                                } @else if !links.is_empty() { td { "–" } }
                             }
                         }
                     }
@@ -375,6 +400,9 @@ impl City {
                         " rows were mended, left out or assumed, all listed in mended.csv." }
                     p { "Drawn: gaps, lognormal with a median of " (format!("{millimetres:.0}")) " mm and a scatter of "
                         (self.file.gap_scatter) " (" (gaps) "); stiffness, strength, damping and contact stiffness. Maps say who stands beside whom, not how far apart." }
+                    @if !differs.is_empty() {
+                        p { "The shaking differs from place to place. " (differs.join(". ")) "." }
+                    }
                     p { "Buildings are shear buildings of their HAZUS class. Slabs in line and slabs against columns are followed; walls that fall out of their plane, "
                         "torsion and the failure of a struck column are not. Where neighbours hit, the drift with contact over that alone is " (format!("{middle:.2}"))
                         " in the median and " (format!("{high:.2}")) " in the 95 % quantile." }

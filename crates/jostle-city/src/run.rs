@@ -18,6 +18,7 @@ use crate::fault::CityError;
 use crate::inventory::{Inventory, ReadOptions};
 use crate::neighbours::{Neighbours, Pair};
 use crate::sample::Sampled;
+use crate::shaking::{Shaking, Strength};
 use crate::structure::{Structure, structures};
 use crate::tables;
 
@@ -43,7 +44,7 @@ pub struct City {
     pub blocks: Vec<Block>,
     pub(crate) structures: Vec<Structure>,
     pub(crate) pair_ids: Vec<u64>,
-    motions: Vec<GroundMotion>,
+    shaking: Shaking,
     fingerprint: String,
     parts: Vec<std::ops::Range<usize>>,
 }
@@ -90,24 +91,6 @@ impl City {
         let (structures, assumed) = structures(&inventory, &file)?;
         inventory.mends.extend(assumed);
         inventory.mends.sort_by_key(|own| own.row);
-        let names = file.motion.records();
-        let resolve = |own: &jostle_io::MotionSpec| {
-            own.resolve()
-                .map_err(|error| CityError::Input(format!("motion: {error}")))
-        };
-        let motions = if names.is_empty() {
-            vec![resolve(&file.motion)?]
-        } else {
-            let one = |name: &String| {
-                resolve(
-                    &file
-                        .motion
-                        .with_one_of_several(name)
-                        .unwrap_or_else(|| file.motion.clone()),
-                )
-            };
-            names.iter().map(one).collect::<Result<Vec<_>, _>>()?
-        };
         let ids: Vec<u64> = structures.iter().map(|own| own.id).collect();
         let pair_ids = neighbours
             .pairs
@@ -115,7 +98,8 @@ impl City {
             .map(|own| number_of_pair(&ids, own))
             .collect();
         let found = blocks(&neighbours.pairs, inventory.buildings.len());
-        let parts = parts(&found, file.draws * motions.len(), PART);
+        let shaking = Shaking::of(&file, &inventory, &found)?;
+        let parts = parts(&found, file.draws * shaking.count(), PART);
         let mut own = Self {
             file,
             inventory,
@@ -123,7 +107,7 @@ impl City {
             blocks: found,
             structures,
             pair_ids,
-            motions,
+            shaking,
             fingerprint: String::new(),
             parts,
         };
@@ -155,21 +139,27 @@ impl City {
         Ok(own)
     }
 
-    /// The motions as they are scaled.
-    pub(crate) fn resolved(&self) -> &[GroundMotion] {
-        &self.motions
+    /// What shakes it.
+    pub(crate) fn shaking(&self) -> &Shaking {
+        &self.shaking
     }
 
     /// Names of the motions.
     #[must_use]
-    pub fn motions(&self) -> Vec<String> {
-        self.motions.iter().map(|own| own.name.clone()).collect()
+    pub fn motions(&self) -> &[String] {
+        self.shaking.names()
+    }
+
+    /// How motions were found that differ from place to place, a line each.
+    #[must_use]
+    pub fn told(&self) -> &[String] {
+        self.shaking.told()
     }
 
     /// Pairs times draws times motions.
     #[must_use]
     pub fn cases(&self) -> usize {
-        self.neighbours.pairs.len() * self.file.draws * self.motions.len()
+        self.neighbours.pairs.len() * self.file.draws * self.shaking.count()
     }
 
     /// What decides the numbers of a run, as a hash.
@@ -200,9 +190,7 @@ impl City {
         let mut read = jostle_io::open_file(path).map_err(|error| CityError::of(path, error))?;
         std::io::copy(&mut read, &mut HashWriter(&mut hash))
             .map_err(|error| CityError::of(path, error))?;
-        for motion in &self.motions {
-            hash.update(format!("{motion:?}"));
-        }
+        self.shaking.hash(&mut hash)?;
         Ok(hash
             .finalize()
             .iter()
@@ -227,7 +215,7 @@ impl City {
         std::fs::create_dir_all(&runs).map_err(|error| CityError::of(&runs, error))?;
         tables::claim(folder, &self.file, &self.fingerprint)?;
         tables::write_tables(folder, &self.inventory, &self.neighbours, &self.blocks)?;
-        let each = self.file.draws * self.motions.len();
+        let each = self.file.draws * self.shaking.count();
         let mut done = Done {
             cases: 0,
             of: self.cases(),
@@ -276,7 +264,7 @@ impl City {
     #[doc(hidden)]
     #[must_use]
     pub fn in_parts_of(mut self, cases: usize) -> Self {
-        self.parts = parts(&self.blocks, self.file.draws * self.motions.len(), cases);
+        self.parts = parts(&self.blocks, self.file.draws * self.shaking.count(), cases);
         self
     }
 
@@ -333,7 +321,7 @@ impl City {
         let own = &self.blocks[self.parts[part].clone()];
         let jobs = self.jobs(own);
         let total: usize = jobs.iter().map(|own| own.line.pairs.len()).sum();
-        let motions = self.directed(&jobs);
+        let motions = self.directed(&jobs)?;
         let options = Options::for_tolerance(self.file.tolerance);
         let fault = |error: jostle_batch::Error| CityError::Analysis(error.to_string());
         // Free first: how near they come says who can hit at all.
@@ -439,7 +427,7 @@ impl City {
                 motion: 0,
             }));
         }
-        let motions = self.directed(&jobs);
+        let motions = self.directed(&jobs)?;
         let mut peaks = Vec::with_capacity(jobs.len());
         let rows = jobs.iter().map(|job| self.row(job, &motions, true));
         jostle_batch::run(&motions.own, rows, options, |_, own| {
@@ -463,7 +451,7 @@ impl City {
             let draws: Vec<Vec<Line>> = (0..self.file.draws)
                 .map(|draw| self.lines(block, draw, |width| width))
                 .collect();
-            for motion in 0..self.motions.len() {
+            for motion in 0..self.shaking.count() {
                 for (draw, lines) in draws.iter().enumerate() {
                     let line = |line: &Line| Job {
                         line: line.clone(),
@@ -525,35 +513,41 @@ impl City {
                 0.0,
             )
         });
+        let strength = self.strength(job);
         Row {
             gaps: gaps.collect(),
-            motion: motions.of(job.motion, self.direction(&job.line)),
-            scale: 1.0,
+            motion: motions.of(strength.motion, self.direction(&job.line)),
+            scale: strength.factor,
             buildings,
         }
     }
 
     /// A pair as a row of its own in a draw under a motion, and that motion.
-    pub(crate) fn pair_row(&self, pair: usize, draw: usize, motion: usize) -> (Row, Motion) {
+    pub(crate) fn pair_row(
+        &self,
+        pair: usize,
+        draw: usize,
+        motion: usize,
+    ) -> Result<(Row, Motion), CityError> {
         let line = Line {
             buildings: self.neighbours.pairs[pair].buildings.to_vec(),
             pairs: vec![pair],
         };
         let jobs = [Job { line, draw, motion }];
-        let motions = self.directed(&jobs);
+        let motions = self.directed(&jobs)?;
         let row = self.row(&jobs[0], &motions, true);
         let own = motions.own[row.motion].clone();
-        (row, own)
+        Ok((row, own))
     }
 
-    /// Whether the motions have directions in plan.
-    fn has_directions(&self) -> bool {
-        self.motions.iter().any(|own| own.bearing.is_some())
+    /// The motion of a job at the place of its row.
+    fn strength(&self, job: &Job) -> Strength {
+        self.shaking.at(job.line.buildings[0], job.motion)
     }
 
     /// Direction of a row from left to right, in steps of ten degrees; 0 where it does not matter.
     fn direction(&self, line: &Line) -> usize {
-        if !self.has_directions() {
+        if !self.shaking.has_directions() {
             return 0;
         }
         let pair: &Pair = &self.neighbours.pairs[line.pairs[0]];
@@ -567,18 +561,20 @@ impl City {
     }
 
     /// The motions along the rows of some jobs.
-    fn directed(&self, jobs: &[Job]) -> Directed {
+    fn directed(&self, jobs: &[Job]) -> Result<Directed, CityError> {
         let mut wanted: Vec<(usize, usize)> = jobs
             .iter()
-            .map(|job| (job.motion, self.direction(&job.line)))
+            .map(|job| (self.strength(job).motion, self.direction(&job.line)))
             .collect();
         wanted.sort_unstable();
         wanted.dedup();
-        let own = wanted
-            .iter()
-            .map(|(motion, direction)| along(&self.motions[*motion], *direction as f64 * DIRECTION))
-            .collect();
-        Directed { wanted, own }
+        let mut own = Vec::with_capacity(wanted.len());
+        for one in wanted.chunk_by(|a, b| a.0 == b.0) {
+            let motion = self.shaking.motion(one[0].0)?;
+            let directions = one.iter().map(|own| own.1 as f64 * DIRECTION);
+            own.extend(directions.map(|direction| along(&motion, direction)));
+        }
+        Ok(Directed { wanted, own })
     }
 
     fn cases_of(&self, job: &Job, free: &Peaks, with: Option<&Peaks>) -> Vec<Case> {

@@ -8,13 +8,15 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use jostle_city::{
-    Answers, Attribute, City, CityError, Columns, Inventory, Neighbours, Position, ReadOptions,
-    RunOptions, blocks, example_city, refuse_overlaps, write_tables,
+    Answers, Attribute, City, CityError, Columns, Inventory, Neighbours, PairModel, Position,
+    ReadOptions, RunOptions, blocks, example_city, refuse_overlaps, write_tables,
 };
 use jostle_io::{CityFile, Dimension, parse_quantity, write_atomically};
+use jostle_live::{Engine, address, export_all};
 use jostle_run::{BOLD, FolderClaim, counted_grouped, styled};
 
 use crate::failure::Failure;
+use crate::live::module;
 use crate::stop::stop_on_interrupt;
 use crate::study::shard;
 use crate::terminal;
@@ -320,6 +322,9 @@ fn run(args: &RunArgs) -> Result<(), Failure> {
     });
     let work = || -> Result<(), Failure> {
         let city = City::new(file)?;
+        for line in city.told() {
+            terminal::remark(line);
+        }
         std::fs::create_dir_all(&out)
             .map_err(|error| Failure::Analysis(format!("{}: {error}", out.display())))?;
         // Shares work beside each other in one folder: their parts differ, and every file is written whole.
@@ -370,13 +375,42 @@ fn report(folder: &Path) -> Result<(), Failure> {
 }
 
 fn write_report(city: &City, folder: &Path) -> Result<(), Failure> {
-    let (answers, files) = city.report(folder)?;
+    let mut has_runner = false;
+    let (answers, mut files) = city.report(folder, &mut |models| {
+        let links = runner(models, folder)?;
+        has_runner = !links.is_empty();
+        Ok(links)
+    })?;
+    if has_runner {
+        files.insert(1, folder.join(RUNNER));
+    }
     let names: Vec<String> = files
         .iter()
         .filter_map(|own| Some(own.file_name()?.to_string_lossy().into_owned()))
         .collect();
     let written = format!("Written to {}: {}\n", folder.display(), names.join(", "));
     terminal::print(&(described(city, &answers) + &written))
+}
+
+/// The page in which pairs of the map run.
+const RUNNER: &str = "pairs.html";
+
+/// Writes the page in which pairs run, if its engine is beside the program, and gives the address of each of them there.
+fn runner(models: &[PairModel], folder: &Path) -> Result<Vec<String>, CityError> {
+    let fault = |problem: String| CityError::Analysis(problem);
+    let (Ok(module), false) = (module(None), models.is_empty()) else {
+        return Ok(Vec::new());
+    };
+    let engine = |own: &PairModel| {
+        let name = format!("pair-{}.toml", own.pair);
+        Engine::from_text(&name, &own.text, Path::new("")).map_err(|error| fault(error.to_string()))
+    };
+    let engines = models.iter().map(engine).collect::<Result<Vec<_>, _>>()?;
+    let page = export_all(&engines, &module).map_err(|error| fault(error.to_string()))?;
+    let path = folder.join(RUNNER);
+    write_atomically(&path, page.as_bytes()).map_err(|error| fault(error.to_string()))?;
+    let link = |own: &PairModel| format!("{RUNNER}#{}", address(&own.text));
+    Ok(models.iter().map(link).collect())
 }
 
 /// What a run found, for people.

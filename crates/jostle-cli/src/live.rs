@@ -68,7 +68,7 @@ const MODULE: &str = "jostle.wasm.gz";
 const LARGEST_MODULE: usize = 64 << 20;
 
 /// The engine of exported pages: the file that was asked for, or the one beside the program.
-fn module(asked: Option<&Path>) -> Result<Vec<u8>, Failure> {
+pub(crate) fn module(asked: Option<&Path>) -> Result<Vec<u8>, Failure> {
     if let Some(path) = asked {
         return read_file(path, LARGEST_MODULE)
             .map_err(|error| Failure::Input(format!("--module: {} {error}", path.display())));

@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::city_motion::{self, CityMotion};
 use crate::fault::InputError;
 use crate::files::Files;
 use crate::keys::Section;
 use crate::model_file;
-use crate::motion_spec::MotionSpec;
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
 use crate::source::Source;
@@ -56,8 +56,8 @@ pub struct CityFile {
     pub restitution: f64,
     /// Standard deviation of the logarithm of the contact stiffness \[–\].
     pub contact_scatter: f64,
-    /// The motion or motions.
-    pub motion: MotionSpec,
+    /// What shakes it.
+    pub motion: CityMotion,
     /// Draws for every motion, 1…65,536.
     pub draws: usize,
     /// Relative error of peaks \[–\].
@@ -155,7 +155,7 @@ fn read_root(
     let restitution = number(reader, contact.as_ref(), "restitution", 0.65, [0.0, 1.0]);
     let contact_scatter = number(reader, contact.as_ref(), "scatter", 0.3, [0.0, 3.0]);
     let motion = match reader.get(&view, "motion") {
-        Some(field) => model_file::motion::read(reader, &field, files),
+        Some(field) => city_motion::read(reader, &field, files, folder),
         None => {
             reader.missing(
                 &view,

@@ -188,6 +188,8 @@ pub(crate) enum Section {
     CityContact,
     /// How much is run.
     CityRun,
+    /// Motions that differ from place to place.
+    CityMotion,
     /// A classes file.
     Classes,
     /// Its classes, or their neighbours.
@@ -575,7 +577,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Root, "codes", Kind::Table(S::Codes), "Inputs of the separation rules of codes."),
     optional(S::Root, "report", Kind::Table(S::Report), "What reports show."),
 
-    optional(S::Motion, "record", TextOrTexts, "A built-in record, or a file relative to this file: PEER AT2, CSV or columns of text, COSMOS, CSMIP, K-NET, ESM, SMC, GeoNet, AFAD, CWA, NEES asc, miniSEED, SAC. A run, a study and jostle gap use all records of a list; the other keys apply to each."),
+    optional(S::Motion, "record", TextOrTexts, "A built-in record, or a file relative to this file: PEER AT2, CSV or columns of text, COSMOS, CSMIP, K-NET, ESM, SMC, GeoNet, AFAD, CWA, NEES asc, miniSEED, SAC, SimCenter JSON. A run, a study and jostle gap use all records of a list; the other keys apply to each."),
     optional(S::Motion, "kind", Choice(WAVES), "An analytic motion instead of a record."),
     optional(S::Motion, "amplitude", Quantity(D::Acceleration), "Amplitude of the analytic motion.").usual("an amplitude", 0.01, 50.0).possible(0.0, GREATEST_ACCELERATION).signed(),
     optional(S::Motion, "period", Quantity(D::Time), "Period of the analytic motion.").usual("a period", 0.02, 20.0),
@@ -1304,7 +1306,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::City, "buildings", Kind::Table(S::CityBuildings), "What is assumed where the inventory says nothing."),
     optional(S::City, "gap", Kind::Table(S::CityGap), "How gaps are drawn: no map knows them."),
     optional(S::City, "contact", Kind::Table(S::CityContact), "How slabs hit each other."),
-    required(S::City, "motion", Kind::Table(S::Motion), "Ground motion, or several: record may be a list."),
+    required(S::City, "motion", Kind::TableOf(&[S::Motion, S::CityMotion]), "Ground motion, or several: record may be a list."),
     optional(S::City, "run", Kind::Table(S::CityRun), "How much is run."),
 
     required(S::CityInventory, "file", Text, "GeoJSON, GeoParquet, or CSV with outlines as WKT or GeoJSON."),
@@ -1332,6 +1334,13 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::CityContact, "stiffness", Quantity(D::HertzStiffness), "\"2.75 GN/m^1.5\"", "Stiffness of hertz-damp.").usual("a contact stiffness", 1e6, 1e13),
     default(S::CityContact, "restitution", Quantity(D::Dimensionless), "0.65", "Coefficient of restitution, 0 to 1.").usual("a restitution", 0.01, 1.0),
     default(S::CityContact, "scatter", Quantity(D::Dimensionless), "0.3", "Standard deviation of the logarithm of the stiffness between pairs.").usual("a scatter", 1e-4, 3.0),
+
+    optional(S::CityMotion, "grid", Text, "Motions at points: an `EventGrid.csv` of SimCenter. Every row of buildings takes those of the nearest point; unit says their unit."),
+    optional(S::CityMotion, "shakemap", Text, "Intensities on a map: a `grid.xml` of ShakeMap. The records are scaled to them at every row of buildings."),
+    optional(S::CityMotion, "gmf", Text, "Intensities of events at sites: a table of ground motion fields of OpenQuake, `event_id,site_id,gmv_PGA,gmv_SA(1.0)`. The records are scaled to them; every event is a motion."),
+    optional(S::CityMotion, "sites", Text, "With gmf: the table of sites, `site_id,lon,lat`."),
+    default(S::CityMotion, "choose", Count, "1", "With shakemap or gmf: records of the list that a row takes for every event, those whose spectra fit its intensities best."),
+    default(S::CityMotion, "site_reach", Quantity(D::Length), "\"10 km\"", "With grid or gmf: buildings farther from every point are an error.").usual("a reach", 10.0, 1e5),
 
     default(S::CityRun, "draws", Count, "25", "Draws of gaps, stiffness, strength and damping for every motion."),
     default(S::CityRun, "tolerance", Quantity(D::Dimensionless), "0.01", "Relative error of peaks, 0.01 or 0.001, that 99.5 % of them keep.").usual("a tolerance", 1e-4, 0.1),

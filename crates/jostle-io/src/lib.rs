@@ -12,6 +12,7 @@ mod builtin_model;
 mod checks_page;
 mod choices;
 mod city_file;
+mod city_motion;
 mod classes_file;
 mod comparison_map;
 mod csv;
@@ -56,6 +57,7 @@ pub use builtin::{BUILTIN_RECORDS, BuiltinRecord, builtin_motions, builtin_recor
 pub use builtin_model::{builtin_model, model_names, model_text};
 pub use checks_page::{check_list, check_reference};
 pub use city_file::{CityFile, CityLevel};
+pub use city_motion::{CityMotion, IntensityFile};
 pub use classes_file::{ClassesFile, ClassesMeasure, ClassesSide};
 pub use comparison_map::{
     ComparedColumn, ComparedImpacts, ComparisonMap, ImpactSign, NamedColumn, TableMotion,
@@ -76,8 +78,8 @@ pub use model_file::{
 };
 pub use model_tree::{ModelTree, PathError, TreeValue};
 pub use motion_spec::{
-    GroundsSpec, MatchSpec, MatchTo, MotionError, MotionSource, MotionSpec, OwnGroundSpec,
-    OwnMotionSpec, Scaling,
+    BearingSpec, GroundsSpec, MatchSpec, MatchTo, MotionError, MotionSource, MotionSpec,
+    OwnGroundSpec, OwnMotionSpec, Scaling,
 };
 pub use nearest::nearest as nearest_name;
 pub use output::{

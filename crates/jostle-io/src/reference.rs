@@ -309,6 +309,11 @@ const TABLES: &[(Section, &str, &str)] = &[
     (Section::CityBuildings, "City file: `[buildings]`", ""),
     (Section::CityGap, "City file: `[gap]`", ""),
     (Section::CityContact, "City file: `[contact]`", ""),
+    (
+        Section::CityMotion,
+        "City file: `[motion]`, beside the keys of a model's",
+        "",
+    ),
     (Section::CityRun, "City file: `[run]`", ""),
     (
         Section::Classes,

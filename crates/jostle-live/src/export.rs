@@ -1,7 +1,12 @@
 //! A live page as one file, with its engine inside.
 
+use std::collections::BTreeMap;
+use std::io::Write;
+
 use base64::Engine as _;
-use base64::engine::general_purpose::STANDARD;
+use base64::engine::general_purpose::{STANDARD, URL_SAFE_NO_PAD};
+use flate2::Compression;
+use flate2::write::DeflateEncoder;
 use jostle_io::FileError;
 use maud::{PreEscaped, html};
 
@@ -40,24 +45,40 @@ pub enum ExportError {
 /// # Errors
 /// [`ExportError`].
 pub fn export(engine: &Engine, module: &[u8]) -> Result<String, ExportError> {
+    export_all(std::slice::from_ref(engine), module)
+}
+
+/// The page of the first of several models, with the files of all of them: [`address`] opens it with another one.
+///
+/// # Errors
+/// [`ExportError`].
+pub fn export_all(engines: &[Engine], module: &[u8]) -> Result<String, ExportError> {
     if module.starts_with(&WASM) {
         return Err(ExportError::NoModule(", but an unpacked one"));
     }
     if !module.starts_with(&GZIP) {
         return Err(ExportError::NoModule(""));
     }
-    let mut files = Vec::new();
-    for name in engine.named_files() {
-        let bytes = engine.files().read(name, LARGEST);
-        let bytes = bytes.map_err(|error| ExportError::File {
-            name: name.clone(),
-            error,
-        })?;
-        files.push((name, STANDARD.encode(bytes)));
+    let mut files = BTreeMap::new();
+    for engine in engines {
+        for name in engine.named_files() {
+            if files.contains_key(name) {
+                continue;
+            }
+            let bytes = engine.files().read(name, LARGEST);
+            let bytes = bytes.map_err(|error| ExportError::File {
+                name: name.clone(),
+                error,
+            })?;
+            files.insert(name, STANDARD.encode(bytes));
+        }
     }
+    let files: Vec<_> = files.into_iter().collect();
+    let first = engines.first();
+    let name = first.map_or("", Engine::name);
     let inside = serde_json::json!({
-        "name": engine.name(),
-        "text": engine.text(),
+        "name": name,
+        "text": first.map_or("", Engine::text),
         "files": files,
     });
     // No text of the model ends the element that holds it.
@@ -67,7 +88,17 @@ pub fn export(engine: &Engine, module: &[u8]) -> Result<String, ExportError> {
         script #worker type="text/plain" { (PreEscaped(WORKER)) }
         script #engine type="text/plain" { (PreEscaped(STANDARD.encode(module))) }
     };
-    Ok(page::page_with_engine(engine.name(), markup))
+    Ok(page::page_with_engine(name, markup))
+}
+
+/// What follows `#` in the address of a page that opens with this text instead of its own.
+#[must_use]
+pub fn address(text: &str) -> String {
+    let kept = serde_json::json!({ "text": text }).to_string();
+    let mut packed = DeflateEncoder::new(Vec::new(), Compression::best());
+    // Writing into memory cannot fail.
+    let _ = packed.write_all(kept.as_bytes());
+    URL_SAFE_NO_PAD.encode(packed.finish().unwrap_or_default())
 }
 
 #[cfg(test)]

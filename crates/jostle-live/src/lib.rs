@@ -29,7 +29,7 @@ mod slot;
 pub use answer::Answer;
 pub use engine::Engine;
 #[cfg(not(target_family = "wasm"))]
-pub use export::{ExportError, export};
+pub use export::{ExportError, address, export, export_all};
 pub use local::Local;
 #[cfg(not(target_family = "wasm"))]
 pub use page::widget_page;

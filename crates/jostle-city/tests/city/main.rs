@@ -6,3 +6,4 @@ mod mends;
 mod neighbours;
 mod runs;
 mod scan;
+mod shaking;

@@ -33,7 +33,17 @@ pub(crate) fn read(
     field: &Field<'_>,
     files: &Files,
 ) -> Option<MotionSpec> {
-    let view = reader.open(field, &[Section::Motion])?;
+    read_in(reader, field, files, &[Section::Motion])
+}
+
+/// Reads a motion from a table that may have the keys of other sections too.
+pub(crate) fn read_in(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    files: &Files,
+    sections: &'static [Section],
+) -> Option<MotionSpec> {
+    let view = reader.open(field, sections)?;
     let duration = reader
         .get(&view, "duration")
         .and_then(|field| duration(reader, &field));
