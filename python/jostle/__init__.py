@@ -14,6 +14,16 @@ from ._animation import Animation
 from ._answers import Answers
 from ._builders import Frame, Gap, Given, Link, Shear, Soil, SpaceFrame, Wall
 from ._check import Check
+from ._city import (
+    City,
+    CityResult,
+    CitySummary,
+    ClassesResult,
+    Footprints,
+    classes,
+    example_city,
+    footprints,
+)
 from ._collide import Collision, ContactLaw, collide, collide_all, contact_laws
 from ._compare import Comparison, compare
 from ._contact_advice import ContactAdvice, LateralRule, StiffnessEstimate, StiffnessRange, WaveEstimate, contact_advice
@@ -67,6 +77,10 @@ __all__ = [
     "BuildingResult",
     "CapacityCurve",
     "Check",
+    "City",
+    "CityResult",
+    "CitySummary",
+    "ClassesResult",
     "Collision",
     "Comparison",
     "Contact",
@@ -78,6 +92,7 @@ __all__ = [
     "Experiment",
     "Fault",
     "Floor",
+    "Footprints",
     "Frame",
     "Gap",
     "GapPoint",
@@ -119,13 +134,16 @@ __all__ = [
     "WorstAngle",
     "__version__",
     "angles",
+    "classes",
     "collide",
     "collide_all",
     "compare",
     "contact_advice",
     "contact_laws",
     "critical_gap",
+    "example_city",
     "experiment",
+    "footprints",
     "from_opensees",
     "import_etabs",
     "import_opensees",

@@ -10,6 +10,7 @@ from typing_extensions import CapsuleType
 
 __version__: str
 __all__ = [
+    "City",
     "Comparison",
     "Live",
     "Model",
@@ -21,6 +22,7 @@ __all__ = [
     "Table",
     "__version__",
     "as_toml",
+    "classes",
     "collide",
     "command_line",
     "command_list",
@@ -28,6 +30,8 @@ __all__ = [
     "contact_advice",
     "contact_laws",
     "critical_gaps",
+    "example_city",
+    "footprints",
     "import_tables",
     "incidence",
     "live_page",
@@ -58,7 +62,22 @@ _Row = npt.NDArray[np.float64]
 _Base = tuple[str, str, bool, str, dict[str, str]]
 
 def as_toml(base: _Base) -> str: ...
+def classes(
+    path: str | os.PathLike[str],
+    folder: str | os.PathLike[str],
+    force: bool = False,
+    jobs: int | None = None,
+    observer: Callable[[float, float], object] | None = None,
+) -> tuple[list[str], list[str]]: ...
 def command_list() -> str: ...
+def example_city(buildings: int, seed: int) -> tuple[str, str]: ...
+def footprints(
+    path: str | os.PathLike[str],
+    columns: Mapping[str, str],
+    metres: bool,
+    reach: float,
+    out: str | os.PathLike[str] | None = None,
+) -> str: ...
 def import_tables(arguments: list[str]) -> str: ...
 def match_spectrum(
     words: Mapping[str, str],
@@ -158,6 +177,26 @@ def compare(
     folder: str | os.PathLike[str] | None = None,
     force: bool = False,
 ) -> Comparison: ...
+@final
+class City:
+    @staticmethod
+    def read(path: str | os.PathLike[str], draws: int | None = None, tolerance: float | None = None) -> City: ...
+    @staticmethod
+    def of_folder(folder: str | os.PathLike[str]) -> City: ...
+    def facts(self) -> str: ...
+    def settle(self, folder: str | os.PathLike[str]) -> None: ...
+    def missing(self, folder: str | os.PathLike[str]) -> list[int]: ...
+    def run_part(self, folder: str | os.PathLike[str], part: int) -> None: ...
+    def run(
+        self,
+        folder: str | os.PathLike[str],
+        jobs: int | None = None,
+        shard: tuple[int, int] | None = None,
+        observer: Callable[[float, float], object] | None = None,
+    ) -> None: ...
+    def report(self, folder: str | os.PathLike[str]) -> str: ...
+    def model(self, pair: int, draw: int, motion: int) -> str: ...
+
 @final
 class Comparison:
     def json(self) -> str: ...

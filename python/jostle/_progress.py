@@ -92,6 +92,19 @@ class ProgressLine:
             self._show("\r")
 
 
+class CountLine(ProgressLine):
+    """Shows how many of something are finished."""
+
+    def __init__(self, word: str) -> None:
+        super().__init__()
+        self._word = word
+
+    def __call__(self, time: float, duration: float) -> None:
+        if self._is_due():
+            part = min(max(time / max(duration, 1.0), 0.0), 1.0)
+            self._draw(part, f"{time:.0f} of {duration:.0f} {self._word}")
+
+
 def _notebook() -> Any:
     """``IPython.display`` in a Jupyter notebook, otherwise ``None``."""
     shell = getattr(sys.modules.get("IPython"), "get_ipython", lambda: None)()

@@ -18,22 +18,13 @@ from ._errors import AnalysisError, ModelError, ModelWarning, StudyWarning
 from ._answers import Answers
 from ._model import Base as _Base
 from ._model import Model
-from ._progress import Observer, ProgressLine
+from ._progress import CountLine, Observer
 from ._tree import text_of
 from ._units import Quantity, in_si
 
 if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
-
-class _CaseLine(ProgressLine):
-    """Shows the number of finished cases."""
-
-    def __call__(self, time: float, duration: float) -> None:
-        if self._is_due():
-            part = min(max(time / max(duration, 1.0), 0.0), 1.0)
-            self._draw(part, f"{time:.0f} of {duration:.0f} cases")
-
 
 class Study:
     """Many cases of one model: lists, ranges and distributions of any key of the model file.
@@ -197,7 +188,7 @@ class Study:
         """
         folder = os.path.abspath(os.fspath(out))
         observer = None if isinstance(progress, bool) else progress
-        with _CaseLine() if progress is True else contextlib.nullcontext() as line:
+        with CountLine("cases") if progress is True else contextlib.nullcontext() as line:
             observer = observer if line is None else line
             if client is not None:
                 if shard is not None:

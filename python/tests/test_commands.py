@@ -22,6 +22,7 @@ OBJECT = Why("the answer is an object; its tree is what --json prints")
 PAGE = Why("the answer has report(path)")
 FILES = Why("the answer is in memory; its tables and arrays are saved from there")
 FORCE = Why("the method that writes a file has force")
+OF_FOOTPRINTS = {"INVENTORY": "path", "--column": "columns", "--metres": "metres", "--reach": "reach"}
 OF_MODEL = {
     "MODEL": "model",
     "--pga": "Model.changed:pga",
@@ -130,11 +131,38 @@ TABLE: dict[str, tuple[str, dict[str, str]] | Why] = {
             "--force": "Model.save:force",
         },
     ),
-    **{
-        f"city {step}": Why("a city runs from files to files; its tables are Parquet and CSV, its models open with Model.load")
-        for step in ("check", "pairs", "run", "report", "model", "example")
-    },
-    "classes": Why("it writes a folder of tables, which pandas and OpenQuake read; jostle.main offers the command"),
+    "city check": ("footprints", OF_FOOTPRINTS),
+    "city pairs": ("footprints", {**OF_FOOTPRINTS, "--out": "out"}),
+    "city run": (
+        "City.run",
+        {
+            "CITY": "City:path",
+            "--out": "out",
+            "--draws": "City:draws",
+            "--tolerance": "City:tolerance",
+            "--shard": "shard",
+            "--jobs": "jobs",
+        },
+    ),
+    "city report": ("CityResult.report", {"FOLDER": "CityResult.load:folder"}),
+    "city model": (
+        "CityResult.model",
+        {"FOLDER": "CityResult.load:folder", "--pair": "pair", "--draw": "draw", "--motion": "motion"},
+    ),
+    "city example": (
+        "example_city",
+        {"FOLDER": "folder", "--buildings": "buildings", "--seed": "seed", "--force": "force"},
+    ),
+    "classes": (
+        "classes",
+        {
+            "FILE": "path",
+            "--out": "out",
+            "--jobs": "jobs",
+            "--check": Why("a file that is wrong raises ModelError at once"),
+            "--force": "force",
+        },
+    ),
     "mcp": Why("an assistant starts it as a program"),
     "compare": (
         "compare",

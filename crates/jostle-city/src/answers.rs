@@ -32,11 +32,6 @@ pub struct BuildingAnswer {
     pub drift: [f64; 2],
 }
 
-impl BuildingAnswer {
-    /// Places of half the median, the median and its double in `struck`.
-    pub const HALF_MEDIAN_DOUBLE: [usize; 3] = [OWN - 2, OWN, OWN + 2];
-}
-
 /// What is known of a pair after the run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PairAnswer {
@@ -83,6 +78,36 @@ pub struct Answers {
     pub cut: (usize, [f64; 2]),
     /// Runs in full.
     pub sampled: Sampled,
+}
+
+/// Means over the buildings with a neighbour \[–\].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Means {
+    /// Buildings with a neighbour.
+    pub buildings: usize,
+    /// Probability of being struck, at half the median of the gaps, at the median and at its double.
+    pub struck: [f64; 3],
+    /// Probability that a slab strikes columns.
+    pub column: f64,
+    /// Probability of moderate damage and worse, alone and with neighbours.
+    pub moderate: [f64; 2],
+}
+
+impl Answers {
+    /// Means over the buildings with a neighbour.
+    #[must_use]
+    pub fn means(&self) -> Means {
+        let with: Vec<&BuildingAnswer> = self.buildings.iter().flatten().collect();
+        let mean = |of: &dyn Fn(&BuildingAnswer) -> f64| {
+            with.iter().map(|own| of(own)).sum::<f64>() / with.len().max(1) as f64
+        };
+        Means {
+            buildings: with.len(),
+            struck: [OWN - 2, OWN, OWN + 2].map(|at| mean(&|own| own.struck[at])),
+            column: mean(&|own| own.column),
+            moderate: [0, 1].map(|which| mean(&|own| own.states[which][2..].iter().sum())),
+        }
+    }
 }
 
 /// What accumulates of a building.

@@ -7,6 +7,9 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 
 use crate::plane::Plane;
 
+/// City file for the footprints of [`example_city`] in `city.geojson`.
+pub const EXAMPLE_FILE: &str = include_str!("../assets/city.toml");
+
 /// In the middle of the Atlantic, so that nobody takes it for a place.
 const ORIGIN: [f64; 2] = [-30.0, 40.0];
 

@@ -242,15 +242,12 @@ impl City {
 
     fn body(&self, answers: &Answers, order: &[usize], links: &Links<'_>) -> Markup {
         let count = self.inventory.buildings.len();
-        let with = answers.buildings.iter().flatten().count();
-        let mean = |of: &dyn Fn(&BuildingAnswer) -> f64| {
-            answers.buildings.iter().flatten().map(of).sum::<f64>() / with.max(1) as f64
-        };
+        let means = answers.means();
+        let with = means.buildings;
         let percent = |value: f64| format!("{:.1} %", 100.0 * value);
-        let struck = mean(&|own| own.struck[OWN]);
-        let [half, twice] = [OWN - 2, OWN + 2].map(|at| mean(&|own| own.struck[at]));
+        let [half, struck, twice] = means.struck;
         let millimetres = 1e3 * self.file.gap_median;
-        let moderate = [0, 1].map(|which| mean(&|own| own.states[which][2..].iter().sum()));
+        let moderate = means.moderate;
         let [_, middle, high, _] = answers.drift_ratios;
         let tiles = [
             (
@@ -273,7 +270,7 @@ impl City {
             ),
             (
                 "Slabs strike columns",
-                percent(mean(&|own| own.column)),
+                percent(means.column),
                 "of buildings with a neighbour: the kind of pounding that breaks columns"
                     .to_owned(),
             ),

@@ -199,6 +199,51 @@ impl City {
             .collect())
     }
 
+    /// Makes a folder ready for this city, or makes sure that it holds this one, and writes its tables of buildings, pairs and
+    /// blocks.
+    ///
+    /// # Errors
+    ///
+    /// When the folder holds the run of another city, or cannot be written.
+    pub fn settle(&self, folder: &Path) -> Result<(), CityError> {
+        let runs = folder.join("runs");
+        std::fs::create_dir_all(&runs).map_err(|error| CityError::of(&runs, error))?;
+        tables::claim(folder, &self.file, &self.fingerprint)?;
+        tables::write_tables(folder, &self.inventory, &self.neighbours, &self.blocks)
+    }
+
+    /// How many parts a run has.
+    #[must_use]
+    pub fn parts(&self) -> usize {
+        self.parts.len()
+    }
+
+    /// Numbers of the parts that a folder lacks: unfinished, damaged, or of another run.
+    #[must_use]
+    pub fn missing(&self, folder: &Path) -> Vec<usize> {
+        let all = 0..self.parts.len();
+        all.filter(|part| !self.holds(&part_path(folder, *part)))
+            .collect()
+    }
+
+    /// Runs one part of a folder that is ready, unless it is there.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::run`].
+    pub fn run_one(
+        &self,
+        folder: &Path,
+        part: usize,
+        stop: &dyn Fn() -> bool,
+    ) -> Result<(), CityError> {
+        let path = part_path(folder, part);
+        if part >= self.parts.len() || self.holds(&path) {
+            return Ok(());
+        }
+        self.run_part(part, &path, stop, &mut |_| {})
+    }
+
     /// Runs what `folder/runs` does not hold yet; `stop` ends after a while with what is finished, `show` hears how far it is.
     ///
     /// # Errors
@@ -211,10 +256,7 @@ impl City {
         stop: &dyn Fn() -> bool,
         show: &mut dyn FnMut(Done),
     ) -> Result<Done, CityError> {
-        let runs = folder.join("runs");
-        std::fs::create_dir_all(&runs).map_err(|error| CityError::of(&runs, error))?;
-        tables::claim(folder, &self.file, &self.fingerprint)?;
-        tables::write_tables(folder, &self.inventory, &self.neighbours, &self.blocks)?;
+        self.settle(folder)?;
         let each = self.file.draws * self.shaking.count();
         let mut done = Done {
             cases: 0,

@@ -8,8 +8,8 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use jostle_city::{
-    Answers, Attribute, City, CityError, Columns, Inventory, Neighbours, PairModel, Position,
-    ReadOptions, RunOptions, blocks, example_city, refuse_overlaps, write_tables,
+    Answers, Attribute, City, CityError, Columns, EXAMPLE_FILE, Footprints, PairModel, Position,
+    ReadOptions, RunOptions, example_city,
 };
 use jostle_io::{CityFile, Dimension, parse_quantity, write_atomically};
 use jostle_live::{Engine, address, export_all};
@@ -141,7 +141,7 @@ impl From<CityError> for Failure {
 
 pub(crate) fn city(command: &CityCommand) -> Result<(), Failure> {
     match command {
-        CityCommand::Check(args) => terminal::print(&args.inventory.read()?.described()),
+        CityCommand::Check(args) => terminal::print(&told(&args.inventory.read()?)),
         CityCommand::Pairs(args) => pairs(args),
         CityCommand::Run(args) => run(args),
         CityCommand::Report(args) => report(&args.folder),
@@ -153,15 +153,8 @@ pub(crate) fn city(command: &CityCommand) -> Result<(), Failure> {
     }
 }
 
-/// An inventory with its neighbours.
-struct Read {
-    inventory: Inventory,
-    neighbours: Neighbours,
-    reach: f64,
-}
-
 impl InventoryArgs {
-    fn read(&self) -> Result<Read, Failure> {
+    fn read(&self) -> Result<Footprints, Failure> {
         let mut columns = Columns::default();
         for text in &self.columns {
             let fault = |problem: String| Failure::Input(format!("--column {text}: {problem}"));
@@ -187,105 +180,95 @@ impl InventoryArgs {
             columns,
             metres: self.metres,
         };
-        let inventory = Inventory::read(&self.inventory, &options)?;
-        let neighbours = Neighbours::within(&inventory.buildings, reach);
-        refuse_overlaps(&self.inventory, &inventory, &neighbours)?;
-        Ok(Read {
-            inventory,
-            neighbours,
-            reach,
-        })
+        Ok(Footprints::read(&self.inventory, &options, reach)?)
     }
 }
 
-impl Read {
-    /// What footprints hold, for people.
-    fn described(&self) -> String {
-        let own = &self.inventory;
-        let count = own.buildings.len();
-        let mut text = String::new();
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            text,
-            "{}: {} of {} rows",
-            styled(BOLD, "Buildings"),
-            counted(count, "building"),
-            own.rows
-        );
-        let named: Vec<String> = own
-            .columns
-            .iter()
-            .map(|(attribute, name)| format!("{} from \"{name}\"", attribute.name()))
-            .collect();
-        let _ = writeln!(text, "  {}", named.join(", "));
-        let known = |of: &dyn Fn(&jostle_city::Building) -> bool| {
-            100.0 * own.buildings.iter().filter(|own| of(own)).count() as f64 / count as f64
-        };
-        let _ = writeln!(
-            text,
-            "  storeys of {:.0} %, height of {:.0} %, year of {:.0} %, type of {:.0} % are given",
-            known(&|own| own.storeys.is_some()),
-            known(&|own| own.height.is_some()),
-            known(&|own| own.year.is_some()),
-            known(&|own| own.kind.is_some())
-        );
-        let mut mends: BTreeMap<&str, usize> = BTreeMap::new();
-        for mend in &own.mends {
-            *mends.entry(mend.what).or_default() += 1;
-        }
-        if !mends.is_empty() {
-            let _ = writeln!(text, "{}:", styled(BOLD, "Mends"));
-            for (what, count) in mends {
-                let first = own.mends.iter().find(|own| own.what == what);
-                let first = first.map_or_else(String::new, |own| {
-                    format!(", such as row {}: {}", own.row, own.detail)
-                });
-                let _ = writeln!(text, "  {count} {what}{first}");
-            }
-        }
-        let pairs = &self.neighbours.pairs;
-        let found = blocks(pairs, count);
-        let held: usize = found.iter().map(|own| own.buildings.len()).sum();
-        let at = |position: Position| pairs.iter().filter(|own| own.position == position).count();
-        let _ = writeln!(
-            text,
-            "{} within {} m: {}; {:.0} % of the buildings have one",
-            styled(BOLD, "Neighbours"),
-            self.reach,
-            counted(pairs.len(), "pair"),
-            100.0 * held as f64 / count as f64
-        );
-        let largest = found
-            .iter()
-            .map(|own| own.buildings.len())
-            .max()
-            .unwrap_or(0);
-        let _ = writeln!(
-            text,
-            "  {} inside, {} at an end, {} at a corner; {}, the largest of {largest}",
-            at(Position::Inside),
-            at(Position::End),
-            at(Position::Corner),
-            counted(found.len(), "block")
-        );
-        if !self.neighbours.overlaps.is_empty() {
-            let _ = writeln!(
-                text,
-                "  {} share more than a fifth of the smaller outline and count as no neighbours",
-                counted(self.neighbours.overlaps.len(), "pair")
-            );
-        }
-        text
+/// What footprints hold, for people.
+fn told(found: &Footprints) -> String {
+    let own = &found.inventory;
+    let count = own.buildings.len();
+    let mut text = String::new();
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        text,
+        "{}: {} of {} rows",
+        styled(BOLD, "Buildings"),
+        counted(count, "building"),
+        own.rows
+    );
+    let named: Vec<String> = own
+        .columns
+        .iter()
+        .map(|(attribute, name)| format!("{} from \"{name}\"", attribute.name()))
+        .collect();
+    let _ = writeln!(text, "  {}", named.join(", "));
+    let known = |of: &dyn Fn(&jostle_city::Building) -> bool| {
+        100.0 * own.buildings.iter().filter(|own| of(own)).count() as f64 / count as f64
+    };
+    let _ = writeln!(
+        text,
+        "  storeys of {:.0} %, height of {:.0} %, year of {:.0} %, type of {:.0} % are given",
+        known(&|own| own.storeys.is_some()),
+        known(&|own| own.height.is_some()),
+        known(&|own| own.year.is_some()),
+        known(&|own| own.kind.is_some())
+    );
+    let mut mends: BTreeMap<&str, usize> = BTreeMap::new();
+    for mend in &own.mends {
+        *mends.entry(mend.what).or_default() += 1;
     }
+    if !mends.is_empty() {
+        let _ = writeln!(text, "{}:", styled(BOLD, "Mends"));
+        for (what, count) in mends {
+            let first = own.mends.iter().find(|own| own.what == what);
+            let first = first.map_or_else(String::new, |own| {
+                format!(", such as row {}: {}", own.row, own.detail)
+            });
+            let _ = writeln!(text, "  {count} {what}{first}");
+        }
+    }
+    let pairs = &found.neighbours.pairs;
+    let blocks = &found.blocks;
+    let held = found.with_neighbours();
+    let at = |position: Position| pairs.iter().filter(|own| own.position == position).count();
+    let _ = writeln!(
+        text,
+        "{} within {} m: {}; {:.0} % of the buildings have one",
+        styled(BOLD, "Neighbours"),
+        found.reach,
+        counted(pairs.len(), "pair"),
+        100.0 * held as f64 / count as f64
+    );
+    let largest = blocks
+        .iter()
+        .map(|own| own.buildings.len())
+        .max()
+        .unwrap_or(0);
+    let _ = writeln!(
+        text,
+        "  {} inside, {} at an end, {} at a corner; {}, the largest of {largest}",
+        at(Position::Inside),
+        at(Position::End),
+        at(Position::Corner),
+        counted(blocks.len(), "block")
+    );
+    if !found.neighbours.overlaps.is_empty() {
+        let _ = writeln!(
+            text,
+            "  {} share more than a fifth of the smaller outline and count as no neighbours",
+            counted(found.neighbours.overlaps.len(), "pair")
+        );
+    }
+    text
 }
 
 fn pairs(args: &PairsArgs) -> Result<(), Failure> {
-    let read = args.inventory.read()?;
-    let found = blocks(&read.neighbours.pairs, read.inventory.buildings.len());
-    write_tables(&args.out, &read.inventory, &read.neighbours, &found)?;
+    let found = args.inventory.read()?;
+    found.write(&args.out)?;
     let written = format!(
         "{}Written to {}: buildings.parquet, pairs.parquet, blocks.parquet, mended.csv\n",
-        read.described(),
+        told(&found),
         args.out.display()
     );
     terminal::print(&written)
@@ -415,18 +398,16 @@ fn runner(models: &[PairModel], folder: &Path) -> Result<Vec<String>, CityError>
 
 /// What a run found, for people.
 fn described(city: &City, answers: &Answers) -> String {
-    let with: Vec<_> = answers.buildings.iter().flatten().collect();
-    let mean = |of: &dyn Fn(&jostle_city::BuildingAnswer) -> f64| {
-        100.0 * with.iter().map(|own| of(own)).sum::<f64>() / with.len().max(1) as f64
-    };
+    let means = answers.means();
+    let [half, middle, twice] = means.struck.map(|own| 100.0 * own);
+    let moderate = means.moderate.map(|own| 100.0 * own);
     let mut text = String::new();
-    let [half, middle, twice] = jostle_city::BuildingAnswer::HALF_MEDIAN_DOUBLE;
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
         "{}: {} of {} with a neighbour, {} draws, {}",
         styled(BOLD, &city.file.title),
-        counted(with.len(), "building"),
+        counted(means.buildings, "building"),
         city.inventory.buildings.len(),
         city.file.draws,
         counted(city.motions().len(), "motion"),
@@ -434,22 +415,22 @@ fn described(city: &City, answers: &Answers) -> String {
     let _ = writeln!(
         text,
         "  struck by a neighbour: {:.1} % of them (gaps with a median of {:.0} mm; half of it {:.1} %, double {:.1} %)",
-        mean(&|own| own.struck[middle]),
+        middle,
         1e3 * city.file.gap_median,
-        mean(&|own| own.struck[half]),
-        mean(&|own| own.struck[twice])
+        half,
+        twice
     );
     let _ = writeln!(
         text,
         "  a slab strikes columns: {:.1} %",
-        mean(&|own| own.column)
+        100.0 * means.column
     );
     let _ = writeln!(
         text,
         "  moderate damage and worse: {:.1} % alone, {:.1} % with neighbours; contact worsens the state in {:.1} % of the \
          samples and spares one in {:.1} %",
-        mean(&|own| own.states[0][2..].iter().sum()),
-        mean(&|own| own.states[1][2..].iter().sum()),
+        moderate[0],
+        moderate[1],
         100.0 * answers.changed[0],
         100.0 * answers.changed[1]
     );
@@ -485,7 +466,7 @@ fn example(args: &ExampleArgs) -> Result<(), Failure> {
         &map,
         example_city(args.buildings as usize, args.seed).as_bytes(),
     )?;
-    write_atomically(&file, include_str!("city.toml").as_bytes())?;
+    write_atomically(&file, EXAMPLE_FILE.as_bytes())?;
     terminal::print(&format!(
         "Written: {} and {}\nNext: jostle city run {}\n",
         map.display(),

@@ -3,6 +3,7 @@
 //! The user-facing part (units, keywords, drawings, tables) is written in Python, in `python/jostle`.
 
 mod base;
+mod city;
 mod collide;
 mod compare;
 mod describe;
@@ -18,6 +19,7 @@ mod study;
 mod suite;
 mod table;
 mod tools;
+mod watch;
 
 #[global_allocator]
 static MEMORY: mimalloc::MiMalloc = mimalloc::MiMalloc;
@@ -27,6 +29,8 @@ static MEMORY: mimalloc::MiMalloc = mimalloc::MiMalloc;
 mod _jostle {
     #[pymodule_export]
     use super::base::{as_toml, named_files, rewritten};
+    #[pymodule_export]
+    use super::city::{City, classes, example_city, footprints};
     #[pymodule_export]
     use super::collide::{collide, contact_advice, contact_laws};
     #[pymodule_export]

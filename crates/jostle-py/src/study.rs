@@ -16,6 +16,7 @@ use pyo3::prelude::*;
 use crate::base::{Base, format_of, tree_of};
 use crate::error::{AnalysisError, argument_error, in_python, input_error, study_error};
 use crate::model::Model;
+use crate::watch::watched;
 
 /// Interval at which a study checks for Ctrl-C and reports progress.
 const LOOK_UP: Duration = Duration::from_millis(50);
@@ -139,52 +140,21 @@ impl Study {
             shards,
             only,
         };
-        let halt = AtomicBool::new(false);
-        let latest: Mutex<Option<Progress>> = Mutex::new(None);
         let remarks: Mutex<Vec<String>> = Mutex::default();
-        let mut stopped: Option<PyErr> = None;
-        let done = py.detach(|| {
-            std::thread::scope(|scope| {
-                let work = scope.spawn(|| {
-                    let stop = || halt.load(Ordering::Relaxed);
-                    let keep = |text: &str| {
-                        let mut remarks = remarks.lock().unwrap_or_else(PoisonError::into_inner);
-                        remarks.push(text.to_owned());
-                    };
-                    let note = |progress: Progress| {
-                        *latest.lock().unwrap_or_else(PoisonError::into_inner) = Some(progress);
-                    };
-                    jostle_study::run(&study, &folder, &settings, &stop, &note, &keep)
-                });
-                // Signals reach Python in its own thread only.
-                while !work.is_finished() {
-                    std::thread::sleep(if stopped.is_some() {
-                        LOOK_UP / 10
-                    } else {
-                        LOOK_UP
-                    });
-                    if stopped.is_some() {
-                        continue;
-                    }
-                    let progress = *latest.lock().unwrap_or_else(PoisonError::into_inner);
-                    if let Err(error) = Python::attach(|py| heed(py, observer.as_ref(), progress)) {
-                        stopped = Some(error);
-                        halt.store(true, Ordering::Relaxed);
-                    }
-                }
-                work.join()
-            })
+        let done = watched(py, observer.as_ref(), |watch| {
+            let keep = |text: &str| {
+                let mut remarks = remarks.lock().unwrap_or_else(PoisonError::into_inner);
+                remarks.push(text.to_owned());
+            };
+            let note = |own: Progress| watch.note(own.finished as f64, own.cases as f64);
+            jostle_study::run(&study, &folder, &settings, &|| watch.stops(), &note, &keep)
         });
         if let Some(remark) = remark {
             for text in remarks.into_inner().unwrap_or_else(PoisonError::into_inner) {
                 remark.call1(py, (text,))?;
             }
         }
-        if let Some(error) = stopped {
-            return Err(error);
-        }
-        let done = done.map_err(|_| AnalysisError::new_err("the study failed inside"))?;
-        let done = done.map_err(|error| study_error(&error))?;
+        let done = done?.map_err(|error| study_error(&error))?;
         let Progress {
             finished,
             computed,
@@ -273,15 +243,6 @@ pub(crate) fn ready_made(
 #[pyfunction]
 pub(crate) fn ready_made_names() -> Vec<&'static str> {
     jostle_study::ready_made_names()
-}
-
-/// Lets Ctrl-C and the observer stop a study.
-fn heed(py: Python<'_>, observer: Option<&Py<PyAny>>, progress: Option<Progress>) -> PyResult<()> {
-    py.check_signals()?;
-    if let (Some(observer), Some(progress)) = (observer, progress) {
-        observer.call1(py, (progress.finished as f64, progress.cases as f64))?;
-    }
-    Ok(())
 }
 
 /// The smallest gaps without pounding, as the JSON of `jostle gap`.

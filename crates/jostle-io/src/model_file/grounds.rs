@@ -13,7 +13,7 @@ use crate::reader::{Field, Reader, View};
 use crate::record::RecordOptions;
 
 /// Greatest seed, so that every format can write it.
-const GREATEST_SEED: usize = 1 << 53;
+const GREATEST_SEED: u64 = 1 << 53;
 
 /// Keys of `[motion]` about ground that differs, if it has any.
 pub(super) fn read_common(
@@ -68,12 +68,12 @@ fn read_coherency(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Coherenc
     let velocity = needed(reader, &view, "shear_wave_velocity", "\"300 m/s\"");
     let velocity = velocity.and_then(|field| reader.positive(&field, Dimension::Speed));
     let seed = needed(reader, &view, "seed", "1").and_then(|field| {
-        let seed = reader.count(&field)?;
+        let seed = reader.count(&field)? as u64;
         if seed > GREATEST_SEED {
             reader.bad(&field, format!("must be at most {GREATEST_SEED}"));
             return None;
         }
-        Some(seed as u64)
+        Some(seed)
     });
     Some(Coherency {
         alpha: alpha?,
