@@ -182,11 +182,11 @@ def test_motions_of_an_event_grid(tmp_path: Path) -> None:
         ("EventGrid.csv", "GP_file,Longitude,Latitude\nabsent.csv,1,2\n", "absent.csv: there is no such file"),
         ("site0.csv", "TH_file,factor\n", "lists no record"),
         ("site0.csv", "TH_file,factor\nRSN30,two\n", "factor: expected a number"),
-        ("RSN30.json", "{", "is no JSON"),
-        ("RSN30.json", "[]", "is no table with dT and data_x"),
+        ("RSN30.json", "{", "EOF while parsing"),
+        ("RSN30.json", "[]", "has none of data_x, data_y and data_z"),
         ("RSN30.json", '{"dT": 0.01, "data_y": [0, 1]}', "1: y"),
-        ("RSN30.json", '{"dT": 0.01, "data_x": ["a", 1]}', "value 1 of data_x is no number"),
-        ("RSN30.json", '{"dT": -1, "data_x": [0, 1]}', "dT of data_x must be a number of seconds > 0"),
+        ("RSN30.json", '{"dT": 0.01, "data_x": ["a", 1]}', 'invalid type: string "a", expected f64'),
+        ("RSN30.json", '{"dT": -1, "data_x": [0, 1]}', "dT of data_x must be greater than 0"),
     ],
 )
 def test_faults_of_an_event_grid_are_named(file: str, text: str, message: str, tmp_path: Path) -> None:
