@@ -3,13 +3,13 @@
 
 use std::path::{Path, PathBuf};
 
-use jostle_live::{Engine, export};
-use jostle_testkit::browser::open_page;
+use jostle_live::{Engine, address, export, export_all};
+use jostle_testkit::browser::{open_address, open_page};
 
 use super::LivePage;
 
 /// Greatest size of the page of the built-in example \[bytes\].
-const MOST_BYTES: usize = 1_600_000;
+const MOST_BYTES: usize = 3_000_000;
 
 fn exported(model: &Path) -> String {
     let module = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../target/wasm/jostle.wasm.gz");
@@ -117,6 +117,50 @@ fn exported_page_holds_the_records_of_its_model() {
     let fault = page.fault_of("motion.record");
     assert!(fault.contains("there is no record"), "{fault}");
     page.assert_content();
+}
+
+#[test]
+#[ignore = "needs the engine that packaging/wasm builds"]
+fn a_page_opens_with_the_model_of_its_address_and_has_the_files_of_all() {
+    let folder = tempfile::tempdir().unwrap();
+    let record: String = (0..200)
+        .map(|at| format!("{}\n", 3.0 * (0.4 * f64::from(at)).sin()))
+        .collect();
+    std::fs::write(folder.path().join("own.csv"), record).unwrap();
+    let model = |width: u32, motion: &str| {
+        format!(
+            "[motion]\n{motion}\n[[building]]\nname = \"A\"\nkind = \"shear\"\nmass = [\"40 t\"]\nstiffness = [\"20 MN/m\"]\nstorey_height = \"3 m\"\n\
+             [[building]]\nname = \"B\"\nkind = \"shear\"\nmass = [\"40 t\"]\nstiffness = [\"5 MN/m\"]\nstorey_height = \"3 m\"\n\
+             [[gap]]\nbetween = [\"A\", \"B\"]\nwidth = \"{width} mm\"\n"
+        )
+    };
+    let texts = [
+        model(11, "record = \"el-centro-1940-ns\""),
+        model(7, "record = \"own.csv\"\nunit = \"m/s2\"\nstep = \"20 ms\""),
+    ];
+    let engines: Vec<Engine> = texts
+        .iter()
+        .map(|text| Engine::from_text("pair.toml", text, folder.path()).unwrap())
+        .collect();
+    let module = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../target/wasm/jostle.wasm.gz");
+    let module = std::fs::read(module).expect("packaging/wasm builds the engine");
+    let file = folder.path().join("pairs.html");
+    std::fs::write(&file, export_all(&engines, &module).unwrap()).unwrap();
+    let open = |end: &str| {
+        let page = open_address(&format!("file://{}{end}", file.display()), 1400, 1000)?;
+        page.wait("Number(document.body.dataset.frames) >= 1");
+        Some(LivePage(page))
+    };
+    for (end, width) in [(String::new(), 11), (format!("#{}", address(&texts[1])), 7)] {
+        let Some(page) = open(&end) else { return };
+        let model = page.model();
+        assert!(
+            model.contains(&format!("width = \"{width} mm\"")),
+            "{model}"
+        );
+        assert!(page.headline().contains("hit"), "{}", page.headline());
+        page.assert_content();
+    }
 }
 
 #[test]
