@@ -424,7 +424,7 @@ impl City {
             let row = self.row(&jobs[*at], &motions, true);
             let building = &self.inventory.buildings[jobs[*at].line.buildings[0]].id;
             let title = format!("building {building} and its row in draw {}", jobs[*at].draw);
-            sample.add(&row, &motions.own[row.motion], &options, &title)?;
+            sample.add(&row, &motions.own[row.motion], &options, &title, stop)?;
         }
         let mut cases = Vec::with_capacity(total);
         for (at, job) in jobs.iter().enumerate() {

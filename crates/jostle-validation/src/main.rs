@@ -7,7 +7,7 @@ use jostle_io::write_atomically;
 use jostle_validation::bits::Comparison;
 use jostle_validation::certify::record::{self, Record};
 use jostle_validation::{
-    Extent, bits, certify, document, families, harmonic, loops, misses, pairs, paper,
+    Extent, batches, bits, certify, document, families, harmonic, loops, misses, pairs, paper,
     work_precision,
 };
 
@@ -23,6 +23,7 @@ usage: jostle-validation [--full] [--check] [--reference] [--pairs [FIRST LAST [
   --harmonic    writes docs/harmonic-pounding.md and its figures; takes minutes
   --certify N [--family NAME] [--seed S] [--only K] [--json FILE]  holds every promised number of N random models against a reference of
                 other means; FILE gets every ratio
+  --batches PAIRS ROWS [--seed S] [--page]  holds batches of random rows against the program's own stepping, and measures their speed
   --certify-report FILE …  writes the tables of docs/certify.md and its figure from such files: those of families, those of others, or both
   --certify-dump K FOLDER [--family NAME] [--seed S]  writes random model K as a model file, with its record if it has one of its own
   --certify-file FILE [TOLERANCE …]  prints the reference of a model file, and how far both solvers are from it
@@ -33,6 +34,9 @@ fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     if arguments.first().is_some_and(|a| a == "--pairs") {
         return random_pairs(&arguments[1..]);
+    }
+    if arguments.first().is_some_and(|a| a == "--batches") {
+        return batched(&arguments[1..]);
     }
     if arguments.first().is_some_and(|a| a == "--certify-report") {
         return certify_report(&arguments[1..]);
@@ -314,6 +318,46 @@ fn certified(arguments: &[String]) -> ExitCode {
 }
 
 /// Tables and figure of certified runs.
+/// `--batches PAIRS ROWS [--seed S] [--page]`.
+fn batched(arguments: &[String]) -> ExitCode {
+    let number = |at: usize| arguments.get(at).and_then(|own| own.parse::<u64>().ok());
+    let seed = arguments.iter().position(|own| own == "--seed");
+    let seed = seed.map_or(Some(1), |at| number(at + 1));
+    let (Some(pairs), Some(rows), Some(seed)) = (number(0), number(1), seed) else {
+        say(&format!(
+            "--batches PAIRS ROWS [--seed S] [--page]\n{USAGE}"
+        ));
+        return ExitCode::from(2);
+    };
+    let folder = std::env::temp_dir().join(format!("jostle-batches-{}", std::process::id()));
+    let made = (|| {
+        let compared = batches::compare(pairs as usize, rows as usize, seed)?;
+        let speed = batches::speed()?;
+        let city = batches::city(&folder)?;
+        Ok::<_, String>((batches::page(seed, &compared, &speed, city), compared))
+    })();
+    let _ = std::fs::remove_dir_all(&folder);
+    let (page, compared) = match made {
+        Ok(made) => made,
+        Err(problem) => {
+            say(&problem);
+            return ExitCode::FAILURE;
+        }
+    };
+    say(&page);
+    if arguments.iter().any(|own| own == "--page") {
+        return written(&in_crate("../../docs/batches.md"), &page);
+    }
+    let kept = compared
+        .iter()
+        .all(|own| own.within() >= 0.995 && own.worst() < 5.0 * own.tolerance());
+    if kept {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::FAILURE
+    }
+}
+
 fn certify_report(paths: &[String]) -> ExitCode {
     if paths.is_empty() {
         say(USAGE);

@@ -1,20 +1,14 @@
 //! Some rows of the batches, run again in full.
 
-use std::path::Path;
-
-use jostle::{GroundMotion, RunEnd};
-use jostle_io::{ClassesFile, Format, MotionSource, MotionSpec, read_model_text};
-use jostle_run::Opened;
+use jostle_batch::Options;
+use jostle_classes::both_ways;
+use jostle_io::ClassesFile;
 use rayon::prelude::*;
 
 use super::ClassesError;
 use super::cases::Motions;
 use super::pair::{Draw, Pair};
 use super::run::Case;
-use crate::single::run_until;
-
-/// Tolerance of runs in full \[–\].
-const TOLERANCE: f64 = 1e-4;
 
 /// A case of the batches and the same in full.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,8 +36,7 @@ impl Checked {
     }
 }
 
-/// Runs 0.1 % of the rows again, at least those that the file wants, evenly among cases with contact. Pairs whose slabs
-/// strike columns are left out: shear buildings of model files have no columns between floors. `None` when it was
+/// Runs 0.1 % of the rows again, at least those that the file wants, evenly among cases with contact. `None` when it was
 /// stopped.
 pub(super) fn check(
     file: &ClassesFile,
@@ -53,12 +46,8 @@ pub(super) fn check(
     rows: usize,
     stop: &(dyn Fn() -> bool + Sync),
 ) -> Result<Option<Vec<Checked>>, ClassesError> {
-    let even: Vec<bool> = pairs
-        .iter()
-        .map(|own| own.has_common_floors(file))
-        .collect();
     let touching: Vec<usize> = (0..cases.len())
-        .filter(|at| cases[*at].impacts > 0 && even[cases[*at].pair])
+        .filter(|at| cases[*at].impacts > 0)
         .collect();
     let wanted = if file.sample == 0 {
         0
@@ -67,70 +56,56 @@ pub(super) fn check(
     };
     let chosen = (0..wanted).map(|n| touching[n * touching.len() / wanted]);
     let chosen: Vec<usize> = chosen.collect();
-    let runs = chosen.par_iter().map(|&at| {
-        let case = &cases[at];
-        again(file, &pairs[case.pair], motions, case, stop).map(|full| {
-            full.map(|[drift, force]| Checked {
-                case: at,
-                drift: [case.with.drift, drift],
-                force: [case.force, force],
-            })
-        })
-    });
+    let runs = chosen
+        .par_iter()
+        .map(|&at| again(file, &pairs[cases[at].pair], motions, &cases[at], at, stop));
     runs.collect::<Result<Option<Vec<_>>, String>>()
         .map_err(ClassesError::Analysis)
 }
 
-/// Drift ratio \[–\] and contact force \[N\] of a case in full.
+/// Drift ratio \[–\] and contact force \[N\] of a case by a batch and in full.
 fn again(
     file: &ClassesFile,
     pair: &Pair,
     motions: &Motions,
     case: &Case,
+    at: usize,
     stop: &(dyn Fn() -> bool + Sync),
-) -> Result<Option<[f64; 2]>, String> {
-    let name = pair.name();
+) -> Result<Option<Checked>, String> {
     let draw = Draw {
         number: case.draw as u64,
         motion: case.motion,
         scale: case.scale,
         gap: Some(case.gap),
     };
-    let text = model_text(file, pair, draw);
-    let wrong = |problem: String| format!("{name}, run again in full: {problem}");
-    let input = read_model_text(&name, &text, Format::Toml, Path::new(""));
-    let mut input = input.map_err(|error| wrong(error.to_string()))?;
-    let record = &motions.all[case.motion];
-    let acceleration = record.acceleration.iter().map(|own| own * case.scale);
-    let motion = GroundMotion::sampled(
-        &motions.names[case.motion],
-        record.step,
-        acceleration.collect(),
-    );
-    let mut spec = MotionSpec::record("");
-    spec.source = MotionSource::Given(motion);
-    input.replace_motion(spec);
-    let opened = Opened::new(input, name.as_str()).map_err(|error| wrong(error.to_string()))?;
-    let prepared = opened.prepare().map_err(|error| wrong(error.to_string()))?;
-    let settings = prepared.settings(false);
-    let Some(ran) = run_until(prepared, settings, stop) else {
-        return Ok(None);
-    };
-    if ran.outcome.end != RunEnd::Completed {
-        return Err(wrong(format!("{:?}", ran.outcome.end)));
-    }
-    let summary = ran.summary();
-    let floors = &summary.buildings[pair.own_place()].floors.above;
-    let drift = floors.iter().map(|own| own.response.storey_drift_peak);
-    let force = summary.gaps.iter().map(|own| own.peak_force_n);
-    Ok(Some([drift.fold(0.0, f64::max), force.fold(0.0, f64::max)]))
-}
-
-/// The model file of a draw.
-fn model_text(file: &ClassesFile, pair: &Pair, draw: Draw) -> String {
     let row = pair.row(file, draw);
-    let text = jostle_classes::model(&row, "record = \"el-centro-1940-ns\"", TOLERANCE);
-    // Draws may leave what is usual, and batches go on at drifts at which a run would end as collapsed.
-    let keys = "[analysis]\naccept_unusual = true\ncollapse_drift = 1\n";
-    text.replacen("[analysis]\n", keys, 1)
+    let options = Options::for_tolerance(file.tolerance);
+    let found = both_ways(&row, &motions.all[case.motion], &options, stop)
+        .map_err(|problem| format!("{}, run again in full: {problem}", pair.name()))?;
+    let greatest = |own: &mut dyn Iterator<Item = f64>| own.fold(0.0, f64::max);
+    Ok(found.map(|found| {
+        let own = pair.own_place();
+        let heights = row.buildings[own].storeys.iter().map(|own| own.height);
+        let heights: Vec<f64> = heights.collect();
+        let ratio = |drifts: &[f64]| {
+            greatest(
+                &mut drifts
+                    .iter()
+                    .zip(&heights)
+                    .map(|(drift, height)| drift / height),
+            )
+        };
+        let forces = found.batch.gaps.iter().flatten();
+        Checked {
+            case: at,
+            drift: [
+                ratio(&found.batch.buildings[own].drift),
+                ratio(&found.drift[own]),
+            ],
+            force: [
+                greatest(&mut forces.map(|own| own.force)),
+                greatest(&mut found.force.iter().flatten().copied()),
+            ],
+        }
+    }))
 }

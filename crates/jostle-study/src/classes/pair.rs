@@ -158,19 +158,6 @@ impl Pair {
         usize::from(self.middle)
     }
 
-    /// Whether slabs meet slabs only.
-    pub(crate) fn has_common_floors(&self, file: &ClassesFile) -> bool {
-        let draw = Draw {
-            number: 0,
-            motion: 0,
-            scale: 1.0,
-            gap: None,
-        };
-        let row = self.row(file, draw);
-        let mut contacts = row.gaps.iter().flat_map(|gap| &gap.contacts);
-        contacts.all(|own| !own.strikes_column())
-    }
-
     /// The row of a draw.
     pub(crate) fn row(&self, file: &ClassesFile, draw: Draw) -> Row {
         let (area, scatter, number) = (file.area, file.scatter, draw.number);

@@ -174,15 +174,6 @@ fn run_here(
             factors[0], factors[1]
         ));
     }
-    let uneven = pairs.iter().filter(|own| !own.has_common_floors(file));
-    let uneven = uneven.count();
-    if uneven > 0 {
-        warnings.push(format!(
-            "in {uneven} of {} pairs slabs strike columns; no case of these is run again in full, since shear buildings of \
-             model files have no columns between floors",
-            pairs.len()
-        ));
-    }
     let Some(checked) = check(file, &pairs, &motions, &cases, rows, stop)? else {
         return Ok(None);
     };

@@ -1,0 +1,412 @@
+//! Batches of random rows of buildings against the program's own stepping, their speed, and what a city costs: `docs/batches.md`.
+
+use std::fmt::Write as _;
+use std::ops::ControlFlow;
+use std::path::Path;
+use std::time::Instant;
+
+use jostle_batch::{Building, Gap, Law, Motion, Options, Precision, Row, Rule, run};
+use jostle_city::{City, EXAMPLE_FILE, RunOptions, example_city};
+use jostle_classes::{BothWays, Class, Level, both_ways, lognormal, uniform};
+use jostle_io::{CityFile, Format, MotionSpec};
+use rayon::prelude::*;
+
+/// Steps of a batch: its tolerance and the phase that the fastest oscillation takes in a step.
+const WAYS: [(f64, f64); 2] = [(1e-2, 0.1), (1e-3, 0.025)];
+/// Most storeys of a random building.
+const MOST_STOREYS: usize = 8;
+/// Median of the peak ground acceleration \[m/s²\] and the standard deviation of its logarithm.
+const PGA: (f64, f64) = (3.5, 0.4);
+/// Median of the gaps \[m\] and the standard deviation of their logarithm.
+const GAP: (f64, f64) = (0.008, 0.8);
+/// Rows that are timed together.
+const TIMED: usize = 1024;
+/// Buildings of the made-up city that is timed, and draws of it.
+const CITY: (usize, usize) = (3000, 5);
+/// Pairs a building in San Francisco: outlines no farther apart than 0.5 m, 28,610 among 76,710 buildings.
+const PAIRS_A_BUILDING: f64 = 0.373;
+/// Motions of a regional study.
+const MOTIONS: f64 = 25.0;
+
+/// What random rows are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Kind {
+    name: &'static str,
+    /// As their HAZUS class has it, or bilinear.
+    bilinear: bool,
+    /// Fewest and most buildings.
+    buildings: [usize; 2],
+}
+
+const KINDS: [Kind; 4] = [
+    Kind {
+        name: "pairs, pinched or peak-oriented",
+        bilinear: false,
+        buildings: [2, 2],
+    },
+    Kind {
+        name: "pairs, bilinear",
+        bilinear: true,
+        buildings: [2, 2],
+    },
+    Kind {
+        name: "rows of 3 to 6, pinched or peak-oriented",
+        bilinear: false,
+        buildings: [3, 6],
+    },
+    Kind {
+        name: "rows of 3 to 6, bilinear",
+        bilinear: true,
+        buildings: [3, 6],
+    },
+];
+
+/// Peaks of one kind of rows at one tolerance.
+#[derive(Clone, Debug)]
+pub struct Compared {
+    kind: &'static str,
+    rows: usize,
+    touching: usize,
+    tolerance: f64,
+    precision: Precision,
+    /// Deviations of drifts, accelerations and forces, each over the greatest of its kind in the building or gap \[–\].
+    deviations: [Vec<f64>; 3],
+}
+
+impl Compared {
+    /// What the batch promised \[–\].
+    #[must_use]
+    pub fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
+    /// Share of all peaks within the tolerance \[–\].
+    #[must_use]
+    pub fn within(&self) -> f64 {
+        share(&self.deviations.concat(), self.tolerance)
+    }
+
+    /// Greatest deviation \[–\].
+    #[must_use]
+    pub fn worst(&self) -> f64 {
+        self.deviations
+            .iter()
+            .flatten()
+            .copied()
+            .fold(0.0, f64::max)
+    }
+}
+
+fn share(all: &[f64], tolerance: f64) -> f64 {
+    let within = all.iter().filter(|own| **own <= tolerance).count();
+    within as f64 / all.len().max(1) as f64
+}
+
+fn el_centro() -> Result<Motion, String> {
+    let motion = MotionSpec::record("el-centro-1940-ns")
+        .resolve()
+        .map_err(|error| error.to_string())?;
+    let jostle::Wave::Sampled { step, acceleration } = motion.wave else {
+        return Err("El Centro is no record".to_owned());
+    };
+    Ok(Motion { step, acceleration })
+}
+
+/// A building of a random class; every number belongs to its name.
+fn building(seed: u64, at: u64, bilinear: bool) -> Building {
+    let dice = |what: &str| uniform(seed, at, what);
+    let classes: Vec<Class> = Class::all()
+        .filter(|own| *own.storeys.start() <= MOST_STOREYS)
+        .collect();
+    let class = &classes[(dice("class") * classes.len() as f64) as usize];
+    let most = (*class.storeys.end()).min(MOST_STOREYS);
+    let least = *class.storeys.start();
+    let storeys = least + (dice("storeys") * (most - least + 1) as f64) as usize;
+    let mut own = class.building(storeys, 80.0 + 700.0 * dice("area"));
+    let stiffness = lognormal(seed, at, "stiffness", 0.1);
+    let strength = lognormal(seed, at, "strength", 0.25);
+    for storey in &mut own.storeys {
+        storey.stiffness *= stiffness;
+        storey.first_corner *= strength / stiffness;
+        storey.second_corner *= strength / stiffness;
+    }
+    if bilinear {
+        own.rule = Rule::Bilinear;
+    }
+    own
+}
+
+fn random_row(seed: u64, at: u64, kind: Kind, peak: f64) -> Row {
+    let place = |building: usize| at * 64 + building as u64;
+    let [least, most] = kind.buildings;
+    let count = least + (uniform(seed, at, "count") * (most - least + 1) as f64) as usize;
+    let buildings: Vec<Building> = (0..count)
+        .map(|own| building(seed, place(own), kind.bilinear))
+        .collect();
+    let gap = |pair: usize| {
+        let own = place(pair);
+        let width = GAP.0 * lognormal(seed, own, "gap", GAP.1);
+        let law = Law::HertzDamp {
+            stiffness: 2.75e9 * lognormal(seed, own, "contact", 0.3),
+            restitution: 0.65,
+        };
+        Gap::between(
+            &buildings[pair],
+            &buildings[pair + 1],
+            width,
+            Some(law),
+            0.0,
+        )
+    };
+    Row {
+        gaps: (0..count - 1).map(gap).collect(),
+        motion: 0,
+        scale: PGA.0 * lognormal(seed, at, "pga", PGA.1) / peak,
+        buildings,
+    }
+}
+
+/// Runs `pairs` random pairs and `rows` random longer rows both ways, half of each bilinear.
+///
+/// # Errors
+/// When a row cannot run.
+pub fn compare(pairs: usize, rows: usize, seed: u64) -> Result<Vec<Compared>, String> {
+    let motion = el_centro()?;
+    let peak = motion
+        .acceleration
+        .iter()
+        .fold(0.0, |a: f64, b| a.max(b.abs()));
+    let mut all = Vec::new();
+    for (place, kind) in KINDS.into_iter().enumerate() {
+        let count = if kind.buildings[1] == 2 { pairs } else { rows } / 2;
+        let own = seed.wrapping_mul(1000).wrapping_add(place as u64);
+        let random = |at: usize| random_row(own, at as u64, kind, peak);
+        for (tolerance, phase) in WAYS {
+            for precision in [Precision::Single, Precision::Double] {
+                let options = Options { phase, precision };
+                let found: Result<Vec<BothWays>, String> = (0..count)
+                    .into_par_iter()
+                    .map(|at| {
+                        let both = both_ways(&random(at), &motion, &options, &|| false);
+                        both.and_then(|own| own.ok_or_else(|| "stopped".to_owned()))
+                            .map_err(|problem| format!("{}, row {at}: {problem}", kind.name))
+                    })
+                    .collect();
+                let found = found?;
+                let mut deviations = [Vec::new(), Vec::new(), Vec::new()];
+                for both in &found {
+                    for (all, own) in deviations.iter_mut().zip(both.deviations()) {
+                        all.extend(own);
+                    }
+                }
+                let touches = |own: &&BothWays| own.force.iter().flatten().any(|own| *own > 0.0);
+                all.push(Compared {
+                    kind: kind.name,
+                    rows: count,
+                    touching: found.iter().filter(touches).count(),
+                    tolerance,
+                    precision,
+                    deviations,
+                });
+            }
+        }
+    }
+    Ok(all)
+}
+
+/// Pairs of four beside six storeys in a second of one thread, El Centro whole: rule, tolerance, rate \[1/s\].
+///
+/// # Errors
+/// When a row cannot run.
+pub fn speed() -> Result<Vec<(&'static str, f64, f64)>, String> {
+    let motion = [el_centro()?];
+    let class = Class::named("C1M", Level::Moderate)?;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+    let pool = pool.map_err(|error| error.to_string())?;
+    let mut all = Vec::new();
+    for (name, bilinear) in [("pinched", false), ("bilinear", true)] {
+        let of = |storeys: usize| {
+            let mut own = class.building(storeys, 400.0);
+            if bilinear {
+                own.rule = Rule::Bilinear;
+            }
+            own
+        };
+        let buildings = vec![of(4), of(6)];
+        let law = Law::HertzDamp {
+            stiffness: 2.75e9,
+            restitution: 0.65,
+        };
+        let gap = Gap::between(&buildings[0], &buildings[1], 0.01, Some(law), 0.0);
+        let row = Row {
+            buildings,
+            gaps: vec![gap],
+            motion: 0,
+            scale: 1.0,
+        };
+        for (tolerance, phase) in WAYS {
+            let options = Options {
+                phase,
+                precision: Precision::Single,
+            };
+            let time = || {
+                let rows = std::iter::repeat_n(row.clone(), TIMED);
+                let start = Instant::now();
+                run(&motion, rows, &options, |_, _| ControlFlow::Continue(()))
+                    .map_err(|error| error.to_string())?;
+                Ok::<f64, String>(start.elapsed().as_secs_f64())
+            };
+            // The better of three: other programs only slow it.
+            let times = pool.install(|| (0..3).map(|_| time()).collect::<Result<Vec<_>, _>>())?;
+            let best = times.into_iter().fold(f64::INFINITY, f64::min);
+            all.push((name, tolerance, TIMED as f64 / best));
+        }
+    }
+    Ok(all)
+}
+
+/// Pairs times draws of a made-up city, free and with contact, sample and tables included, in a second of one thread \[1/s\], and
+/// bytes of the tables for each.
+///
+/// # Errors
+/// When the city cannot run.
+pub fn city(folder: &Path) -> Result<(f64, f64), String> {
+    let shown = |error: &dyn std::fmt::Display| error.to_string();
+    std::fs::create_dir_all(folder).map_err(|error| shown(&error))?;
+    let write = |name: &str, text: &str| {
+        std::fs::write(folder.join(name), text).map_err(|error| shown(&error))
+    };
+    write("city.geojson", &example_city(CITY.0, 1))?;
+    let mut file = CityFile::parse("city.toml", EXAMPLE_FILE, Format::Toml, folder)
+        .map_err(|error| shown(&error))?;
+    file.draws = CITY.1;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+    let pool = pool.map_err(|error| shown(&error))?;
+    let start = Instant::now();
+    let out = folder.join("out");
+    let cases = pool.install(|| {
+        let own = City::new(file).map_err(|error| shown(&error))?;
+        own.run(&out, RunOptions::default(), &|| false, &mut |_| {})
+            .map_err(|error| shown(&error))?;
+        Ok::<usize, String>(own.cases())
+    })?;
+    let seconds = start.elapsed().as_secs_f64();
+    let runs = std::fs::read_dir(out.join("runs")).map_err(|error| shown(&error))?;
+    let sizes = runs.flatten().filter_map(|own| own.metadata().ok());
+    let bytes: u64 = sizes.map(|own| own.len()).sum();
+    Ok((cases as f64 / seconds, bytes as f64 / cases as f64))
+}
+
+/// `docs/batches.md`.
+#[must_use]
+pub fn page(
+    seed: u64,
+    compared: &[Compared],
+    speed: &[(&'static str, f64, f64)],
+    (rate, bytes): (f64, f64),
+) -> String {
+    let mut text = format!(
+        "# Accuracy and speed of batches\n\n\
+         `jostle city` and `jostle classes` step many rows of yielding shear buildings at once, eight numbers of seven digits in a register.\n\
+         This page holds them against the program's own stepping at 1e-4, and says how fast they are. It is written by\n\
+         `cargo run --release -p jostle-validation -- --batches 400 100 --seed {seed} --page`. Every run of a city and of classes repeats a\n\
+         sample of its own rows in full and says how far it is.\n\n\
+         ## Accuracy\n\n\
+         Random buildings of 1 to {MOST_STOREYS} storeys of all HAZUS types and design levels, scattered in stiffness and strength; gaps with a median of \
+         {:.0} mm;\nEl Centro with a median peak of {:.2} g. An error is the difference of a peak over the greatest of its kind in the \
+         building or gap.\n\n\
+         | rows | touch | tolerance | numbers | peaks | drifts within | accelerations | forces | all within | worst |\n\
+         |---|---|---|---|---|---|---|---|---|---|\n",
+        1e3 * GAP.0,
+        PGA.0 / jostle::statics::STANDARD_GRAVITY
+    );
+    let percent = |own: f64| format!("{:.2} %", 100.0 * own);
+    for own in compared {
+        let kinds = [0, 1, 2].map(|at| percent(share(&own.deviations[at], own.tolerance)));
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "| {} {} | {} | {:e} | {} | {} | {} | {} | {:.1e} |",
+            own.rows,
+            own.kind,
+            own.touching,
+            own.tolerance,
+            match own.precision {
+                Precision::Single => "32 bits",
+                Precision::Double => "64 bits",
+            },
+            own.deviations.iter().map(Vec::len).sum::<usize>(),
+            kinds.join(" | "),
+            percent(own.within()),
+            own.worst()
+        );
+    }
+    text += "\n## Speed\n\n\
+             Four beside six storeys (C1M, moderate code), El Centro whole (31 s), in a second of one thread. Times of this machine, on which \
+             other\nprograms may have run.\n\n\
+             | rule | tolerance | pairs a second |\n|---|---|---|\n";
+    for (name, tolerance, rate) in speed {
+        let _ = writeln!(text, "| {name} | {tolerance:e} | {rate:.0} |");
+    }
+    let _ = write!(
+        text,
+        "\n## What a city costs\n\n\
+         The made-up city of {} buildings with {} draws takes a second of one thread for {rate:.0} draws of a pair, with all that `jostle city \
+         run`\ndoes: free, with contact where the gap closes, the sample in full, the tables ({bytes:.0} bytes each). What follows is \
+         computed from these\ntwo numbers, for {PAIRS_A_BUILDING} pairs a building (outlines of San Francisco within 0.5 m), {MOTIONS:.0} motions \
+         and one draw for each; nothing of that size\nwas run. `--shard` and the workers of Dask make the parts; they need nothing from each \
+         other.\n\n\
+         | buildings | draws of a pair | hours of a core | tables |\n|---|---|---|---|\n",
+        CITY.0, CITY.1
+    );
+    for (name, buildings) in [
+        ("100,000: a town", 1e5),
+        ("1.84 million: the San Francisco Bay Area", 1.84e6),
+        ("20 million: a country of 50 million people, roughly", 2e7),
+        ("100 million: a large nation", 1e8),
+    ] {
+        let draws = buildings * PAIRS_A_BUILDING * MOTIONS;
+        let _ = writeln!(
+            text,
+            "| {name} | {draws:.1e} | {:.3} | {:.1} GB |",
+            Rounded(draws / rate / 3600.0),
+            1e-9 * draws * bytes
+        );
+    }
+    text
+}
+
+/// Two digits of a number of hours.
+struct Rounded(f64);
+
+impl std::fmt::Display for Rounded {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let size = 10_f64.powf(self.0.abs().log10().floor() - 1.0);
+        let own = (self.0 / size).round() * size;
+        if own >= 10.0 {
+            write!(f, "{own:.0}")
+        } else {
+            write!(f, "{own:.1}")
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn batches_keep_their_tolerance() {
+        let found = compare(12, 6, 7).unwrap_or_else(|error| panic!("{error}"));
+        assert!(found.iter().map(|own| own.touching).sum::<usize>() > 40);
+        for own in found {
+            assert!(own.within() >= 0.99, "{}: {}", own.kind, own.within());
+            assert!(
+                own.worst() < 5.0 * own.tolerance,
+                "{}: {:e}",
+                own.kind,
+                own.worst()
+            );
+        }
+    }
+}
