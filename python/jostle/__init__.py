@@ -39,6 +39,7 @@ from ._errors import (
     StudyWarning,
 )
 from ._export import Script
+from ._gradients import Gradient, gradients
 from ._import import Imported, import_etabs, import_sap2000
 from ._jostle import __version__
 from ._matrices import Matrices
@@ -98,6 +99,7 @@ __all__ = [
     "GapPoint",
     "Given",
     "Governing",
+    "Gradient",
     "Imported",
     "InterruptedWarning",
     "JostleError",
@@ -145,6 +147,7 @@ __all__ = [
     "experiment",
     "footprints",
     "from_opensees",
+    "gradients",
     "import_etabs",
     "import_opensees",
     "import_sap2000",

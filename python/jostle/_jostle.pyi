@@ -32,6 +32,7 @@ __all__ = [
     "critical_gaps",
     "example_city",
     "footprints",
+    "gradients",
     "import_tables",
     "incidence",
     "live_page",
@@ -77,6 +78,9 @@ def footprints(
     metres: bool,
     reach: float,
     out: str | os.PathLike[str] | None = None,
+) -> str: ...
+def gradients(
+    base: _Base, by: Sequence[str], observer: Callable[[float, float], object] | None = None
 ) -> str: ...
 def import_tables(arguments: list[str]) -> str: ...
 def match_spectrum(

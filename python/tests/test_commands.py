@@ -80,6 +80,7 @@ TABLE: dict[str, tuple[str, dict[str, str]] | Why] = {
             "--floor-spectra": "Model.set:output.floor_spectra",
             "--capacity": "Model.set:output.capacity",
             "--sensitivity": "sensitivity",
+            "--gradients": "gradients:by",
             "--solver": "Model.set:analysis.solver",
             "--pdf": "Result.pdf:path",
             "--paper": "Result.pdf:paper",

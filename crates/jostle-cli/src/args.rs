@@ -106,6 +106,10 @@ pub(crate) struct RunArgs {
     /// Run over the advised range of contact stiffness and with restitution ± 0.15 as well, and report the spread
     #[arg(long)]
     pub(crate) sensitivity: bool,
+    /// Add how every peak changes with these numbers of the model file, such as gap[0].width,motion.pga, and how far a straight line
+    /// holds; 23 runs for the first number and 22 for each other one
+    #[arg(long, value_name = "PATHS", value_delimiter = ',')]
+    pub(crate) gradients: Vec<String>,
     /// Use this solver instead of that of the model
     #[arg(long, value_enum)]
     pub(crate) solver: Option<SolverName>,

@@ -4,9 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
-use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use jostle_city::{
     Answers, Attribute, City, CityError, Columns, EXAMPLE_FILE, Footprints, PairModel, Position,
     ReadOptions, RunOptions, example_city,
@@ -17,12 +15,10 @@ use jostle_run::{BOLD, FolderClaim, counted_grouped, styled};
 
 use crate::failure::Failure;
 use crate::live::module;
+use crate::progress::CountBar;
 use crate::stop::stop_on_interrupt;
 use crate::study::shard;
 use crate::terminal;
-
-/// Shortest duration with a progress bar.
-const PATIENCE: Duration = Duration::from_millis(500);
 
 /// Steps from footprints to a map.
 #[derive(Debug, clap::Subcommand)]
@@ -316,7 +312,7 @@ fn run(args: &RunArgs) -> Result<(), Failure> {
             Some(_) => None,
         };
         let flag = stop_on_interrupt();
-        let mut bar = Bar::new();
+        let bar = CountBar::new("pairs");
         let shard = args.shard.map(|(at, of)| (at as usize + 1, of as usize));
         let done = city.run(
             &out,
@@ -473,43 +469,6 @@ fn example(args: &ExampleArgs) -> Result<(), Failure> {
         file.display(),
         file.display()
     ))
-}
-
-/// A bar over the cases of a run, which appears only on a terminal and only after a while.
-struct Bar {
-    bar: ProgressBar,
-    started: Instant,
-    shown: bool,
-}
-
-impl Bar {
-    fn new() -> Self {
-        let bar = ProgressBar::with_draw_target(Some(1), ProgressDrawTarget::hidden());
-        let template = "{wide_bar} {percent:>3} %  {human_pos} of {human_len} pairs  {eta} left";
-        if let Ok(style) = ProgressStyle::with_template(template) {
-            bar.set_style(style);
-        }
-        Self {
-            bar,
-            started: Instant::now(),
-            shown: false,
-        }
-    }
-
-    fn show(&mut self, cases: usize, of: usize) {
-        if !self.shown && terminal::is_watched() && self.started.elapsed() > PATIENCE {
-            self.bar.set_draw_target(ProgressDrawTarget::stderr());
-            self.shown = true;
-        }
-        if self.shown {
-            self.bar.set_length(of as u64);
-            self.bar.set_position(cases as u64);
-        }
-    }
-
-    fn finish(&self) {
-        self.bar.finish_and_clear();
-    }
 }
 
 /// A count with its noun.

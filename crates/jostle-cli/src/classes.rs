@@ -4,12 +4,12 @@ use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use jostle_io::ClassesFile;
 use jostle_run::{FolderClaim, may_write, name_of};
 use jostle_study::classes::{ClassesError, FILES, run_classes, write_classes};
 
 use crate::failure::Failure;
+use crate::progress::CountBar;
 use crate::stop::stop_on_interrupt;
 use crate::terminal;
 
@@ -63,21 +63,12 @@ pub(crate) fn classes(args: &ClassesArgs) -> Result<(), Failure> {
     let claim = FolderClaim::new(&out)?;
     let flag = stop_on_interrupt();
     let stop = || flag.load(Ordering::Relaxed);
-    let bar = ProgressBar::with_draw_target(Some(1), ProgressDrawTarget::hidden());
-    if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos} of {len} pairs  {eta} left") {
-        bar.set_style(style);
-    }
-    if terminal::is_watched() {
-        bar.set_draw_target(ProgressDrawTarget::stderr_with_hz(5));
-    }
-    let show = |finished: usize, pairs: usize| {
-        bar.set_length(pairs as u64);
-        bar.set_position(finished as u64);
-    };
+    let bar = CountBar::new("pairs");
+    let show = |finished: usize, pairs: usize| bar.show(finished, pairs);
     let started = Instant::now();
     let jobs = args.jobs.map(|jobs| jobs as usize);
     let results = run_classes(&file, jobs, &stop, &show);
-    bar.finish_and_clear();
+    bar.finish();
     let Some(results) = results? else {
         terminal::remark("stopped: nothing was written");
         return Err(Failure::Stopped);

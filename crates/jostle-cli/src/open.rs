@@ -15,7 +15,7 @@ impl ModelArgs {
     }
 
     /// Changes by options, in SI.
-    fn overrides(&self) -> Result<Overrides, Failure> {
+    pub(crate) fn overrides(&self) -> Result<Overrides, Failure> {
         let quantity = |option: &str, text: &Option<String>, dimension| {
             let parsed = text
                 .as_ref()

@@ -1,5 +1,6 @@
 //! Progress of a run on a terminal.
 
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -49,6 +50,48 @@ impl TimeBar {
             self.bar.set_position((1000.0 * time / duration) as u64);
             self.bar
                 .set_message(format!("{time:.1} of {duration:.1} s"));
+        }
+    }
+
+    /// Removes the bar from the terminal.
+    pub(crate) fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+/// A bar over a count of things, which appears only on a terminal and only after a while.
+pub(crate) struct CountBar {
+    bar: ProgressBar,
+    started: Instant,
+    shown: AtomicBool,
+}
+
+impl CountBar {
+    /// A bar with what is counted, such as `pairs`.
+    pub(crate) fn new(things: &str) -> Self {
+        let bar = ProgressBar::with_draw_target(Some(1), ProgressDrawTarget::hidden());
+        let template = format!(
+            "{{wide_bar}} {{percent:>3}} %  {{human_pos}} of {{human_len}} {things}  {{eta}} left"
+        );
+        if let Ok(style) = ProgressStyle::with_template(&template) {
+            bar.set_style(style);
+        }
+        Self {
+            bar,
+            started: Instant::now(),
+            shown: AtomicBool::new(false),
+        }
+    }
+
+    /// Shows how many of how many are done.
+    pub(crate) fn show(&self, done: usize, of: usize) {
+        let due = terminal::is_watched() && self.started.elapsed() > PATIENCE;
+        if due && !self.shown.swap(true, Ordering::Relaxed) {
+            self.bar.set_draw_target(ProgressDrawTarget::stderr());
+        }
+        if self.shown.load(Ordering::Relaxed) {
+            self.bar.set_length(of as u64);
+            self.bar.set_position(done as u64);
         }
     }
 

@@ -5,18 +5,19 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use jostle::method::MethodSurvey;
+use jostle::results::gradient::Gradient;
 use jostle::{RunEnd, Solver};
-use jostle_io::FloorSpectraRequest;
+use jostle_io::{FloorSpectraRequest, ModelTree, TreeValue};
 use jostle_run::{
-    Content, FileKind, FolderClaim, Opened, Pace, Prepared, Ran, Results, Stage, describe_summary,
-    earlier_files, grouped, may_write, stopped_by,
+    Content, EXAMPLE, FileKind, FolderClaim, GradientRequest, Opened, Pace, Prepared, Ran, Results,
+    Stage, describe_summary, earlier_files, grouped, may_write, stopped_by,
 };
 use jostle_section::capacity::ShearRule;
 
 use crate::args::{RunArgs, SolverName};
 use crate::failure::Failure;
 use crate::printer::Printer;
-use crate::progress::StageBar;
+use crate::progress::{CountBar, StageBar};
 use crate::replace::Target;
 use crate::stop::stop_on_interrupt;
 use crate::terminal;
@@ -51,6 +52,11 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
         input.floor_spectra = Some(all);
     }
     if opened.input.records().len() > 1 {
+        if !args.gradients.is_empty() {
+            return Err(Failure::Input(
+                "--gradients: goes with one record; choose it with --record".to_owned(),
+            ));
+        }
         let out = folder(args, &opened.name);
         return crate::suite::run(args, &opened, out, printer.as_ref());
     }
@@ -64,6 +70,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
             )));
         }
     }
+    let gradients = wanted_gradients(args)?;
     let of_model = opened.input.warnings.len();
     terminal::warn_all(&opened.input.warnings);
     let prepared = opened.prepare()?;
@@ -97,6 +104,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
         out.as_deref(),
         printer.as_ref(),
         workbook.as_ref(),
+        gradients.as_ref(),
         &stop_on_interrupt(),
     );
     drop(claim);
@@ -110,6 +118,7 @@ fn analyse(
     out: Option<&Path>,
     printer: Option<&Printer>,
     workbook: Option<&Target>,
+    gradients: Option<&GradientRequest>,
     stop: &AtomicBool,
 ) -> Result<(), Failure> {
     let settings = prepared.settings(out.is_some() || !args.no_report);
@@ -152,6 +161,10 @@ fn analyse(
     }
     drop(observer);
     bar.finish();
+    if let Some(request) = gradients {
+        ran.gradients = found_gradients(request, stop)?;
+        summary = ran.summary();
+    }
     if let Some(out) = out.filter(|_| args.no_report && ran.has_variants()) {
         ran.results(&summary).write(out, Content::TABLES)?;
     }
@@ -204,6 +217,35 @@ fn analyse(
         }
         _ => Ok(()),
     }
+}
+
+/// What `--gradients` asks for, if it is given.
+fn wanted_gradients(args: &RunArgs) -> Result<Option<GradientRequest>, Failure> {
+    if args.gradients.is_empty() {
+        return Ok(None);
+    }
+    let model = &args.model;
+    let path = model.model.as_deref().unwrap_or(Path::new(EXAMPLE));
+    let mut tree = ModelTree::find(path)?;
+    if model.accept_unusual {
+        tree.set("analysis.accept_unusual", &TreeValue::Flag(true))
+            .map_err(|error| Failure::Input(error.to_string()))?;
+    }
+    let request = GradientRequest::new(tree, &args.gradients, &model.overrides()?)?;
+    Ok(Some(request))
+}
+
+/// Derivatives of the peaks; empty, with a remark, if they were stopped.
+fn found_gradients(request: &GradientRequest, stop: &AtomicBool) -> Result<Vec<Gradient>, Failure> {
+    let bar = CountBar::new("runs for gradients");
+    let found = request.gradients(&|| stop.load(Ordering::Relaxed), &|done, of| {
+        bar.show(done, of);
+    });
+    bar.finish();
+    Ok(found?.unwrap_or_else(|| {
+        terminal::remark("stopped in the runs for gradients; the run itself is complete");
+        Vec::new()
+    }))
 }
 
 /// Asks for the greatest forces of all columns and beams, and for demands over capacities by these rules; by those of the

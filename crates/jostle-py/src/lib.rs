@@ -8,6 +8,7 @@ mod collide;
 mod compare;
 mod describe;
 mod error;
+mod gradients;
 mod histories;
 mod live;
 mod matrices;
@@ -37,6 +38,8 @@ mod _jostle {
     use super::command_line;
     #[pymodule_export]
     use super::compare::{Comparison, compare};
+    #[pymodule_export]
+    use super::gradients::gradients;
     #[pymodule_export]
     use super::live::{Live, live_page};
     #[pymodule_export]

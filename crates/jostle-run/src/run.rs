@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use jostle::results::contact_sensitivity::ContactSensitivity;
+use jostle::results::gradient::Gradient;
 use jostle::results::isolation_bounds::IsolationBounds;
 use jostle::{Outcome, Pounding, RunEnd, Settings, StepError, Summary};
 
@@ -23,6 +24,8 @@ pub struct Ran {
     pub wall: f64,
     /// The same with other contacts, or why not, if these were run.
     pub contact_sensitivity: Option<Result<ContactSensitivity, String>>,
+    /// Derivatives of its peaks, if they were asked for.
+    pub gradients: Vec<Gradient>,
     /// The same at the bounds of bearings, or why not, if the model states any.
     pub isolation_bounds: Option<Result<IsolationBounds, String>>,
     /// Spectra of floors, or why not, if they were asked for.
@@ -57,6 +60,7 @@ impl Prepared {
             without_contact: None,
             wall,
             contact_sensitivity: None,
+            gradients: Vec::new(),
             isolation_bounds: None,
         }
     }
@@ -108,6 +112,7 @@ impl Ran {
             )),
             None => {}
         }
+        summary.gradients.clone_from(&self.gradients);
         match &self.isolation_bounds {
             Some(Ok(found)) => summary.isolation_bounds = Some(found.clone()),
             Some(Err(problem)) => summary.warnings.push(format!(
@@ -120,10 +125,12 @@ impl Ran {
         }
     }
 
-    /// Whether runs with other contacts or at the bounds of bearings were made, or tried.
+    /// Whether runs with other contacts, with other numbers or at the bounds of bearings were made, or tried.
     #[must_use]
     pub fn has_variants(&self) -> bool {
-        self.contact_sensitivity.is_some() || self.isolation_bounds.is_some()
+        self.contact_sensitivity.is_some()
+            || self.isolation_bounds.is_some()
+            || !self.gradients.is_empty()
     }
 
     /// Adds the spectra of floors to the numbers of the run, or why they are missing. `without`: those of the run without

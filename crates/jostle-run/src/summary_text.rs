@@ -5,6 +5,7 @@ use std::path::Path;
 
 use jostle::linear::sort_by;
 use jostle::results::contact_sensitivity::ContactSensitivity;
+use jostle::results::gradient::Gradient;
 use jostle::results::isolation_bounds::{Bounded, IsolationBounds};
 use jostle::results::response::FloorResponse;
 use jostle::results::summary::{
@@ -87,6 +88,7 @@ fn write_all(
     if let Some(spread) = &summary.contact_sensitivity {
         write_spread(text, spread)?;
     }
+    write_gradients(text, &summary.gradients)?;
     if let Some(bounds) = &summary.isolation_bounds {
         write_bounds(text, bounds)?;
     }
@@ -662,6 +664,32 @@ fn write_bounds(text: &mut String, bounds: &IsolationBounds) -> std::fmt::Result
             "contact force",
             &own.peak_force_n,
             &|x| format!("{} kN", kn(x)),
+        )?;
+    }
+    Ok(())
+}
+
+/// Derivatives of the peaks of gaps and whole buildings; those of floors stand in `summary.json`.
+fn write_gradients(text: &mut String, gradients: &[Gradient]) -> std::fmt::Result {
+    if gradients.is_empty() {
+        return Ok(());
+    }
+    writeln!(
+        text,
+        "\n{}; those of floors are in summary.json",
+        styled(BOLD, "Change of a peak for 1 % more of a number")
+    )?;
+    let shown = gradients.iter().filter(|own| {
+        own.peak != 0.0 && !own.of.contains("floors[") && !own.of.contains("contacts[")
+    });
+    for own in shown {
+        writeln!(
+            text,
+            "  {:<44} {:<26} {:>+8.3} %   a line up to ±{:.1} %",
+            own.of,
+            own.by,
+            own.elasticity(),
+            100.0 * own.valid_within / own.at.abs()
         )?;
     }
     Ok(())

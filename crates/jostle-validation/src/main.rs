@@ -334,7 +334,10 @@ fn batched(arguments: &[String]) -> ExitCode {
         let compared = batches::compare(pairs as usize, rows as usize, seed)?;
         let speed = batches::speed()?;
         let city = batches::city(&folder)?;
-        Ok::<_, String>((batches::page([pairs, rows, seed], &compared, &speed, city), compared))
+        Ok::<_, String>((
+            batches::page([pairs, rows, seed], &compared, &speed, city),
+            compared,
+        ))
     })();
     let _ = std::fs::remove_dir_all(&folder);
     let (page, compared) = match made {

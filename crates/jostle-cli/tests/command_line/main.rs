@@ -10,6 +10,7 @@ mod contact_sensitivity;
 mod export;
 mod floor_spectra;
 mod gap_curve;
+mod gradients;
 mod hardening;
 mod import;
 mod import_opensees;

@@ -8,6 +8,7 @@ mod counted_impact;
 pub mod floor_spectra;
 mod foundation;
 mod friction;
+pub mod gradient;
 mod ground;
 pub mod in_plan;
 mod isolation;

@@ -130,6 +130,7 @@ impl Summary {
             promise: promise_summary(run),
             work: work_summary(run),
             contact_sensitivity: None,
+            gradients: Vec::new(),
             isolation_bounds: None,
             floor_spectra: None,
             checks: Vec::new(),

@@ -44,6 +44,7 @@ use serde::Serialize;
 use crate::quantity::{Quantity, Unit};
 use crate::results::contact_sensitivity::ContactSensitivity;
 use crate::results::floor_spectra::FloorSpectra;
+use crate::results::gradient::Gradient;
 use crate::results::isolation_bounds::IsolationBounds;
 
 /// Results of a run without histories.
@@ -101,6 +102,9 @@ pub struct Summary {
     /// How results depend on the contact; absent unless asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact_sensitivity: Option<ContactSensitivity>,
+    /// Derivatives of peaks; absent unless asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub gradients: Vec<Gradient>,
     /// Peaks over the range of the properties of bearings; absent where the model states none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub isolation_bounds: Option<IsolationBounds>,
