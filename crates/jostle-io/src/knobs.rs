@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::ModelTree;
 use crate::keys::{Key, Kind, Section, keys_of, range_of};
-use crate::quantity::{Dimension, parse_quantity, split_number};
+use crate::quantity::{Dimension, split_number};
 use crate::reader::join;
 use crate::tree::{Node, Value};
 
@@ -29,8 +29,6 @@ pub struct Knob {
     pub choices: &'static [&'static str],
     /// The number in the value, if it is one.
     pub number: Option<f64>,
-    /// The same in SI.
-    pub si: Option<f64>,
     /// Its unit as written.
     pub unit: String,
     /// Name of the dimension and its unit in SI, such as `a length` and `m`.
@@ -197,15 +195,7 @@ fn entry(
         },
         _ => (None, String::new()),
     };
-    let si = number.and_then(|own| {
-        let text = format!("{own} {unit}");
-        match dimension(&key.kind) {
-            Some(dimension) => parse_quantity(text.trim(), dimension).ok(),
-            None => Some(own),
-        }
-    });
     into.push(Knob {
-        si,
         path: path.to_owned(),
         group: group.to_owned(),
         name,

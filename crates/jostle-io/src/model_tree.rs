@@ -8,10 +8,12 @@ use crate::builtin_model;
 use crate::fault::InputError;
 use crate::files::Files;
 use crate::model_file::{self, Input};
+use crate::quantity::split_number;
 use crate::reader::join;
 use crate::record_list;
 use crate::source::Source;
 use crate::tree::{self, Entry, Format, Node, Table, Value};
+use crate::unit::Unit;
 
 /// A model file, parsed but not yet read. Values can be replaced by path; [`ModelTree::input`] then reads the
 /// tree as if it had been written that way.
@@ -223,6 +225,20 @@ impl ModelTree {
             collect(&self.root, &parts, &mut found);
         }
         found
+    }
+
+    /// The one number or quantity at a path, in SI; `None` where there is none, a list, or several.
+    #[must_use]
+    pub fn number(&self, path: &str) -> Option<f64> {
+        match &self.values(path)[..] {
+            [TreeValue::Integer(own)] => Some(*own as f64),
+            [TreeValue::Number(own)] => Some(*own),
+            [TreeValue::Text(text)] => {
+                let (number, unit) = split_number(text)?;
+                Some(number * Unit::parse(unit).ok()?.factor)
+            }
+            _ => None,
+        }
     }
 
     /// The records that the file lists for a run to choose from; empty if it names one, or none.
