@@ -34,7 +34,9 @@ impl BucklingCurve {
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         let mut curves = CURVES.iter();
-        curves.find(|(known, _)| *known == name).map(|(_, own)| *own)
+        curves
+            .find(|(known, _)| *known == name)
+            .map(|(_, own)| *own)
     }
 
     /// Buckling force over yield force for a slenderness λ = √(Ny/NE), NE being Euler's force, > 0 \[–\]. Without partial factors.
@@ -67,7 +69,10 @@ mod tests {
                 let slenderness = 0.05 + 0.05 * f64::from(step);
                 let share = curve.share(slenderness);
                 let squared = slenderness * slenderness;
-                assert!(share <= last && share * squared < 1.0, "{name} {slenderness}");
+                assert!(
+                    share <= last && share * squared < 1.0,
+                    "{name} {slenderness}"
+                );
                 last = share;
                 if let BucklingCurve::En1993(imperfection) = curve
                     && slenderness > 0.2

@@ -109,7 +109,9 @@ pub(super) fn read(
             reader.missing(
                 view,
                 key,
-                format!("add {key} = {example}; or a profile to the brace, and yield_strength here"),
+                format!(
+                    "add {key} = {example}; or a profile to the brace, and yield_strength here"
+                ),
             );
         }
         value

@@ -416,7 +416,9 @@ impl Direct {
             let known = &mut self.yielding.stages[index];
             let stage = match known {
                 // Only braces go further.
-                Stage::Yielded if !matches!(spring.hysteresis.rule(), HysteresisRule::Buckling(_)) => {
+                Stage::Yielded
+                    if !matches!(spring.hysteresis.rule(), HysteresisRule::Buckling(_)) =>
+                {
                     Stage::Yielded
                 }
                 _ => spring.hysteresis.stage(memory),

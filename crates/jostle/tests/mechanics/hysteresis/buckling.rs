@@ -1,8 +1,6 @@
 //! Braces that buckle, against the equations of a hinged strut and fibre analyses by OpenSees.
 
-use jostle::hysteresis::{
-    BucklingBrace, Hysteresis, HysteresisMemory, Side, Stage,
-};
+use jostle::hysteresis::{BucklingBrace, Hysteresis, HysteresisMemory, Side, Stage};
 use proptest::prelude::*;
 
 /// A square tube of S275 by its side, wall and length, curve a: λ, χ and e₀ from its sizes.
@@ -69,7 +67,10 @@ fn every_branch_has_its_closed_form() {
         let x = kink(n);
         flow += 2.0 * own.shortening * (n + n0) * (x - x0);
         let due = n * strength / k + own.shortening * bow(n) * bow(n) + flow;
-        assert!((corner + due).abs() < 1e-12, "corner {number}: {corner} {due}");
+        assert!(
+            (corner + due).abs() < 1e-12,
+            "corner {number}: {corner} {due}"
+        );
         assert_eq!(law.stage(&response.memory), Stage::Buckled);
         corners.push((n, x, flow));
         (n0, x0) = (n, x);
@@ -141,9 +142,12 @@ fn every_branch_has_its_closed_form() {
         let to = elastic - share * own.buckling_force / k;
         weak.respond(&memory, to).force / own.buckling_force
     };
-    assert!((at(0.599) + 0.599).abs() < 1e-9 && at(0.8) > -0.6001, "{}", at(0.8));
+    assert!(
+        (at(0.599) + 0.599).abs() < 1e-9 && at(0.8) > -0.6001,
+        "{}",
+        at(0.8)
+    );
 }
-
 
 /// Fibre analyses with initial camber: buckling forces by curve a, forces after buckling, later buckling and energy of cycles from stocky to slender
 /// tubes. The hinge is a model of yielding that spreads, and Steel02 rounds its corners: the differences are those of theory.
@@ -194,7 +198,13 @@ fn fibre_braces_buckle_alike() {
 
 /// Struts from stocky to slender, deformations in units of the yield deformation.
 fn cases() -> impl Strategy<Value = (Hysteresis, Vec<f64>, f64)> {
-    let brace = (0.3..2.5_f64, 0.02..1.0_f64, 0.3..1.0_f64, 0.0..0.05_f64, 0.3..0.99_f64);
+    let brace = (
+        0.3..2.5_f64,
+        0.02..1.0_f64,
+        0.3..1.0_f64,
+        0.0..0.05_f64,
+        0.3..0.99_f64,
+    );
     let swing = prop_oneof![4 => -8.0..4.0_f64, 2 => -1.0..1.0_f64, 1 => -0.1..0.1_f64];
     (brace, prop::collection::vec(swing, 1..30)).prop_map(|(numbers, swings)| {
         let (slenderness, scale, later, post_yield, share) = numbers;

@@ -160,7 +160,7 @@ fn a_braced_storey_that_buckles_moves_like_one_mass() {
     let moved = solve_once::<RiccatiSweep>(&building.structure, &StepMatrix::STATIC, &load);
     let stiffness = 1.0 / moved.expect("it stands")[building.floors[0].dof];
     let mass = building.equations.total_mass();
-    let motion = fading("along", 9.0, [1.6, 3.0], 500);
+    let motion = fading("along", 9.0, [2.6, 3.0], 500);
     let (step, mut memory) = (5e-6, HysteresisMemory::default());
     let (mut before, mut now, mut peaks, mut first) = (0.0, 0.0, [0.0_f64; 2], None);
     let (mut forces, mut work) = ([0.0_f64; 2], 0.0);
@@ -179,20 +179,45 @@ fn a_braced_storey_that_buckles_moves_like_one_mass() {
         (before, now) = (now, next);
     }
     let mut model = undamped(own);
-    model.analysis.step = StepChoice::Fixed(5e-4);
+    model.analysis.step = Some(1e-4);
     let (_, outcome, summary) = runs::run_and_summary(&model, &motion);
     assert!(outcome.energy.worst_imbalance < 1e-6);
-    let (floor, part) = (&summary.buildings[0].floors[0], &summary.buildings[0].parts[0]);
-    println!("{peaks:?} {forces:?} {work} {first:?} {part:?} {} {}", floor.displacement_max_m, floor.displacement_min_m);
-    assert!(forces[0] > 5e5 && peaks[1] * cosine < -0.01, "it does little");
-    close(floor.displacement_max_m, peaks[0], peaks[0], 1e-3, "right");
-    close(floor.displacement_min_m, peaks[1], peaks[1], 1e-3, "left");
-    close(part.force_max_n, forces[0], forces[0], 1e-3, "tension");
-    close(part.force_min_n, forces[1], forces[1], 1e-3, "compression");
-    close(part.deformation_min, -cosine * peaks[1], 0.01, 1e-3, "shortening");
-    close(part.dissipated_j, work - law.recoverable_energy(&memory), work, 1e-3, "energy");
+    let (floor, part) = (
+        &summary.buildings[0].floors[0],
+        &summary.buildings[0].parts[0],
+    );
+    assert!(
+        forces[0] > 5e5 && peaks[1] * cosine < -0.01,
+        "it does little"
+    );
+    close(
+        floor.response.displacement_max_m,
+        peaks[0],
+        peaks[0],
+        1e-6,
+        "right",
+    );
+    close(
+        floor.response.displacement_min_m,
+        peaks[1],
+        -peaks[1],
+        1e-6,
+        "left",
+    );
+    // At the corner of buckling the greatest compression is that of the nearest step.
+    close(part.force_max_n, forces[0], forces[0], 1e-4, "tension");
+    close(part.force_min_n, forces[1], -forces[1], 1e-4, "compression");
+    close(
+        part.deformation_min,
+        -cosine * peaks[1],
+        0.01,
+        1e-6,
+        "shortening",
+    );
+    let dissipated = work - law.recoverable_energy(&memory);
+    close(part.dissipated_j, dissipated, work, 1e-4, "energy");
     let first = first.expect("it buckles");
-    assert!((part.buckled_s.expect("it buckles") - first).abs() < 1e-3);
+    assert!((part.buckled_s.expect("it buckles") - first).abs() < 1e-4);
 }
 
 /// Columns that keep their length have axial forces by equilibrium, braces and struts included; those of very stiff columns follow
