@@ -90,7 +90,7 @@ impl Hysteresis {
             ))
         } else if !(later > 0.0 && later <= 1.0) {
             Some(format!("needs 0 < later <= 1, found {later}"))
-        } else if !(post_yield < 1.0) {
+        } else if post_yield >= 1.0 {
             Some(format!("needs post_yield below 1, found {post_yield}"))
         } else if share > 1.0 {
             Some(format!(
