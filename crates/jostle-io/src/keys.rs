@@ -5,6 +5,7 @@ use jostle::contact::{LawKind, ModifiedKelvin, RestitutionIs};
 use jostle::hysteresis::HysteresisRule;
 use jostle::separation::{Code, HazardZone, JointSystem, MotionLevel};
 use jostle_motion::GoverningRule;
+use jostle_section::BucklingCurve;
 
 use crate::baseline::Baseline;
 use crate::choices::{DesignKind, FragilityMethod, IntegratorMethod, Sampling, names};
@@ -138,6 +139,8 @@ pub(crate) enum Section {
     Wall,
     /// Yielding of a link.
     LinkHinge,
+    /// Further keys of it for braces that buckle.
+    Buckling,
     /// Soil under foundations.
     Soil,
     /// Springs and dashpots of all foundations.
@@ -415,6 +418,10 @@ pub(crate) const AXIAL: &[&str] = &["rigid", "flexible"];
 pub(crate) const WALL_STIFFNESS: &[&str] = &["asce41-23", "en1998"];
 pub(crate) const RESTITUTION_IS: &[&str] = names!(RestitutionIs);
 pub(crate) const RULES: &[&str] = names!(HysteresisRule);
+/// Rules of links and braces; of these, braces alone buckle.
+pub(crate) const LINK_RULES: &[&str] = &joined::<8>(&[RULES, &["buckling"]]);
+/// Curves of buckling forces.
+pub(crate) const BUCKLING_CURVES: &[&str] = &BucklingCurve::NAMES;
 /// Where shear springs of columns stand.
 pub(crate) const SHEAR_ENDS: &[&str] = &["foot", "both"];
 /// Rules of hinges of frames: fibres are several springs.
@@ -722,9 +729,11 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Brace, "storeys", Kind::FromTo, "all", "Its storey, counted from 1; or the first and the last."),
     default(S::Brace, "bay", Kind::FromTo, "all", "Its bay, likewise, from the left."),
     default(S::Brace, "direction", Choice(DIRECTIONS), "\"up\"", "From the lower left to the upper right corner of the bay, from the upper left to the lower right, or both."),
+    optional(S::Brace, "profile", TextOrTable(S::Profile), "Steel profile instead of EA, as of columns; with `yield_strength` in hinge it also gives yield, slenderness and lever arm of the rule buckling."),
+    default(S::Brace, "axis", Choice(AXES), "\"weak\"", "About which axis of the profile the brace buckles."),
     optional(S::Brace, "EA", Quantity(D::Force), "Axial rigidity.").usual("an axial rigidity", 1e6, 1e12),
     optional(S::Brace, "stiffness", Quantity(D::Stiffness), "Axial force per elongation, instead of EA.").usual("an axial stiffness", 1e5, 1e11),
-    optional(S::Brace, "hinge", Kind::Table(S::LinkHinge), "Axial force at which it yields, alike in tension and compression; without it the brace is elastic."),
+    optional(S::Brace, "hinge", Kind::TableOf(&[S::LinkHinge, S::Buckling]), "Axial force at which it yields, alike in tension and compression, or buckles, with the rule buckling; without it the brace is elastic."),
     default(S::Infill, "storeys", Kind::FromTo, "all", "Its storey, counted from 1; or the first and the last."),
     default(S::Infill, "bay", Kind::FromTo, "all", "Its bay, likewise, from the left."),
     optional(S::Infill, "modulus", Quantity(D::Modulus), "Modulus of elasticity of the masonry along the strut; with thickness and width.").usual("a modulus of masonry", 1e8, 5e10),
@@ -1126,7 +1135,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::LinkLaw, "slack", Quantity(D::Length), "0", "cable: lengthening at which it becomes taut.").usual("a slack", 1e-5, 2.0),
     default(S::LinkLaw, "gap", Quantity(D::Length), "0", "stopper: shortening at which it is touched.").usual("a gap", 1e-5, 2.0),
 
-    required(S::LinkHinge, "rule", Choice(RULES), "Unloading and reloading rule of the link."),
+    required(S::LinkHinge, "rule", Choice(LINK_RULES), "Unloading and reloading rule of the link; `buckling` for braces alone."),
     default(S::LinkHinge, "gamma", Quantity(D::Dimensionless), "0.4", "Exponent of the unloading stiffness of takeda.").usual("an exponent", 1e-3, 1.0),
     optional(S::LinkHinge, "pinching", Kind::Table(S::Pinching), "Where reloading stiffens; required with the rule pinched."),
     default(S::LinkHinge, "unloading_exponent", Quantity(D::Dimensionless), "0", "Exponent with which the unloading stiffness of pinched falls with the peak, 0 to 1.").usual("an exponent", 1e-3, 1.0),
@@ -1135,6 +1144,13 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::LinkHinge, "yield", Quantity(D::Force), "Force at yield.").usual("a yield force", 100.0, 1e9),
     optional(S::LinkHinge, "post_cracking", Quantity(D::Dimensionless), "Ratio of the stiffness after the first corner to the stiffness of the link.").usual("a ratio of stiffnesses", 1e-6, 1.0).signed(),
     optional(S::LinkHinge, "post_yield", Quantity(D::Dimensionless), "Ratio of the stiffness after yield to the stiffness of the link; less than 0 with residual, for a force that falls.").usual("a ratio of stiffnesses", 1e-6, 1.0).signed(),
+    optional(S::Buckling, "yield_strength", Quantity(D::Modulus), "Yield strength of the steel of a profile, instead of yield, slenderness and lever_arm.").usual("a yield strength", 1e8, 2e9),
+    optional(S::Buckling, "curve", Choice(BUCKLING_CURVES), "Buckling curve: `a0` to `d` of EN 1993-1-1, 6.3.1.2, or `aisc360` of AISC 360, E3; without partial factors. Required without buckling."),
+    optional(S::Buckling, "buckling", Quantity(D::Force), "Force at which the brace first buckles, instead of curve.").usual("a buckling force", 100.0, 1e9),
+    default(S::Buckling, "effective_length", Quantity(D::Dimensionless), "1", "Buckling length over the length between the joints.").usual("a ratio of lengths", 0.3, 2.1),
+    optional(S::Buckling, "slenderness", Quantity(D::Dimensionless), "Square root of yield force over Euler's force; from profile and yield_strength if not given.").usual("a slenderness", 0.05, 5.0),
+    optional(S::Buckling, "lever_arm", Quantity(D::Length), "Plastic moment over yield force of the section, 3/8 of the side of a thin square tube; from the profile if not given.").usual("a lever arm of a section", 2e-3, 0.5),
+    default(S::Buckling, "later", Quantity(D::Dimensionless), "0.65", "Share of the buckling force that is left once the brace was straightened, above 0 to 1; fibre analyses of square tubes give 0.55 to 0.72.").usual("a share of the buckling force", 0.2, 1.0),
     optional(S::LinkHinge, "residual", Quantity(D::Dimensionless), "pinched: share of the yield force at which a force that falls after yield stays.").usual("a share of the yield force", 1e-3, 1.0),
 
     required(S::Wall, "name", Text, "Name by which gaps and links know it."),

@@ -7,6 +7,7 @@ mod analysis;
 mod assumptions;
 mod between;
 mod brace;
+mod buckling;
 mod building;
 mod capacity;
 mod codes;

@@ -244,6 +244,11 @@ const TABLES: &[(Section, &str, &str)] = &[
         "",
     ),
     (
+        Section::Buckling,
+        "Further keys of `hinge` of a brace with the rule `buckling`",
+        "See [Braces](how-to/braces.md#buckling).",
+    ),
+    (
         Section::Soil,
         "`[soil]`",
         "See [Buildings on soil](how-to/soil.md).",

@@ -25,10 +25,11 @@ pub(crate) fn write_parts(text: &mut String, buildings: &[BuildingSummary]) -> s
             };
             writeln!(
                 text,
-                "\n{noun} of {}: up to {tension}{:.0} kN of compression in {}{spent}",
+                "\n{noun} of {}: up to {tension}{:.0} kN of compression in {}{spent}{}",
                 building.name,
                 -worst.force_min_n / 1e3,
-                worst.name
+                worst.name,
+                buckled(&own().collect::<Vec<_>>())
             )?;
         }
     }
@@ -36,6 +37,21 @@ pub(crate) fn write_parts(text: &mut String, buildings: &[BuildingSummary]) -> s
         .iter()
         .try_for_each(|building| write_walls(text, building))?;
     crate::footing_text::write(text, buildings)
+}
+
+/// Which braces buckle, if any does.
+fn buckled(braces: &[&PartSummary]) -> String {
+    let when = |own: &&PartSummary| Some((own.buckled_s?, own.name.clone()));
+    let mut times: Vec<(f64, String)> = braces.iter().filter_map(when).collect();
+    times.sort_by(|a, b| a.0.total_cmp(&b.0));
+    match times.first() {
+        Some((time, name)) => format!(
+            "; {} of {} buckle, {name} first at {time:.3} s",
+            times.len(),
+            braces.len()
+        ),
+        None => String::new(),
+    }
 }
 
 /// Moments at the feet of walls, and what couples them.

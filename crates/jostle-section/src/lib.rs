@@ -15,6 +15,7 @@ pub mod formula;
 pub mod masonry;
 
 mod bars;
+mod buckling;
 mod column_fibres;
 mod concrete;
 mod curve;
@@ -29,6 +30,7 @@ mod survey;
 mod tee;
 
 pub use bars::{Bar, BarsError, Reinforcement, Ties};
+pub use buckling::BucklingCurve;
 pub use column_fibres::FibreOptions;
 pub use concrete::{CONCRETE_GRADES, Concrete, EN_CONCRETE_GRADES, StrengthLevel};
 pub use curve::{AnalysisError, Event, EventKind, MomentCurvature, Options};

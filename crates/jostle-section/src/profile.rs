@@ -104,6 +104,26 @@ impl Profile {
         plates + 4.0 * (about_centroid + fillet * arm * arm)
     }
 
+    /// Plastic section modulus \[m³\].
+    #[must_use]
+    pub fn plastic_modulus(&self, axis: Axis) -> f64 {
+        let (clear, radius) = (self.clear(), self.radius);
+        let fillets = (4.0 - PI) * radius * radius;
+        let centroid = (10.0 - 3.0 * PI) / (12.0 - 3.0 * PI) * radius;
+        match axis {
+            Axis::Strong => {
+                self.width * self.flange * (self.depth - self.flange)
+                    + 0.25 * self.web * clear * clear
+                    + fillets * (0.5 * clear - centroid)
+            }
+            Axis::Weak => {
+                0.5 * self.flange * self.width * self.width
+                    + 0.25 * clear * self.web * self.web
+                    + fillets * (0.5 * self.web + centroid)
+            }
+        }
+    }
+
     /// Area that resists shear: the web between the middles of the flanges, or about the weak axis 5/6 of both flanges \[m²\].
     #[must_use]
     pub fn shear_area(&self, axis: Axis) -> f64 {
@@ -284,6 +304,22 @@ mod tests {
             let own = Profile::named(name).expect(name);
             let found = 1e8 * own.inertia(Axis::Weak);
             assert!((found / inertia - 1.0).abs() < 1e-3, "{name}: {found}");
+        }
+    }
+
+    /// Plastic moduli about both axes of four of them as catalogues print them \[cm³\].
+    #[test]
+    fn plastic_moduli_are_those_of_catalogues() {
+        for (name, strong, weak) in [
+            ("IPE300", 628.4, 125.2),
+            ("HEA200", 429.5, 203.8),
+            ("HEB200", 642.5, 305.8),
+            ("HEB300", 1869.0, 870.1),
+        ] {
+            let own = Profile::named(name).expect(name);
+            let found = [Axis::Strong, Axis::Weak].map(|axis| 1e6 * own.plastic_modulus(axis));
+            assert!((found[0] / strong - 1.0).abs() < 1e-3, "{name}: {found:?}");
+            assert!((found[1] / weak - 1.0).abs() < 1e-3, "{name}: {found:?}");
         }
     }
 

@@ -116,6 +116,7 @@ impl Materials {
             rule @ (HysteresisRule::Takeda { .. }
             | HysteresisRule::DegradingTrilinear
             | HysteresisRule::Sliding { .. }
+            | HysteresisRule::Buckling(_)
             | HysteresisRule::Concrete(_)
             | HysteresisRule::Pendulums(_)
             | HysteresisRule::Ground

@@ -21,6 +21,7 @@ impl Script<'_> {
             | HysteresisRule::DegradingTrilinear
             | HysteresisRule::Sliding { .. }
             | HysteresisRule::Stop { .. }
+            | HysteresisRule::Buckling(_)
             | HysteresisRule::Concrete(_)
             | HysteresisRule::Pendulums(_)
             | HysteresisRule::Ground

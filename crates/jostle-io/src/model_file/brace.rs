@@ -1,9 +1,12 @@
 //! `[[building.brace]]`: diagonals of the bays of a frame.
 
 use jostle::{Diagonal, DiagonalKind, DiagonalPlace, Rise};
+use jostle_section::STEEL_MODULUS;
 
+use super::buckling::{self, Strut};
 use super::hinges::read_spring;
 use super::places::range;
+use super::steel_profile;
 use crate::keys::{DIRECTIONS, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
@@ -84,6 +87,21 @@ fn read(reader: &mut Reader<'_>, entry: &Field<'_>, bays: Bays<'_>) -> Option<Ve
     };
     let rigidity = number("EA", Dimension::Force);
     let stiffness = number("stiffness", Dimension::Stiffness);
+    let profile = match reader.get(&view, "profile") {
+        Some(field) => Some(steel_profile::of_brace(reader, &view, &field)?),
+        None => {
+            if let Some(field) = reader.get(&view, "axis") {
+                *reader.bad(&field, "has no meaning without a profile") =
+                    Some("add profile, or remove axis".into());
+                return None;
+            }
+            None
+        }
+    };
+    let rigidity = match (rigidity, stiffness, profile) {
+        (None, None, Some((own, _))) => Some(Some(STEEL_MODULUS * own.area())),
+        _ => rigidity,
+    };
     let stiffness_of: &Stiffness<'_> = match (rigidity, stiffness) {
         (Some(_), Some(_)) => {
             let field = reader.get(&view, "EA")?;
@@ -97,7 +115,7 @@ fn read(reader: &mut Reader<'_>, entry: &Field<'_>, bays: Bays<'_>) -> Option<Ve
             reader.missing(
                 &view,
                 "EA",
-                "add EA = \"300 MN\", the modulus of the brace times its area; or stiffness = \"45 MN/m\"",
+                "add EA = \"300 MN\", the modulus of the brace times its area; or a profile; or stiffness = \"45 MN/m\"",
             );
             return None;
         }
@@ -111,16 +129,23 @@ fn read(reader: &mut Reader<'_>, entry: &Field<'_>, bays: Bays<'_>) -> Option<Ve
         stiffness_of,
     )?;
     if let Some(field) = reader.get(&view, "hinge") {
+        const SECTIONS: &[Section] = &[Section::LinkHinge, Section::Buckling];
+        let own = reader.open(&field, SECTIONS)?;
+        let buckles = buckling::asked(reader, &own)?;
         for brace in &mut braces {
             // A fault of one is that of all.
-            let (sections, initial) = (&[Section::LinkHinge], Some(brace.stiffness));
-            brace.hysteresis = Some(read_spring(
-                reader,
-                &field,
-                sections,
-                initial,
-                Dimension::Force,
-            )?);
+            let stiffness = brace.stiffness;
+            brace.hysteresis = Some(if buckles {
+                let bay = bays.widths[brace.place.bay - 1];
+                let strut = Strut {
+                    stiffness,
+                    length: libm::hypot(bay, bays.heights[brace.place.storey - 1]),
+                    profile,
+                };
+                buckling::read(reader, &field, &own, strut)?
+            } else {
+                read_spring(reader, &field, SECTIONS, Some(stiffness), Dimension::Force)?
+            });
         }
     }
     Some(braces)

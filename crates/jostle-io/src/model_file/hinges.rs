@@ -35,6 +35,11 @@ pub(super) fn read_rule_at(
     key: &'static str,
 ) -> Option<HysteresisRule> {
     let name = match reader.get(view, key) {
+        Some(field) if field.as_text() == Some("buckling") => {
+            *reader.bad(&field, "is a rule of braces alone") =
+                Some(format!("set {key} to one of {}", RULES.join(", ")));
+            None
+        }
         Some(field) => reader.choice(&field, RULES, &[]),
         None => {
             reader.missing(view, key, format!("add {key} = \"peak-oriented\""));
@@ -647,6 +652,7 @@ fn corners_of(rule: HysteresisRule, numbers: [Option<f64>; 4]) -> Option<Corners
         | HysteresisRule::Stop { .. }
         | HysteresisRule::Ground
         | HysteresisRule::Failing(_)
+        | HysteresisRule::Buckling(_)
         | HysteresisRule::Concrete(_)
         | HysteresisRule::Pendulums(_)
         | HysteresisRule::InPlan { .. } => Corners {

@@ -16,13 +16,44 @@ pub(super) fn read(
     field: &Field<'_>,
     material: Material,
 ) -> Option<Section> {
-    let axis = match reader.get(view, "axis") {
+    let axis = axis_of(reader, view)?.unwrap_or(Axis::Strong);
+    let own = named_or_sized(reader, field)?;
+    let modulus = material
+        .modulus
+        .filter(|_| material.modulus_is_stated)
+        .unwrap_or(STEEL_MODULUS);
+    let shears = material.shears;
+    Some(Section {
+        flexural_rigidity: modulus * own.inertia(axis),
+        axial_rigidity: Some(modulus * own.area()),
+        shear_rigidity: shears
+            .then(|| own.shear_area(axis) * modulus / (2.0 * (1.0 + STEEL_POISSON))),
+        line_mass: STEEL_DENSITY * own.area(),
+    })
+}
+
+/// The profile of a brace, and the axis about which it buckles.
+pub(super) fn of_brace(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    field: &Field<'_>,
+) -> Option<(Profile, Axis)> {
+    let axis = axis_of(reader, view)?.unwrap_or(Axis::Weak);
+    Some((named_or_sized(reader, field)?, axis))
+}
+
+/// The axis, if one is given; `None` after a fault.
+fn axis_of(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Option<Axis>> {
+    Some(match reader.get(view, "axis") {
         Some(field) => match reader.choice(&field, AXES, &[])? {
-            "weak" => Axis::Weak,
-            _ => Axis::Strong,
+            "weak" => Some(Axis::Weak),
+            _ => Some(Axis::Strong),
         },
-        None => Axis::Strong,
-    };
+        None => None,
+    })
+}
+
+fn named_or_sized(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Profile> {
     let own = if let Some(name) = field.as_text() {
         let Some(own) = Profile::named(name) else {
             let plain = name.to_uppercase().replace(' ', "");
@@ -64,18 +95,7 @@ pub(super) fn read(
         }
         own
     };
-    let modulus = material
-        .modulus
-        .filter(|_| material.modulus_is_stated)
-        .unwrap_or(STEEL_MODULUS);
-    let shears = material.shears;
-    Some(Section {
-        flexural_rigidity: modulus * own.inertia(axis),
-        axial_rigidity: Some(modulus * own.area()),
-        shear_rigidity: shears
-            .then(|| own.shear_area(axis) * modulus / (2.0 * (1.0 + STEEL_POISSON))),
-        line_mass: STEEL_DENSITY * own.area(),
-    })
+    Some(own)
 }
 
 /// ν of steel (EN 1993-1-1, 3.2.6) \[–\].

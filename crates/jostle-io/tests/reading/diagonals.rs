@@ -45,6 +45,38 @@ fn a_table_stands_for_the_bays_and_storeys_that_it_names() {
     }));
 }
 
+/// A profile, its steel and a curve give all of a brace that buckles; the numbers themselves give the same.
+#[test]
+fn a_profile_buckles_by_its_length() {
+    // HEB160 as catalogues print it: A = 54.25 cm², Iz = 889.2 cm⁴, Wpl,z = 170.0 cm³; diagonals of 5 m.
+    let (area, inertia, plastic) = (54.25e-4, 889.2e-8, 170.0e-6);
+    let own = diagonals(
+        "[[building.brace]]\nprofile = \"HEB160\"\nbay = 1\nhinge = { rule = \"buckling\", curve = \"c\", yield_strength = \"275 MPa\", effective_length = 0.9, later = 0.6, post_yield = 0.01 }\n",
+    );
+    let law = own[0].hysteresis.expect("it buckles");
+    let stiffness = 210e9 * area / 5.0;
+    assert!((own[0].stiffness / stiffness - 1.0).abs() < 2e-3);
+    let yields = area * 275e6;
+    assert!((law.backbone().yield_force() / yields - 1.0).abs() < 2e-3);
+    let euler = std::f64::consts::PI.powi(2) * 210e9 * inertia / (0.9_f64 * 5.0).powi(2);
+    let slenderness = (yields / euler).sqrt();
+    let half = 0.5 * (1.0 + 0.49 * (slenderness - 0.2) + yields / euler);
+    let buckles = yields / (half + (half * half - yields / euler).sqrt());
+    let found = law.backbone().side(Side::Negative).yielding.force;
+    assert!((found / buckles - 1.0).abs() < 2e-3, "{found} {buckles}");
+    let arm = law.backbone().yield_force().recip() * 275e6 * plastic;
+    let by_numbers = diagonals(&format!(
+        "[[building.brace]]\nEA = {}\nbay = 1\nhinge = {{ rule = \"buckling\", buckling = {found}, yield = {}, slenderness = {slenderness}, lever_arm = {arm}, effective_length = 0.9, later = 0.6, post_yield = 0.01 }}\n",
+        own[0].stiffness * 5.0,
+        law.backbone().yield_force(),
+    ));
+    let other = by_numbers[0].hysteresis.expect("it buckles");
+    for shortened in [0.004, 0.01, 0.03, 0.08] {
+        let [a, b] = [law, other].map(|law| law.respond(&Default::default(), -shortened).force);
+        assert!((a / b - 1.0).abs() < 3e-3, "{a} {b}");
+    }
+}
+
 /// A panel is two struts of E w t / d that bear compression alone.
 #[test]
 fn a_panel_is_two_struts_without_tension() {
@@ -91,6 +123,38 @@ fn mistakes_are_explained() {
         (
             "[[building.brace]]\nEA = \"1 GN\"\ndirection = \"left\"\n",
             "available: up, down, both",
+        ),
+        (
+            "[[building.brace]]\nprofile = \"HEB160\"\nhinge = { rule = \"buckling\", yield_strength = \"275 MPa\" }\n",
+            "add curve = \"c\"",
+        ),
+        (
+            "[[building.brace]]\nEA = \"1 GN\"\nhinge = { rule = \"buckling\", curve = \"c\", yield_strength = \"275 MPa\" }\n",
+            "has no meaning without a profile",
+        ),
+        (
+            "[[building.brace]]\nEA = \"1 GN\"\nhinge = { rule = \"buckling\", curve = \"c\", yield = \"1 MN\", slenderness = 1.2 }\n",
+            "add lever_arm",
+        ),
+        (
+            "[[building.brace]]\nEA = \"1 GN\"\nhinge = { rule = \"buckling\", buckling = \"800 kN\", yield = \"1 MN\", slenderness = 1.2, lever_arm = \"5 cm\" }\n",
+            "at most Euler's force",
+        ),
+        (
+            "[[building.brace]]\nEA = \"1 GN\"\nhinge = { rule = \"buckling\", buckling = \"400 kN\", curve = \"c\", yield = \"1 MN\", slenderness = 1.2, lever_arm = \"5 cm\" }\n",
+            "and buckling are both given",
+        ),
+        (
+            "[[building.brace]]\nEA = \"1 GN\"\nhinge = { rule = \"bilinear\", curve = \"c\", yield = \"1 MN\", post_yield = 0.1 }\n",
+            "has no meaning with the rule bilinear",
+        ),
+        (
+            "[[building.brace]]\nEA = \"1 GN\"\naxis = \"weak\"\n",
+            "has no meaning without a profile",
+        ),
+        (
+            "[[building.damper]]\nfloors = [0, 1]\nlaw = \"yielding\"\nstiffness = \"80 MN/m\"\nhinge = { rule = \"buckling\", yield = \"1 MN\" }\n",
+            "is a rule of braces alone",
         ),
         (
             "brace = \"X\"\n",

@@ -150,30 +150,43 @@ pub(super) fn diagonals(frame: &Frame) -> String {
             text += &format!(", {}", counted(count, noun));
         }
     }
-    let panel = |own: &&jostle::Diagonal| own.place.kind == DiagonalKind::Infill;
-    let cracking = frame.diagonals.iter().filter(panel);
-    let laws: Vec<_> = cracking
-        .filter_map(|own| own.hysteresis)
+    let laws = |kind| {
+        let all = frame.diagonals.iter();
+        let laws = all.filter(move |own| own.place.kind == kind);
+        laws.filter_map(|own| own.hysteresis)
+    };
+    let between = |laws: &[Hysteresis], value: &dyn Fn(&Hysteresis) -> f64| {
+        let values = laws.iter().map(value);
+        let [least, most] = values.fold([f64::INFINITY, 0.0], |[least, most], own| {
+            [f64::min(least, own), f64::max(most, own)]
+        });
+        if most - least < 5e-3 * most {
+            format!("{most:.0}")
+        } else {
+            format!("{least:.0} to {most:.0}")
+        }
+    };
+    let pressed = |own: &Hysteresis| *own.backbone().side(Side::Negative);
+    let buckling: Vec<_> = laws(DiagonalKind::Brace)
+        .filter(|own| matches!(own.rule(), HysteresisRule::Buckling(_)))
+        .collect();
+    if !buckling.is_empty() {
+        text += &format!(
+            " ({} that buckle at {} kN and yield at {} kN)",
+            counted(buckling.len(), "brace"),
+            between(&buckling, &|own| 1e-3 * pressed(own).yielding.force),
+            between(&buckling, &|own| 1e-3 * own.backbone().yield_force()),
+        );
+    }
+    let cracking: Vec<_> = laws(DiagonalKind::Infill)
         .filter(|own| matches!(own.rule(), HysteresisRule::Pinched(_)))
         .collect();
-    if !laws.is_empty() {
-        let between = |value: &dyn Fn(&Hysteresis) -> f64| {
-            let values = laws.iter().map(value);
-            let [least, most] = values.fold([f64::INFINITY, 0.0], |[least, most], own| {
-                [f64::min(least, own), f64::max(most, own)]
-            });
-            if most - least < 5e-3 * most {
-                format!("{most:.0}")
-            } else {
-                format!("{least:.0} to {most:.0}")
-            }
-        };
-        let curve = |own: &Hysteresis| *own.backbone().side(Side::Negative);
+    if !cracking.is_empty() {
         text += &format!(
             " (struts of {} MN/m that crack at {} kN and bear {} kN)",
-            between(&|own| 1e-6 * own.backbone().initial()),
-            between(&|own| 1e-3 * curve(own).cracking.force),
-            between(&|own| 1e-3 * curve(own).yielding.force),
+            between(&cracking, &|own| 1e-6 * own.backbone().initial()),
+            between(&cracking, &|own| 1e-3 * pressed(own).cracking.force),
+            between(&cracking, &|own| 1e-3 * pressed(own).yielding.force),
         );
     }
     text

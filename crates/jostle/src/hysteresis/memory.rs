@@ -12,9 +12,11 @@ pub struct HysteresisMemory {
     pub(super) force: f64,
     /// Greatest deformation so far of either side, as magnitudes.
     pub(super) extremes: [f64; 2],
-    /// Deformation of either side at which the backbone is reached again, as magnitudes; 0 before cracking.
+    /// Deformation of either side at which the backbone is reached again, as magnitudes; 0 before cracking. Of a brace: 1 once it was
+    /// straightened, and its greatest kink.
     pub(super) peaks: [f64; 2],
     /// Deformation at which each slider of the parallel model has no force; how far each stage in series has slid.
+    /// Of a brace: plastic elongation, kink by its place on the polygon, and the plastic elongation where its chord starts.
     pub(super) offsets: [f64; 3],
     /// Start of the last unloading.
     pub(super) turn: Corner,
@@ -25,7 +27,7 @@ pub struct HysteresisMemory {
     /// Start of the present line of a pinched spring, and the work done until there.
     pub(super) line: Corner,
     pub(super) worked: f64,
-    /// Strength of a spring that fails, once lowered; 0 before \[N\].
+    /// Strength of a spring that fails, once lowered, or of a brace in tension, once hardened; 0 before \[N\].
     pub(super) strength: f64,
     /// Slope of the last unloading.
     pub(super) unloading: f64,
@@ -108,4 +110,6 @@ pub enum Stage {
     Cracked,
     /// Beyond the yield deformation.
     Yielded,
+    /// A brace that has buckled, whether it has yielded in tension or not.
+    Buckled,
 }

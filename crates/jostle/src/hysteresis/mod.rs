@@ -23,6 +23,7 @@
 //! ```
 
 mod backbone;
+mod buckling;
 mod circular;
 mod compression;
 mod concrete;
@@ -37,6 +38,7 @@ mod rule;
 mod sliders;
 
 pub use backbone::{Backbone, BackboneSide, Corner, Corners, Quantity, Side, SpringFault};
+pub use buckling::{Buckling, BucklingBrace};
 pub use circular::{CircularLaw, ForceRow};
 pub use concrete::ConcreteFall;
 pub use failing::FallingBranch;

@@ -1,6 +1,7 @@
 //! A rule on a backbone: the restoring force as a pure function of memory and deformation.
 
 use super::backbone::{Backbone, Corner, Corners, Quantity, Side, SpringFault};
+use super::buckling::{self, Buckling};
 use super::circular::{CircularLaw, ForceRow};
 use super::concrete::{self, ConcreteFall};
 use super::failing::{self, FallingBranch};
@@ -58,6 +59,8 @@ pub enum HysteresisRule {
     /// Elastic to the yield force, then falling to a residual force: columns that fail in shear;
     /// [`Hysteresis::failing`] makes it.
     Failing(FallingBranch),
+    /// A brace that buckles in compression, straightens and yields in tension; [`Hysteresis::buckling`] makes it.
+    Buckling(Buckling),
     /// Concrete that bears compression alone, crushes, and unloads towards a strain that stays; [`Hysteresis::concrete`] makes it.
     Concrete(ConcreteFall),
     /// Sliding surfaces in series: double and triple friction pendulums; [`Hysteresis::pendulums`] makes them.
@@ -111,6 +114,7 @@ impl HysteresisRule {
             | Self::Pinched(_)
             | Self::Ground
             | Self::Failing(_)
+            | Self::Buckling(_)
             | Self::Concrete(_)
             | Self::Pendulums(_)
             | Self::InPlan { .. } => false,
@@ -132,6 +136,7 @@ impl HysteresisRule {
             Self::Pinched(_) => "pinched",
             Self::Ground => "ground",
             Self::Failing(_) => "failing",
+            Self::Buckling(_) => "buckling",
             Self::Concrete(_) => "concrete",
             Self::Pendulums(_) => "pendulums",
             Self::InPlan { law, .. } => match law {
@@ -392,6 +397,7 @@ impl Hysteresis {
             | HysteresisRule::Pinched(_)
             | HysteresisRule::Ground
             | HysteresisRule::Failing(_)
+            | HysteresisRule::Buckling(_)
             | HysteresisRule::Concrete(_)
             | HysteresisRule::Pendulums(_)
             | HysteresisRule::InPlan { .. }
@@ -488,6 +494,9 @@ impl Hysteresis {
             HysteresisRule::Failing(falling) => {
                 failing::respond(&self.backbone, &falling, memory, deformation)
             }
+            HysteresisRule::Buckling(law) => {
+                buckling::respond(&self.backbone, &law, memory, deformation)
+            }
             HysteresisRule::Concrete(fall) => {
                 concrete::respond(&self.backbone, &fall, memory, deformation)
             }
@@ -561,6 +570,7 @@ impl Hysteresis {
             | HysteresisRule::Pinched(_)
             | HysteresisRule::Ground
             | HysteresisRule::Failing(_)
+            | HysteresisRule::Buckling(_)
             | HysteresisRule::Concrete(_)
             | HysteresisRule::Pendulums(_)
             | HysteresisRule::InPlan { .. } => {
@@ -596,7 +606,8 @@ impl Hysteresis {
             | HysteresisRule::Pinched(_)
             | HysteresisRule::Ground
             | HysteresisRule::Pendulums(_)
-            | HysteresisRule::Failing(_) => *memory = self.respond(memory, deformation).memory,
+            | HysteresisRule::Failing(_)
+            | HysteresisRule::Buckling(_) => *memory = self.respond(memory, deformation).memory,
         }
     }
 
@@ -643,6 +654,9 @@ impl Hysteresis {
             | HysteresisRule::Stop { .. } => self.backbone.initial(),
             HysteresisRule::Pinched(pinching) => {
                 pinched::unloading_stiffness(&self.backbone, &pinching, memory)
+            }
+            HysteresisRule::Buckling(law) => {
+                buckling::unloading_stiffness(&self.backbone, &law, memory)
             }
             HysteresisRule::Concrete(fall) => {
                 concrete::unloading_stiffness(&self.backbone, &fall, memory)
@@ -707,6 +721,9 @@ impl Hysteresis {
             HysteresisRule::Failing(falling) => {
                 failing::next_corner(&self.backbone, &falling, memory, towards)
             }
+            HysteresisRule::Buckling(law) => {
+                buckling::next_corner(&self.backbone, &law, memory, towards)
+            }
             HysteresisRule::Concrete(fall) => {
                 concrete::next_corner(&self.backbone, &fall, memory, towards)
             }
@@ -733,6 +750,11 @@ impl Hysteresis {
             } else {
                 Stage::Yielded
             };
+        }
+        if let HysteresisRule::Buckling(_) = self.rule
+            && self.has_buckled(memory)
+        {
+            return Stage::Buckled;
         }
         if matches!(
             self.rule,

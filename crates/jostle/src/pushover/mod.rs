@@ -175,7 +175,8 @@ pub struct Pushover {
 }
 
 impl Pushover {
-    /// First point at which a spring cracks or yields; a spring without cracking point cracks when it yields. The
+    /// First point at which a spring cracks or yields; a spring without cracking point cracks when it yields, and a brace
+    /// that buckles yields. The
     /// initial point if gravity alone causes it.
     #[must_use]
     pub fn first(&self, stage: Stage) -> Option<&PushPoint> {
@@ -185,7 +186,7 @@ impl Pushover {
                 Stage::Cracked => {
                     matches!(event.kind, PushEventKind::Cracks | PushEventKind::Yields)
                 }
-                Stage::Yielded => event.kind == PushEventKind::Yields,
+                Stage::Yielded | Stage::Buckled => event.kind == PushEventKind::Yields,
             })
         })
     }

@@ -3,7 +3,7 @@
 use super::summarise::springs_of;
 use super::summary::{PartSummary, SpringSummary};
 use crate::history::{Kind, Owner};
-use crate::hysteresis::HysteresisRule;
+use crate::hysteresis::{HysteresisRule, Stage};
 use crate::stepping::Outcome;
 use crate::structure::{
     CouplingForce, DiagonalForce, FrameDiagonal, MemberEnd, MemberPlace, SpringPlace, WallForce,
@@ -30,6 +30,15 @@ pub(super) fn parts_of(
         let place = SpringPlace::of_diagonal(own);
         let mut places = building.discretization.spring_places.iter();
         let spring = places.position(|known| *known == place);
+        let buckled_s = spring.and_then(|spring| {
+            let global = building.spring_offset + spring;
+            let law = &building.equations.springs[spring].hysteresis;
+            let mut events = outcome.spring_events.iter();
+            let event =
+                events.find(|event| event.spring == global && event.stage == Stage::Buckled);
+            law.has_buckled(&outcome.state.springs[global])
+                .then(|| event.map_or(0.0, |event| event.time))
+        });
         let (deformed, dissipated_j) = match spring {
             Some(spring) => {
                 let own = &springs[spring];
@@ -49,6 +58,7 @@ pub(super) fn parts_of(
             deformation_max: deformed[0].max(0.0),
             deformation_min: deformed[1].max(0.0),
             dissipated_j,
+            buckled_s,
             ..PartSummary::default()
         }
     };

@@ -38,6 +38,9 @@ pub struct PartSummary {
     pub rotation_min_rad: Option<f64>,
     /// Energy dissipated \[J\].
     pub dissipated_j: f64,
+    /// When a brace first buckled; 0 if weight alone causes it. Absent in those that do not buckle, and in other parts \[s\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub buckled_s: Option<f64>,
     /// Of a footing: share of the run in which a contact spring bears nothing, the greatest of all springs, 0…1 \[–\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lifted_share: Option<f64>,
@@ -62,6 +65,7 @@ impl PartSummary {
         Quantity::<Self>::optional("rotation_max_rad", Unit::RAD, "greatest rotation of the hinge of a wall, or of the chord of a coupling beam", |p| p.rotation_max_rad),
         Quantity::<Self>::optional("rotation_min_rad", Unit::RAD, "the same in the other sense, as a magnitude", |p| p.rotation_min_rad),
         Quantity::<Self>::real("dissipated_j", Unit::J, "energy dissipated", |p| p.dissipated_j),
+        Quantity::<Self>::optional("buckled_s", Unit::S, "when a brace first buckled; absent if it does not", |p| p.buckled_s),
         Quantity::<Self>::optional("lifted_share", Unit::NONE, "of a footing: share of the run in which a contact spring bears nothing, the greatest of all", |p| p.lifted_share),
         Quantity::<Self>::optional("pressure_max_pa", Unit::PA, "of a foundation: greatest force of a contact spring over the area of its strip", |p| p.pressure_max_pa),
         Quantity::<Self>::optional("settlement_m", Unit::M, "of a footing: settlement of the ground at the end of the run, the greatest of all contact springs", |p| p.settlement_m),

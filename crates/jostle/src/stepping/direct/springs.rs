@@ -8,7 +8,7 @@
 
 use super::{Direct, plan_forces};
 use crate::history::SpringEvent;
-use crate::hysteresis::{HysteresisMemory, Rates, Stage};
+use crate::hysteresis::{HysteresisMemory, HysteresisRule, Rates, Stage};
 use crate::linear::NotPositive;
 use crate::state::State;
 use crate::stepping::outcome::StepError;
@@ -415,7 +415,12 @@ impl Direct {
             self.yielding.tangents[index] = trial.next_tangent;
             let known = &mut self.yielding.stages[index];
             let stage = match known {
-                Stage::Yielded => Stage::Yielded,
+                // Only braces go further.
+                Stage::Yielded
+                    if !matches!(spring.hysteresis.rule(), HysteresisRule::Buckling(_)) =>
+                {
+                    Stage::Yielded
+                }
                 _ => spring.hysteresis.stage(memory),
             };
             if stage > *known {

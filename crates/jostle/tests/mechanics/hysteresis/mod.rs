@@ -1,5 +1,6 @@
 //! Hysteresis rules: against published paths and another program, and what every rule must keep.
 
+mod buckling;
 mod lowered_strength;
 mod oscillator;
 mod properties;
