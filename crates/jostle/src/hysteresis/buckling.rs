@@ -1,4 +1,4 @@
-//! Braces that buckle: a strut with a plastic hinge in the middle (Nonaka, 1973; Ikeda and Mahin, 1986).
+//! Braces that buckle: a strut with a plastic hinge in the middle, the idea of physical theory models (Ikeda and Mahin, 1984).
 //!
 //! Once buckled, the strut of length *L* is two straight halves with a kink between them. Its hinge bears the moment
 //! *M* = *Mp* (1 − *n²*), *n* = *N*/*Ny*. In units of *a* = *Mp*/*Ny*, the kink alone bows the middle by *x*, the force bends the
