@@ -430,7 +430,7 @@ fn multiply(node: &mut Node, factor: f64) -> Result<(), String> {
     let product = match &mut node.value {
         Value::Integer(value) => Value::Number(*value as f64 * factor),
         Value::Number(value) => Value::Number(*value * factor),
-        Value::Text(text) => match crate::quantity::split_number(text) {
+        Value::Text(text) => match split_number(text) {
             Some((number, unit)) => Value::Text(quantity_text(number * factor, unit)),
             None => {
                 return Err(format!(
