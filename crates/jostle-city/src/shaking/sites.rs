@@ -107,7 +107,11 @@ pub(super) fn spread(blocks: &[Block], of_block: &[usize], place_of: &mut [u32])
     }
 }
 
-/// Rows of a table of text by the names of columns; `names` are spellings of each column that is needed.
+/// Takes a row: its line, the fields of the named columns, and all of it.
+pub(super) type Take<'t, const N: usize> =
+    dyn FnMut(usize, [&str; N], &csv::StringRecord) -> Result<(), CityError> + 't;
+
+/// Rows of a table of text by the names of columns; `names` are spellings of each column that is needed, `more` sees all names.
 ///
 /// # Errors
 /// When the file cannot be read or lacks a column.
@@ -115,7 +119,7 @@ pub(super) fn rows<const N: usize>(
     path: &Path,
     names: [&[&str]; N],
     more: &mut dyn FnMut(&[String]) -> Result<(), CityError>,
-    take: &mut dyn FnMut(usize, [&str; N], &csv::StringRecord) -> Result<(), CityError>,
+    take: &mut Take<'_, N>,
 ) -> Result<(), CityError> {
     let file = jostle_io::open_file(path).map_err(|error| CityError::of(path, error))?;
     let mut table = csv::ReaderBuilder::new()

@@ -34,15 +34,15 @@ width = "WIDTH"
 fn json(folder: &Path, arguments: &[&str]) -> Value {
     let output = jostle(folder, arguments);
     assert!(output.status.success(), "{}", complained(&output));
-    serde_json::from_str(&printed(&output)).unwrap()
+    serde_json::from_str(&printed(&output)).expect("JSON")
 }
 
 fn write(folder: &Path, name: &str, width: &str) {
-    std::fs::write(folder.join(name), PAIR.replace("WIDTH", width)).unwrap();
+    std::fs::write(folder.join(name), PAIR.replace("WIDTH", width)).expect("written");
 }
 
 fn of<'s>(summary: &'s Value, of: &str, by: &str) -> &'s Value {
-    let all = summary["gradients"].as_array().unwrap();
+    let all = summary["gradients"].as_array().expect("gradients");
     let found = all.iter().find(|own| own["of"] == of && own["by"] == by);
     found.unwrap_or_else(|| panic!("no gradient of {of} by {by}"))
 }
@@ -69,7 +69,7 @@ fn peaks_of_elastic_buildings_grow_with_the_motion_as_it_does() {
         "buildings[0].floors[0].displacement_max_m",
     ] {
         let own = of(&summary, path, "motion.pga");
-        let number = |key: &str| own[key].as_f64().unwrap();
+        let number = |key: &str| own[key].as_f64().expect("a number");
         assert!((number("at") - 0.2 * 9.806_65).abs() < 1e-9, "{own}");
         let elasticity = number("value") * number("at") / number("peak");
         assert!((elasticity - 1.0).abs() < 1e-6, "{path}: {elasticity}");
@@ -104,12 +104,12 @@ fn the_derivative_of_a_force_is_that_of_runs_beside_it() {
     // Five points of separate runs at another step; the stiffness by its factor in the text.
     let text = PAIR.replace("WIDTH", "10 mm") + "[analysis]\ntolerance = 1e-6\n";
     let peak = |text: String| {
-        std::fs::write(folder.path().join("other.toml"), text).unwrap();
+        std::fs::write(folder.path().join("other.toml"), text).expect("written");
         let found = json(
             folder.path(),
             &["run", "other.toml", "--json", "--no-report"],
         );
-        found["gaps"][0]["peak_force_n"].as_f64().unwrap()
+        found["gaps"][0]["peak_force_n"].as_f64().expect("a number")
     };
     let step = 4e-3;
     let slope = |of: &dyn Fn(f64) -> f64| {
@@ -124,17 +124,17 @@ fn the_derivative_of_a_force_is_that_of_runs_beside_it() {
         ("building[0].stiffness", 20e6, by_stiffness),
     ] {
         let own = of(&summary, "gaps[0].peak_force_n", path);
-        let value = own["value"].as_f64().unwrap() * at;
+        let value = own["value"].as_f64().expect("a number") * at;
         assert!(
             (value - wanted).abs() <= 2e-3 * wanted.abs(),
             "{path}: {value} {wanted}"
         );
         // The line holds where it is said to hold.
-        let reach = own["valid_within"].as_f64().unwrap() / at;
+        let reach = own["valid_within"].as_f64().expect("a number") / at;
         assert!(reach > 0.0, "{own}");
     }
     let own = of(&summary, "gaps[0].peak_force_n", "gap[0].width");
-    let number = |key: &str| own[key].as_f64().unwrap();
+    let number = |key: &str| own[key].as_f64().expect("a number");
     let change = number("valid_within");
     let there = peak(text.replace("10 mm", &format!("{} mm", 1e3 * (0.01 + change))));
     let straight = number("peak") + number("value") * change;
