@@ -145,6 +145,7 @@ fn summary() -> Summary {
         promise: Default::default(),
         work: WorkSummary::default(),
         contact_sensitivity: None,
+        gradients: Vec::new(),
         isolation_bounds: None,
         floor_spectra: None,
         checks: Vec::new(),
