@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use jostle_io::{
     BearingSpec, MotionSource, MotionSpec, RecordFormat, RecordOptions, Scaling, parse_info,
+    read_file,
 };
 use sha2::{Digest, Sha256};
 
@@ -14,6 +15,9 @@ use super::{Shaking, Source, Strength};
 use crate::blocks::Block;
 use crate::fault::CityError;
 use crate::inventory::Inventory;
+
+/// Largest record \[bytes\].
+const LARGEST: usize = 256 << 20;
 
 pub(super) fn read(
     path: &Path,
@@ -148,7 +152,7 @@ fn record_path(listed: &Path, name: &str) -> PathBuf {
 }
 
 fn has_component(record: &Path, component: &str) -> Result<bool, CityError> {
-    let bytes = std::fs::read(record).map_err(|error| CityError::of(record, error))?;
+    let bytes = read_file(record, LARGEST).map_err(|error| CityError::of(record, error))?;
     let options = RecordOptions {
         format: Some(RecordFormat::SimCenter),
         component: Some("1".to_owned()),
@@ -193,7 +197,7 @@ fn spec(record: &Path, unit: &str, across: bool) -> MotionSpec {
 pub(super) fn hash(spec: &MotionSpec, hash: &mut Sha256) -> Result<(), CityError> {
     if let MotionSource::Record { name, options, .. } = &spec.source {
         let path = Path::new(name);
-        let bytes = std::fs::read(path).map_err(|error| CityError::of(path, error))?;
+        let bytes = read_file(path, LARGEST).map_err(|error| CityError::of(path, error))?;
         hash.update(bytes);
         hash.update(format!("{options:?}"));
     }

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use jostle::statics::STANDARD_GRAVITY;
+use jostle_io::read_text_file;
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::{Reader, XmlVersion};
 
@@ -13,7 +14,7 @@ use crate::fault::CityError;
 use crate::inventory::Inventory;
 
 /// Largest file \[bytes\].
-const LARGEST: u64 = 1 << 30;
+const LARGEST: usize = 1 << 30;
 
 /// A column of the grid: its index from 0, its period \[s\] and the size of its unit \[m/s²\].
 #[derive(Clone, Debug, PartialEq)]
@@ -47,11 +48,7 @@ pub(super) fn read(
     place_of: &mut [u32],
 ) -> Result<Intensities, CityError> {
     let fault = |problem: String| CityError::of(path, problem);
-    let size = std::fs::metadata(path).map_err(|error| CityError::of(path, error))?;
-    if size.len() > LARGEST {
-        return Err(fault("is larger than 1 GiB".to_owned()));
-    }
-    let text = std::fs::read_to_string(path).map_err(|error| CityError::of(path, error))?;
+    let text = read_text_file(path, LARGEST).map_err(|error| CityError::of(path, error))?;
     let grid = Grid::parse(&text).map_err(fault)?;
     let (mut outside, mut first) = (0, None);
     let mut places = Vec::with_capacity(blocks.len());

@@ -269,21 +269,22 @@ fn range(file: &ClassesFile, results: &ClassesResults) -> [f64; 2] {
     })
 }
 
-/// Name of a pair and gap, such as `C1L-low-2_URML-pre-2_end_floors_10mm`: OpenQuake takes letters, digits, `_`, `-` and
-/// `:`, at most 75 of them.
+/// Name of a pair and gap, such as `C1L_low_2_URML_pre_2_end_floors_10mm`: OpenQuake takes letters, digits, `_`, `-` and
+/// `:`, at most 75 of them, and Pelicun takes names apart at `-`.
 fn group_name(results: &ClassesResults, own: &Fragility) -> String {
     let pair = &results.pairs[own.pair];
     let gap = own.gap.map_or_else(
         || "alone".to_owned(),
         |gap| format!("{}mm", shown(1e3 * gap).replace('.', "_")),
     );
-    format!(
+    let name = format!(
         "{}_{}_{}_{}_{gap}",
         pair.own.name(),
         pair.neighbour.name(),
         position(pair.middle),
         alignment(pair.half_up)
-    )
+    );
+    name.replace('-', "_")
 }
 
 /// A number without noise of the last digits.
@@ -348,7 +349,7 @@ fn escaped(text: &str) -> String {
         .replace('>', "&gt;")
 }
 
-/// Fragilities in the columns of Pelicun 3, in g.
+/// Fragilities in the columns of Pelicun 3, in g. They are directional: without a direction Pelicun takes 1.2 times the demand.
 fn pelicun(file: &ClassesFile, results: &ClassesResults, groups: &[Group<'_>]) -> String {
     let mut text =
         "ID,Incomplete,Demand-Type,Demand-Unit,Demand-Offset,Demand-Directional".to_owned();
@@ -373,7 +374,7 @@ fn pelicun(file: &ClassesFile, results: &ClassesResults, groups: &[Group<'_>]) -
         };
         let _ = write!(
             text,
-            "{},0,{demand},g,0,0",
+            "{},0,{demand},g,0,1",
             csv_field(&group_name(results, first))
         );
         for (_, fit) in group {
