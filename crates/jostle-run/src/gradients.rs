@@ -130,6 +130,15 @@ impl GradientRequest {
         let each = factors.len() - 1;
         let mut all = Vec::new();
         for (number, found) in self.numbers.iter().zip(found.chunks(each)) {
+            // Beyond the steps a run may fail: the line ends there.
+            for (trial, factor) in found.iter().zip(&factors[1..]).take(2 * STEPS.len()) {
+                if let Trial::Failed(error) = trial {
+                    return Err(RunError::Analysis(format!(
+                        "--gradients {}: the model does not run with {factor} times its value: {error}",
+                        number.path
+                    )));
+                }
+            }
             for (at, (of, peak)) in base.iter().enumerate() {
                 let peaks: Vec<Option<f64>> = found.iter().map(|own| own.peak(at)).collect();
                 all.extend(gradient(number, of, *peak, &peaks));
@@ -214,7 +223,7 @@ impl Trial {
     }
 }
 
-/// The derivative of one peak; `None` where the model cannot run a little to either side.
+/// The derivative of one peak; `None` if a run of the steps lacks it.
 fn gradient(number: &Number, of: &str, peak: f64, peaks: &[Option<f64>]) -> Option<Gradient> {
     let difference = |at: usize| {
         let change = 2.0 * STEPS[at] * number.value;
