@@ -27,7 +27,6 @@ class Gradient:
         error: what the derivative may be wrong by: its difference from that of half the step.
         valid_within: greatest change of the number, to either side, up to which the peak stays within 1 % of what the derivative says, as
             far as it was tried.
-        elasticity: relative change of the peak for one of the number.
 
     Examples:
         >>> import jostle
@@ -48,6 +47,7 @@ class Gradient:
 
     @property
     def elasticity(self) -> float:
+        """Relative change of the peak for one of the number; 0 for a peak of zero."""
         return self.value * self.at / self.peak if self.peak else 0.0
 
 
