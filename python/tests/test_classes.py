@@ -128,7 +128,7 @@ def test_pelicun_computes_damage(program: Callable[..., Any], tmp_path: Path) ->
     demand = pandas.DataFrame(np.full((samples, 1), intensity), columns=columns)
     model.demand.load_sample(pandas.concat([units, demand]))
     count = len(rows)
-    parts = {"Units": ["ea"], "Location": ["0"], "Direction": ["1"], "Theta_0": [1.0], "Blocks": [1]}
+    parts: dict[str, list[Any]] = {"Units": ["ea"], "Location": ["0"], "Direction": ["1"], "Theta_0": [1.0], "Blocks": [1]}
     marginals = pandas.DataFrame({key: count * value for key, value in parts.items()}, index=list(rows))
     model.asset.load_cmp_model({"marginals": marginals})
     model.asset.generate_cmp_sample(samples)
