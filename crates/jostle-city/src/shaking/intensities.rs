@@ -82,7 +82,7 @@ pub(super) fn scaled(
     });
     if all > 0 {
         told.push(format!(
-            "every row takes {} of {} records, scaled by {:.2} to {:.2}{}",
+            "Every row takes {} of {} records, scaled by {:.2} to {:.2}{}",
             choose,
             sources.len(),
             ends[0],
