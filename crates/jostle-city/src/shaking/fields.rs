@@ -5,7 +5,7 @@ use std::path::Path;
 
 use jostle::statics::STANDARD_GRAVITY;
 
-use super::intensities::{Intensities, measure_name};
+use super::intensities::{GREATEST, Intensities, measure_name};
 use super::sites::{Nearest, degrees, number, rows};
 use crate::blocks::Block;
 use crate::fault::CityError;
@@ -88,10 +88,13 @@ pub(super) fn read(
             for (at, period) in columns.iter().zip(periods.iter()) {
                 let text = row.get(*at).unwrap_or("");
                 let value = number(path, line, &measure_name(*period), text)?;
-                if value < 0.0 {
+                if !(0.0..=GREATEST).contains(&value) {
                     return Err(CityError::of(
                         path,
-                        format!("line {line}: {} is {value}", measure_name(*period)),
+                        format!(
+                            "line {line}: {} is {value}: it must lie between 0 and {GREATEST} g",
+                            measure_name(*period)
+                        ),
                     ));
                 }
                 own.push(value * STANDARD_GRAVITY);

@@ -11,6 +11,9 @@ const DAMPING: f64 = 0.05;
 /// Records that need a greater factor, or a smaller one than its inverse, are taken last \[–\].
 const GREATEST_FACTOR: f64 = 4.0;
 
+/// No ground shakes more strongly; a greater number is a mistaken unit [g].
+pub(super) const GREATEST: f64 = 10.0;
+
 /// Intensities at places.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Intensities {

@@ -7,7 +7,7 @@ use jostle_io::read_text_file;
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::{Reader, XmlVersion};
 
-use super::intensities::{Intensities, measure_name};
+use super::intensities::{GREATEST, Intensities, measure_name};
 use super::sites::{place, spread};
 use crate::blocks::Block;
 use crate::fault::CityError;
@@ -226,10 +226,11 @@ impl Grid {
             let start = (place[1] * self.counts[0] + place[0]) * self.fields.len();
             for (value, field) in self.values[start..].iter_mut().zip(&self.fields) {
                 let own = row[field.column];
-                // Nothing is known there: no shaking would be a guess.
-                if !(own >= 0.0 && own.is_finite()) {
+                // Where nothing is known, no shaking would be a guess.
+                let of_g = own * field.unit / STANDARD_GRAVITY;
+                if !(0.0..=GREATEST).contains(&of_g) {
                     return Err(format!(
-                        "{} of point {at} is {own}",
+                        "{} of point {at} is {own}: it must lie between 0 and {GREATEST} g",
                         measure_name(field.period)
                     ));
                 }
@@ -369,6 +370,10 @@ mod tests {
                 "does not lie on",
             ),
             (map(&DATA.replace("50 1", "nan 1")), "PGA of point 4 is NaN"),
+            (
+                map(&DATA.replace("50 1", "5000 1")),
+                "PGA of point 4 is 5000: it must lie",
+            ),
             (map(DATA).replace("\"%g\"", "\"ln(g)\""), "units of PGA"),
             (
                 map(DATA).replace("nlon=\"3\"", "nlon=\"1e9\""),

@@ -185,6 +185,7 @@ fn maps_that_do_not_fit_are_refused_with_a_remedy() {
     write("sites.csv", "site_id,lon,lat\n1,-30,40\n");
     write("other.csv", "event_id,site_id,gmv_PGA\n1,2,0.1\n");
     write("pgv.csv", "event_id,site_id,gmv_PGV\n1,1,0.1\n");
+    write("strong.csv", "event_id,site_id,gmv_PGA\n1,1,30\n");
     write("word.csv", "event_id,site_id,gmv_PGA\n1,1,x\n");
     let record = "record = \"el-centro-1940-ns\"\n";
     for (motion, wanted) in [
@@ -224,6 +225,10 @@ fn maps_that_do_not_fit_are_refused_with_a_remedy() {
         (
             format!("{record}gmf = \"word.csv\"\nsites = \"sites.csv\""),
             "line 2: PGA: expected a number",
+        ),
+        (
+            format!("{record}gmf = \"strong.csv\"\nsites = \"sites.csv\""),
+            "line 2: PGA is 30: it must lie between 0 and 10 g",
         ),
         (
             format!("{record}gmf = \"other.csv\"\nsites = \"sites.csv\"\npga = \"1 g\""),
