@@ -8,12 +8,12 @@ import os
 import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 from . import _jostle
-from ._errors import AnalysisError, ModelError, ModelWarning
+from ._cluster import run_parts
+from ._errors import ModelError, ModelWarning
 from ._model import Model
 from ._progress import CountLine
 from ._units import Quantity, in_si
@@ -227,31 +227,12 @@ class City:
 
     def _run_on(self, client: Any, folder: str, observer: Observer | None) -> None:
         """Submits every missing part to the workers of a client."""
-        distributed: Any = import_module("distributed")
-        self._core.settle(folder)
-        missing = self._core.missing(folder)
-        parts = self._facts["parts"]
-        futures = [
-            client.submit(
-                _compute, self._recipe, folder, part, pure=False, retries=10, key=f"jostle-city-{part}-{id(self)}"
-            )
-            for part in missing
-        ]
-        try:
-            done = parts - len(missing)
-            for future in distributed.as_completed(futures):
-                future.result()
-                done += 1
-                if observer is not None:
-                    observer(self.cases * done / parts, float(self.cases))
-        except BaseException:
-            client.cancel(futures)
-            raise
-        left = self._core.missing(folder)
-        if left:
-            raise AnalysisError(
-                f"{len(left)} of {parts} parts did not arrive in {folder}: the workers must share this folder"
-            )
+
+        def told(done: int, parts: int) -> None:
+            if observer is not None:
+                observer(self.cases * done / parts, float(self.cases))
+
+        run_parts(client, self._core, folder, _compute, self._recipe, f"jostle-city-{id(self)}", told)
 
     def __repr__(self) -> str:
         return f"<City {self.title!r}: {self.buildings} buildings, {self.pairs} pairs>"

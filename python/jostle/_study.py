@@ -14,7 +14,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
 from . import _jostle
-from ._errors import AnalysisError, ModelError, ModelWarning, StudyWarning
+from ._cluster import run_parts
+from ._errors import ModelError, ModelWarning, StudyWarning
 from ._answers import Answers
 from ._model import Base as _Base
 from ._model import Model
@@ -208,31 +209,12 @@ class Study:
 
     def _run_on(self, client: Any, folder: str, observer: Observer | None) -> None:
         """Submits every missing part to the workers of a client."""
-        distributed: Any = import_module("distributed")
-        parts = self._core.parts
-        self._core.settle(folder)
-        missing = self._core.missing(folder)
-        # With every task: what is scattered dies with the worker that holds its last copy.
-        share = pickle.dumps(self)
-        futures = [
-            client.submit(_compute, share, folder, part, pure=False, retries=10, key=f"jostle-{part}-{id(self)}")
-            for part in missing
-        ]
-        try:
-            done = parts - len(missing)
-            for future in distributed.as_completed(futures):
-                future.result()
-                done += 1
-                if observer is not None:
-                    observer(self.cases * done / parts, float(self.cases))
-        except BaseException:
-            client.cancel(futures)
-            raise
-        left = self._core.missing(folder)
-        if left:
-            raise AnalysisError(
-                f"{len(left)} of {parts} parts did not arrive in {folder}: the workers must share this folder"
-            )
+
+        def told(done: int, parts: int) -> None:
+            if observer is not None:
+                observer(self.cases * done / parts, float(self.cases))
+
+        run_parts(client, self._core, folder, _compute, pickle.dumps(self), f"jostle-{id(self)}", told)
         # Nothing is left to compute: moves files of others aside, and makes runs of single cases that are missing.
         self._core.run(folder, 1, remark=_remark)
 

@@ -70,7 +70,7 @@ def test_a_cluster_makes_the_same_bits_though_a_worker_is_killed(tmp_path: Path)
     text = file.read_text().replace("[run]", "duration = \"1 s\"\n[run]\nsample = 0")
     file.write_text(text)
     city = jostle.City(file, draws=1000)
-    assert city._facts["parts"] > 4
+    assert city._core.parts > 4
     city.run(tmp_path / "alone")
     folder = tmp_path / "cluster"
     with (

@@ -41,4 +41,4 @@ pub use neighbours::{Neighbours, Pair, Position};
 pub use plane::Plane;
 pub use run::{City, Done, RunOptions};
 pub use sample::Sampled;
-pub use tables::{refuse_overlaps, write_tables};
+pub use tables::write_tables;

@@ -33,7 +33,7 @@ pub(crate) fn columns_of(named: &[(&'static str, String)]) -> Result<Columns, Ci
 /// # Errors
 ///
 /// When pairs that share more than a fifth of the smaller outline are more than 5 % of the buildings.
-pub fn refuse_overlaps(
+pub(crate) fn refuse_overlaps(
     path: &Path,
     inventory: &Inventory,
     found: &Neighbours,

@@ -72,13 +72,17 @@ impl City {
             "buildings": own.inventory.buildings.len(),
             "pairs": own.neighbours.pairs.len(),
             "cases": own.cases(),
-            "parts": own.parts(),
             "motions": own.motions(),
             "notes": own.told(),
             "warnings": own.file.warnings,
             "gap_is_given": own.file.gap_is_given,
         })
         .to_string()
+    }
+
+    #[getter]
+    fn parts(&self) -> usize {
+        self.0.parts()
     }
 
     /// Makes a folder ready for this city.

@@ -307,7 +307,7 @@ pub fn page(
 ) -> String {
     let mut text = format!(
         "# Accuracy and speed of batches\n\n\
-         `jostle city` and `jostle classes` step many rows of yielding shear buildings at once, eight numbers of seven digits in a register.\n\
+         `jostle city` and `jostle classes` step many rows of yielding shear buildings at once, with numbers of 32 bits.\n\
          This page holds them against the program's own stepping at 1e-4, and says how fast they are. It is written by\n\
          `cargo run --release -p jostle-validation -- --batches {pairs} {rows} --seed {seed} --page`. Every run of a city and of classes repeats a\n\
          sample of its own rows in full and says how far it is.\n\n\

@@ -17,8 +17,8 @@ pub struct Gradient {
     pub value: f64,
     /// Difference of the derivative from that of half the step: what it may be wrong by, in the same unit.
     pub error: f64,
-    /// Greatest change of the number, to either side, up to which the peak stays within 1 % of what the derivative says, as far as it
-    /// was tried; 0 if it does not even with the least, in the unit of the number in SI.
+    /// Greatest change of the number, to either side and in SI, up to which the peak stays within 1 % of the straight line. Changes
+    /// of 0.1 to 50 % are tried; 0 if the line fails at the first.
     pub valid_within: f64,
 }
 
