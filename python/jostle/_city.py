@@ -104,6 +104,19 @@ def footprints(
     return Footprints(**json.loads(found))
 
 
+def city_types() -> str:
+    """The table of structural types that a city and classes take without one of their own, as the text of a CSV.
+
+    Write it to a file, replace rows, and name the file in ``[buildings] table`` of a city file or a classes file.
+
+    Examples:
+        >>> import jostle
+        >>> [row.split(",")[0] for row in jostle.city_types().splitlines() if row.startswith("C1L,high")]
+        ['C1L']
+    """
+    return _jostle.city_types()
+
+
 def example_city(
     folder: str | os.PathLike[str], *, buildings: int = 2000, seed: int = 1, force: bool = False
 ) -> Path:

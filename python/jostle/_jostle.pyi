@@ -22,6 +22,7 @@ __all__ = [
     "Table",
     "__version__",
     "as_toml",
+    "city_types",
     "classes",
     "collide",
     "command_line",
@@ -71,6 +72,7 @@ def classes(
     observer: Callable[[float, float], object] | None = None,
 ) -> tuple[list[str], list[str]]: ...
 def command_list() -> str: ...
+def city_types() -> str: ...
 def example_city(buildings: int, seed: int) -> tuple[str, str]: ...
 def footprints(
     path: str | os.PathLike[str],

@@ -150,6 +150,7 @@ TABLE: dict[str, tuple[str, dict[str, str]] | Why] = {
         "CityResult.model",
         {"FOLDER": "CityResult.load:folder", "--pair": "pair", "--draw": "draw", "--motion": "motion"},
     ),
+    "city types": ("city_types", {}),
     "city example": (
         "example_city",
         {"FOLDER": "folder", "--buildings": "buildings", "--seed": "seed", "--force": "force"},

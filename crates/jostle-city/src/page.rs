@@ -72,7 +72,7 @@ impl City {
                     .collect(),
             )
         };
-        let classes = self.structures.iter().map(|own| own.class.name.to_owned());
+        let classes = self.structures.iter().map(|own| own.class.name.to_string());
         let levels = self
             .structures
             .iter()
@@ -145,7 +145,7 @@ impl City {
                 let comma = if corner == 0 { "" } else { "," };
                 let _ = write!(ring, "{comma}[{:.8},{:.8}]", place.x, place.y);
             }
-            let mut known = json!({ "id": own.id, "storeys": own.likely_storeys(), "class": self.structures[at].class.name });
+            let mut known = json!({ "id": own.id, "storeys": own.likely_storeys(), "class": *self.structures[at].class.name });
             if let Some(own) = &answers.buildings[at] {
                 let round = |value: f64| (value * 1e4).round() / 1e4;
                 known["p_struck"] = json!(round(own.struck[OWN]));
@@ -246,6 +246,7 @@ impl City {
         let with = means.buildings;
         let percent = |value: f64| format!("{:.1} %", 100.0 * value);
         let [half, struck, twice] = means.struck;
+        let [capacities, drifts] = self.types.sources();
         let millimetres = 1e3 * self.file.gap_median;
         let moderate = means.moderate;
         let [_, middle, high, _] = answers.drift_ratios;
@@ -400,7 +401,7 @@ impl City {
                     @if !differs.is_empty() {
                         p { "The shaking differs from place to place. " (differs.join(". ")) "." }
                     }
-                    p { "Buildings are shear buildings of their HAZUS class. Slabs in line and slabs against columns are followed; walls that fall out of their plane, "
+                    p { "Buildings are shear buildings of their class: capacities of " (capacities) ", damage drifts of " (drifts) ". Slabs in line and slabs against columns are followed; walls that fall out of their plane, "
                         "torsion and the failure of a struck column are not. Where neighbours hit, the drift with contact over that alone is " (format!("{middle:.2}"))
                         " in the median and " (format!("{high:.2}")) " in the 95 % quantile." }
                     p { "Blocks are cut into rows of at most 32 buildings in a line at their widest gaps; " (percent(answers.in_rows))

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use jostle::GroundMotion;
 use jostle_batch::{Gap, Law, Motion, Options, Peaks, Row};
-use jostle_classes::lognormal;
+use jostle_classes::{Types, lognormal};
 use jostle_io::{CityFile, write_values_parquet};
 use sha2::{Digest, Sha256};
 
@@ -42,6 +42,7 @@ pub struct City {
     pub neighbours: Neighbours,
     /// Blocks of them.
     pub blocks: Vec<Block>,
+    pub(crate) types: Types,
     pub(crate) structures: Vec<Structure>,
     pub(crate) pair_ids: Vec<u64>,
     shaking: Shaking,
@@ -88,7 +89,8 @@ impl City {
         let mut inventory = Inventory::read(&file.inventory, &options)?;
         let neighbours = Neighbours::within(&inventory.buildings, file.reach);
         tables::refuse_overlaps(&file.inventory, &inventory, &neighbours)?;
-        let (structures, assumed) = structures(&inventory, &file)?;
+        let types = Types::read(&file.types).map_err(CityError::Input)?;
+        let (structures, assumed) = structures(&inventory, &file, &types)?;
         inventory.mends.extend(assumed);
         inventory.mends.sort_by_key(|own| own.row);
         let ids: Vec<u64> = structures.iter().map(|own| own.id).collect();
@@ -105,6 +107,7 @@ impl City {
             inventory,
             neighbours,
             blocks: found,
+            types,
             structures,
             pair_ids,
             shaking,
@@ -186,6 +189,7 @@ impl City {
             "{:?}",
             (buildings, gaps, contact, file.draws, file.tolerance)
         ));
+        hash.update(self.types.content());
         let path = &self.file.inventory;
         let mut read = jostle_io::open_file(path).map_err(|error| CityError::of(path, error))?;
         std::io::copy(&mut read, &mut HashWriter(&mut hash))

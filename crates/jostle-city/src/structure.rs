@@ -1,7 +1,7 @@
 //! The structure that stands for a building of the inventory.
 
 use jostle_batch::Building as Shear;
-use jostle_classes::{Class, Level, lognormal};
+use jostle_classes::{Class, Level, Types, lognormal};
 use jostle_io::{CityFile, CityLevel};
 
 use crate::draw::number_of;
@@ -69,18 +69,30 @@ impl Structure {
 pub(crate) fn structures(
     inventory: &Inventory,
     file: &CityFile,
+    types: &Types,
 ) -> Result<(Vec<Structure>, Vec<Mend>), CityError> {
     let fault = |problem: String| CityError::of(&file.inventory, problem);
     let fixed = match &file.level {
-        CityLevel::ByYear => None,
+        CityLevel::ByYear(_) => None,
         CityLevel::Of(name) => Some(
             name.parse::<Level>()
                 .map_err(|problem| CityError::Input(format!("buildings.level: {problem}")))?,
         ),
     };
     // Also where every building has a type of its own.
-    Class::of(&file.kind, 1, Level::Moderate)
+    types
+        .of(&file.kind, 1, fixed.unwrap_or(Level::Moderate))
         .map_err(|problem| CityError::Input(format!("buildings.type: {problem}")))?;
+    let since = match &file.level {
+        CityLevel::ByYear(Some(own)) => {
+            let levels = [Level::Low, Level::Moderate, Level::High];
+            let pairs = levels.into_iter().zip(own);
+            pairs
+                .filter_map(|(level, year)| Some((level, (*year)?)))
+                .collect()
+        }
+        _ => Level::CALIFORNIA.to_vec(),
+    };
     let mut mends = Vec::new();
     let mut all = Vec::with_capacity(inventory.buildings.len());
     for own in &inventory.buildings {
@@ -99,10 +111,14 @@ pub(crate) fn structures(
                 "{MOST_STOREYS} storeys of {known}: taller ones are not stepped in batches"
             ));
         }
-        let by_year = || own.year.map_or(Level::Moderate, Level::in_year);
+        let by_year = || {
+            own.year
+                .map_or(Level::Moderate, |year| Level::in_year(year, &since))
+        };
         let level = fixed.unwrap_or_else(by_year);
         let kind = own.kind.as_deref().unwrap_or(&file.kind);
-        let class = Class::of(kind, storeys, level)
+        let class = types
+            .of(kind, storeys, level)
             .map_err(|problem| fault(format!("row {}: {problem}", own.row)))?;
         if !class.storeys.contains(&storeys) {
             assumed(format!(

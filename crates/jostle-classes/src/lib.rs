@@ -2,13 +2,18 @@
 //! file.
 
 mod class;
+mod gem;
 mod in_full;
+mod level;
 mod mdof_lu;
 mod model;
+mod types;
 mod variability;
 
-pub use class::{Class, Level};
+pub use class::Class;
 pub use in_full::{BothWays, IN_FULL, both_ways};
+pub use level::Level;
 pub use mdof_lu::{Capacity, Coefficients};
 pub use model::{at_floors, model};
+pub use types::Types;
 pub use variability::{lognormal, uniform};

@@ -7,8 +7,8 @@ use jostle_batch::{Building, Rule, Storey};
 /// Standard gravity of the formulas \[m/s²\].
 const GRAVITY: f64 = 9.8;
 
-/// Mass of a floor per plan area \[kg/m²\].
-const AREA_MASS: f64 = 1000.0;
+/// Least ratio of the accelerations at the end and at yield of a capacity curve \[–\].
+const LEAST_OVERSTRENGTH: f64 = 1.0 + 1e-6;
 
 /// Stiffness of a storey beyond its second corner over the initial one \[–\].
 const THIRD_RATIO: f64 = 0.001;
@@ -57,7 +57,9 @@ impl Capacity {
         damping: f64,
     ) -> Coefficients {
         let [dy, ay] = [self.yield_displacement, self.yield_acceleration];
-        let [du, au] = [self.ultimate_displacement, self.ultimate_acceleration];
+        // A curve that does not harden keeps a trace of it, so that its second corner stays at its end.
+        let au = self.ultimate_acceleration.max(ay * LEAST_OVERSTRENGTH);
+        let du = self.ultimate_displacement;
         Coefficients {
             period_per_storey: 2.0 * PI * (dy / (ay * 9.81)).sqrt() / typical_storeys,
             strength: ay,
@@ -71,11 +73,10 @@ impl Capacity {
 }
 
 impl Coefficients {
-    /// A building of `storeys` (1–16) of a plan area \[m²\] and a storey height \[m\].
+    /// A building of `storeys` (1–16), mass of a floor \[kg\] and height of a storey \[m\].
     #[must_use]
-    pub fn building(&self, storeys: usize, area: f64, height: f64) -> Building {
+    pub fn building(&self, storeys: usize, mass: f64, height: f64) -> Building {
         let n = storeys as f64;
-        let mass = AREA_MASS * area;
         let period = n * self.period_per_storey;
         // λ of the first mode of a chain, so that it has the period.
         let lambda = 0.4053 * n * n + 0.405 * n + 0.1869;

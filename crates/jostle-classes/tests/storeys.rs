@@ -43,7 +43,7 @@ fn storeys_equal_those_of_an_independent_program() {
             unloading_exponent: first[10],
             damping: first[11],
         };
-        let own = coefficients.building(first[0] as usize, first[1], 3.0);
+        let own = coefficients.building(first[0] as usize, 1000.0 * first[1], 3.0);
         assert_eq!(own.storeys.len(), rows.len());
         for (storey, row) in own.storeys.iter().zip(rows) {
             let force = storey.stiffness * storey.first_corner;

@@ -9,6 +9,7 @@ use jostle_city::{
     Answers, Attribute, City, CityError, Columns, EXAMPLE_FILE, Footprints, PairModel, Position,
     ReadOptions, RunOptions, example_city,
 };
+use jostle_classes::Types;
 use jostle_io::{CityFile, Dimension, parse_quantity, write_atomically};
 use jostle_live::{Engine, address, export_all};
 use jostle_run::{BOLD, FolderClaim, counted_grouped, styled};
@@ -33,6 +34,8 @@ pub(crate) enum CityCommand {
     Report(FolderArgs),
     /// Print a pair of a run as an ordinary model file
     Model(ModelArgs),
+    /// Print the table of structural types: capacity, storeys, damage drifts and hysteresis, with their sources
+    Types,
     /// Write a made-up city to try with: footprints and a city file
     Example(ExampleArgs),
 }
@@ -145,6 +148,7 @@ pub(crate) fn city(command: &CityCommand) -> Result<(), Failure> {
             let own = City::of_folder(&args.folder)?;
             terminal::print(&own.model(args.pair, args.draw, args.motion)?)
         }
+        CityCommand::Types => terminal::print(Types::text()),
         CityCommand::Example(args) => example(args),
     }
 }

@@ -11,12 +11,14 @@ use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
 use crate::source::Source;
 use crate::tree::{self, Format, Node};
+use crate::types_tables::{self, TypesTables};
 
 /// How the design level of a building is found.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum CityLevel {
-    /// From its year of construction.
-    ByYear,
+    /// From its year of construction, by the first years of the levels low, moderate and high; `None` takes those of
+    /// California.
+    ByYear(Option<[Option<i32>; 3]>),
     /// One for all, by its name.
     Of(String),
 }
@@ -40,6 +42,8 @@ pub struct CityFile {
     pub kind: String,
     /// How design levels are found.
     pub level: CityLevel,
+    /// Tables of types.
+    pub types: TypesTables,
     /// Standard deviations of the logarithms of storey stiffness, strength and damping \[–\].
     pub scatter: [f64; 3],
     /// Median of the widths of gaps \[m\].
@@ -124,13 +128,15 @@ fn read_root(
     let title = reader.get(&view, "title");
     let title = title.and_then(|field| reader.text(&field));
     let inventory = inventory(reader, &view, folder);
-    let buildings = table(reader, &view, "buildings", &[Section::CityBuildings]);
+    let buildings = table(
+        reader,
+        &view,
+        "buildings",
+        &[Section::CityBuildings, Section::TypesTable],
+    );
     let kind = text(reader, buildings.as_ref(), "type").unwrap_or_else(|| "C1".to_owned());
-    let level = match text(reader, buildings.as_ref(), "level") {
-        None => CityLevel::ByYear,
-        Some(own) if own == "year" => CityLevel::ByYear,
-        Some(own) => CityLevel::Of(own),
-    };
+    let level = level(reader, buildings.as_ref());
+    let types = types_tables::read(reader, &view, buildings.as_ref(), folder);
     let scatter = [
         ("stiffness_scatter", 0.1),
         ("strength_scatter", 0.25),
@@ -178,7 +184,8 @@ fn read_root(
         columns,
         reach,
         kind,
-        level,
+        level: level?,
+        types: types?,
         scatter: [scatter[0]?, scatter[1]?, scatter[2]?],
         gap_median: gap_median?,
         gap_scatter: gap_scatter?,
@@ -193,6 +200,36 @@ fn read_root(
         sample: sample?,
         warnings: Vec::new(),
     })
+}
+
+/// How design levels are found: a name, `"year"`, or a table of first years.
+fn level(reader: &mut Reader<'_>, buildings: Option<&View<'_>>) -> Option<CityLevel> {
+    let Some(field) = buildings.and_then(|view| reader.get(view, "level")) else {
+        return Some(CityLevel::ByYear(None));
+    };
+    if field.as_text().is_some() {
+        let name = reader.text(&field)?;
+        return Some(if name == "year" {
+            CityLevel::ByYear(None)
+        } else {
+            CityLevel::Of(name)
+        });
+    }
+    let view = reader.open(&field, &[Section::CityLevels])?;
+    let years = ["low", "moderate", "high"].map(|key| {
+        let field = reader.get(&view, key)?;
+        Some(i32::try_from(reader.count(&field)?).unwrap_or(i32::MAX))
+    });
+    let given: Vec<i32> = years.into_iter().flatten().collect();
+    if given.is_empty() || given.windows(2).any(|pair| pair[0] >= pair[1]) {
+        reader.bad(
+            &field,
+            "expected first years that rise from low to high, such as { low = 1950, moderate = 1975, high = 2000 }"
+                .to_owned(),
+        );
+        return None;
+    }
+    Some(CityLevel::ByYear(Some(years)))
 }
 
 /// Path, whether coordinates are metres, names of columns, reach.
@@ -324,7 +361,7 @@ mod tests {
             (own.gap_median, own.gap_is_given, own.draws),
             (0.025, false, 25)
         );
-        assert_eq!(own.level, CityLevel::ByYear);
+        assert_eq!(own.level, CityLevel::ByYear(None));
         let error = parse("[inventory]\nfil = \"a\"\n[gap]\nmedian = \"-3 mm\"\nparty_wall = 2\n")
             .expect_err("faults");
         let error = error.to_string();

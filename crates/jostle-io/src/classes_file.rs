@@ -14,11 +14,12 @@ use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
 use crate::source::Source;
 use crate::tree::{self, Format, Node};
+use crate::types_tables::{self, TypesTables};
 
 /// Kinds of buildings: every type with every number of storeys.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ClassesSide {
-    /// Types: names of HAZUS, or taxonomy strings of GEM.
+    /// Types: names of the table of types, or taxonomy strings of GEM.
     pub types: Vec<String>,
     /// Storeys, 1…16.
     pub storeys: Vec<usize>,
@@ -44,6 +45,8 @@ pub enum ClassesMeasure {
 pub struct ClassesFile {
     /// Title of the page.
     pub title: String,
+    /// Tables of types.
+    pub types: TypesTables,
     /// Classes whose fragility is sought.
     pub class: ClassesSide,
     /// Their neighbours.
@@ -127,7 +130,7 @@ impl ClassesFile {
             root: root.clone(),
         };
         let mut reader = Reader::new(&source);
-        let read = read_root(&mut reader, &root, &Files::beside(folder), origin);
+        let read = read_root(&mut reader, &root, &Files::beside(folder), folder, origin);
         let warnings = reader.take_warnings();
         let error = reader.into_error();
         match read {
@@ -150,6 +153,7 @@ fn read_root(
     reader: &mut Reader<'_>,
     root: &Node,
     files: &Files,
+    folder: &Path,
     origin: Origin,
 ) -> Option<ClassesFile> {
     let field = Field::root(root);
@@ -159,6 +163,8 @@ fn read_root(
         || Some("Classes of buildings".to_owned()),
         |field| reader.text(&field),
     );
+    let buildings = table(reader, &view, "buildings", &[Section::TypesTable]);
+    let types = types_tables::read(reader, &view, buildings.as_ref(), folder);
     if !view.has("class") {
         reader.missing(
             &view,
@@ -244,6 +250,7 @@ fn read_root(
     let measure = measure?;
     Some(ClassesFile {
         title: title?,
+        types: types?,
         class: class?,
         neighbour: neighbour?,
         gaps: gaps?,
@@ -398,7 +405,13 @@ pub(crate) fn keys_asked(
         source: Arc::clone(source),
         root: root.clone(),
     };
-    let _ = read_root(&mut reader, root, &Files::beside(Path::new("")), origin);
+    let _ = read_root(
+        &mut reader,
+        root,
+        &Files::beside(Path::new("")),
+        Path::new(""),
+        origin,
+    );
     reader.asked
 }
 

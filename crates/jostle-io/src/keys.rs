@@ -185,6 +185,12 @@ pub(crate) enum Section {
     CityColumns,
     /// What is assumed of its buildings.
     CityBuildings,
+    /// First years of its design levels.
+    CityLevels,
+    /// A table of types in place of that of HAZUS.
+    TypesTable,
+    /// A table of the drifts at which damage begins.
+    TypesDamage,
     /// How its gaps are drawn.
     CityGap,
     /// How its buildings hit each other.
@@ -1319,7 +1325,8 @@ pub(crate) const KEYS: &[Key] = &[
 
     optional(S::City, "title", Text, "Title of the pages."),
     required(S::City, "inventory", Kind::Table(S::CityInventory), "Footprints of the buildings."),
-    optional(S::City, "buildings", Kind::Table(S::CityBuildings), "What is assumed where the inventory says nothing."),
+    optional(S::City, "buildings", Kind::TableOf(&[S::CityBuildings, S::TypesTable]), "What is assumed where the inventory says nothing, and what its types are."),
+    optional(S::City, "damage", Kind::Table(S::TypesDamage), "When damage begins."),
     optional(S::City, "gap", Kind::Table(S::CityGap), "How gaps are drawn: no map knows them."),
     optional(S::City, "contact", Kind::Table(S::CityContact), "How slabs hit each other."),
     required(S::City, "motion", Kind::TableOf(&[S::Motion, S::CityMotion]), "Ground motion, or several: record may be a list."),
@@ -1335,13 +1342,22 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::CityColumns, "storeys", Text, "Storeys above the ground."),
     optional(S::CityColumns, "height", Text, "Height above the ground in m."),
     optional(S::CityColumns, "year", Text, "Year of construction."),
-    optional(S::CityColumns, "type", Text, "Structural type: a name of HAZUS or the taxonomy of GEM."),
+    optional(S::CityColumns, "type", Text, "Structural type: a name of the table of types or the taxonomy of GEM."),
 
     default(S::CityBuildings, "type", Text, "\"C1\"", "Structural type of buildings without one."),
-    default(S::CityBuildings, "level", Text, "\"year\"", "Design level: high, moderate, low or pre; \"year\" takes it from the year of construction, and moderate without one."),
+    default(S::CityBuildings, "level", TextOrTable(S::CityLevels), "\"year\"", "Design level: high, moderate, low or pre; \"year\" takes it from the year of construction as in California (moderate from 1941, high from 1976), a table from years of your own; moderate where the year is not known."),
     default(S::CityBuildings, "stiffness_scatter", Quantity(D::Dimensionless), "0.1", "Standard deviation of the logarithm of storey stiffness between buildings.").usual("a scatter", 1e-4, 2.0),
     default(S::CityBuildings, "strength_scatter", Quantity(D::Dimensionless), "0.25", "The same of strength.").usual("a scatter", 1e-4, 2.0),
     default(S::CityBuildings, "damping_scatter", Quantity(D::Dimensionless), "0.1", "The same of damping.").usual("a scatter", 1e-4, 2.0),
+
+    optional(S::CityLevels, "low", Count, "First year of the low level; before all that are given is pre."),
+    optional(S::CityLevels, "moderate", Count, "First year of the moderate level."),
+    optional(S::CityLevels, "high", Count, "First year of the high level."),
+
+    optional(S::TypesTable, "table", Text, "Table of structural types in place of that of HAZUS: a CSV with the columns that `jostle city types` prints."),
+    default(S::TypesTable, "area_mass", Quantity(D::AreaMass), "\"1000 kg/m2\"", "Mass of a floor per area of the building, where the table has no column `mass_kg_m2`. A weight per area is converted.").usual("a mass per area", 100.0, 3000.0),
+
+    optional(S::TypesDamage, "table", Text, "Table of drift ratios at which damage begins, in place of those of the types: a CSV with `type`, `slight`, `moderate`, `extensive`, `complete` and, if need be, `level`, `storeys_least`, `storeys_most`."),
 
     default(S::CityGap, "median", Quantity(D::Length), "\"25 mm\"", "Median of the widths of gaps. Nobody has surveyed them: look at half and double.").range(GAP),
     default(S::CityGap, "scatter", Quantity(D::Dimensionless), "0.8", "Standard deviation of their logarithm.").usual("a scatter", 1e-4, 3.0),
@@ -1363,6 +1379,8 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::CityRun, "sample", Count, "20", "Least number of rows that are run again in full, to see how good the batches are."),
 
     optional(S::Classes, "title", Text, "Title of the page."),
+    optional(S::Classes, "buildings", Kind::Table(S::TypesTable), "What structural types are."),
+    optional(S::Classes, "damage", Kind::Table(S::TypesDamage), "When damage begins."),
     required(S::Classes, "class", Kind::Table(S::ClassesSide), "Classes whose fragility is sought."),
     default(S::Classes, "neighbour", Kind::Table(S::ClassesSide), "as class", "Their neighbours."),
     optional(S::Classes, "pair", Kind::Table(S::ClassesPair), "How they stand side by side."),
@@ -1371,14 +1389,14 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Classes, "intensity", Kind::Table(S::ClassesIntensity), "How strong motions are said to be, and to what they are scaled."),
     optional(S::Classes, "run", Kind::Table(S::ClassesRun), "How much is run."),
 
-    required(S::ClassesSide, "types", Kind::Texts, "Structural types: names of HAZUS such as \"C1\" (the height follows from the storeys) or \"C1M\", or the taxonomy of GEM such as \"CR/LFM\"."),
+    required(S::ClassesSide, "types", Kind::Texts, "Structural types: names of the table of types such as \"C1\" (the height follows from the storeys) or \"C1M\", or the taxonomy of GEM such as \"CR/LFM\"."),
     required(S::ClassesSide, "storeys", Counts, "Numbers of storeys, 1 to 16; every type is taken with each."),
     default(S::ClassesSide, "level", Choice(&LEVELS), "\"moderate\"", "Design level for earthquakes."),
 
     default(S::ClassesPair, "gaps", Quantities(D::Length), "[\"10 mm\", \"50 mm\"]", "Widths of gaps, rising. Nobody has surveyed them: take several.").range(GAP),
     default(S::ClassesPair, "alignment", Kind::Texts, "[\"floors\"]", "\"floors\": floors of equal height hit each other. \"half-storey\": the neighbour stands half of its storey higher, so that slabs hit columns."),
     default(S::ClassesPair, "position", Kind::Texts, "[\"end\"]", "\"end\": one neighbour. \"middle\": the same neighbour on both sides."),
-    default(S::ClassesPair, "area", Quantity(D::Area), "\"200 m2\"", "Area of a floor of every building; masses are 1000 kg/m².").usual("an area of a floor", 20.0, 1e4),
+    default(S::ClassesPair, "area", Quantity(D::Area), "\"200 m2\"", "Area of a floor of every building.").usual("an area of a floor", 20.0, 1e4),
 
     default(S::ClassesIntensity, "measure", Choice(&MEASURES), "\"PGA\"", "PGA: peak ground acceleration. Sa(T1): pseudo-acceleration at the first period of the class, damping 5 %. AvgSA: geometric mean of it from 0.2 to 3 times that period."),
     default(S::ClassesIntensity, "levels", Quantities(D::Acceleration), "motions as they are", "Intensities, rising, to which every motion is scaled.").usual("an intensity", 0.01, 50.0),

@@ -47,6 +47,7 @@ mod tables;
 mod target;
 mod templates;
 mod tree;
+mod types_tables;
 mod undamaged;
 mod unit;
 mod unusual;
@@ -117,5 +118,6 @@ pub use tables::{
 pub use target::{TARGET_CODES, TargetError, TargetWords, read_target_file};
 pub use templates::{TEMPLATE_NAMES, template};
 pub use tree::Format;
+pub use types_tables::TypesTables;
 pub use undamaged::undamaged;
 pub use unusual::parse_option;

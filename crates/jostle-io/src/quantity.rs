@@ -31,6 +31,8 @@ pub enum Dimension {
     Modulus,
     /// Mass per length \[kg/m\].
     LineMass,
+    /// Mass per area \[kg/m²\].
+    AreaMass,
     /// Mass per volume \[kg/m³\].
     Density,
     /// Bending moment \[N·m\].
@@ -61,7 +63,7 @@ pub enum Dimension {
 
 impl Dimension {
     /// Every dimension.
-    pub const ALL: [Self; 24] = [
+    pub const ALL: [Self; 25] = [
         Self::Length,
         Self::Mass,
         Self::Time,
@@ -73,6 +75,7 @@ impl Dimension {
         Self::HertzStiffness,
         Self::Modulus,
         Self::LineMass,
+        Self::AreaMass,
         Self::Density,
         Self::Moment,
         Self::RotationalStiffness,
@@ -103,6 +106,7 @@ impl Dimension {
             Self::HertzStiffness => ("a Hertz contact stiffness", "2e9 N/m^1.5", "N/m^1.5", [-0.5, 1.0, -2.0]),
             Self::Modulus => ("a modulus of elasticity", "30 GPa", "Pa", [-1.0, 1.0, -2.0]),
             Self::LineMass => ("a mass per length", "3600 kg/m", "kg/m", [-1.0, 1.0, 0.0]),
+            Self::AreaMass => ("a mass per area", "1000 kg/m2", "kg/m2", [-2.0, 1.0, 0.0]),
             Self::Density => ("a density", "2500 kg/m3", "kg/m3", [-3.0, 1.0, 0.0]),
             Self::Moment => ("a moment", "400 kN.m", "N.m", [2.0, 1.0, -2.0]),
             Self::RotationalStiffness => ("a rotational stiffness", "2e8 N.m/rad", "N.m/rad", [2.0, 1.0, -2.0]),
@@ -143,7 +147,10 @@ impl Dimension {
 
     /// Whether a weight is accepted too, and divided by [`STANDARD_GRAVITY`].
     fn is_mass_like(self) -> bool {
-        matches!(self, Self::Mass | Self::LineMass | Self::Density)
+        matches!(
+            self,
+            Self::Mass | Self::LineMass | Self::AreaMass | Self::Density
+        )
     }
 }
 

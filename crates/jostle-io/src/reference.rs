@@ -312,6 +312,17 @@ const TABLES: &[(Section, &str, &str)] = &[
     (Section::CityInventory, "City file: `[inventory]`", ""),
     (Section::CityColumns, "City file: `inventory.columns`", ""),
     (Section::CityBuildings, "City file: `[buildings]`", ""),
+    (Section::CityLevels, "City file: `buildings.level`", ""),
+    (
+        Section::TypesTable,
+        "City file and classes file: `[buildings]`",
+        "",
+    ),
+    (
+        Section::TypesDamage,
+        "City file and classes file: `[damage]`",
+        "",
+    ),
     (Section::CityGap, "City file: `[gap]`", ""),
     (Section::CityContact, "City file: `[contact]`", ""),
     (

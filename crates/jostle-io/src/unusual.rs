@@ -67,6 +67,7 @@ fn usual_units(dimension: D) -> &'static [&'static str] {
         D::Moment => &["kN.m", "MN.m"],
         D::FlexuralRigidity => &["kN.m2", "MN.m2", "N.m2"],
         D::LineMass => &["kN/m", "t/m", "kg/m"],
+        D::AreaMass => &["kN/m2", "t/m2", "kg/m2"],
         D::Modulus => &["GPa", "MPa", "kPa", "Pa"],
         D::Dimensionless => &["%"],
         D::Density => &["kN/m3", "t/m3", "kg/m3"],

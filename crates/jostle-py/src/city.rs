@@ -8,6 +8,7 @@ use jostle_city::{
     Attribute, CityError, Columns, EXAMPLE_FILE, Footprints, Position, ReadOptions, RunOptions,
     example_city as made_up,
 };
+use jostle_classes::Types;
 use jostle_io::{CityFile, ClassesFile};
 use jostle_run::may_write;
 use jostle_study::classes::{ClassesError, FILES, run_classes, write_classes};
@@ -241,6 +242,12 @@ pub(crate) fn example_city(
     }
     let map = py.detach(|| made_up(buildings, seed));
     Ok((map, EXAMPLE_FILE.to_owned()))
+}
+
+/// The table of structural types as CSV.
+#[pyfunction]
+pub(crate) const fn city_types() -> &'static str {
+    Types::text()
 }
 
 /// Runs a classes file into a folder; returns warnings, and what its fragility models leave out.

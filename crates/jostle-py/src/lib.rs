@@ -31,7 +31,7 @@ mod _jostle {
     #[pymodule_export]
     use super::base::{as_toml, named_files, rewritten};
     #[pymodule_export]
-    use super::city::{City, classes, example_city, footprints};
+    use super::city::{City, city_types, classes, example_city, footprints};
     #[pymodule_export]
     use super::collide::{collide, contact_advice, contact_laws};
     #[pymodule_export]

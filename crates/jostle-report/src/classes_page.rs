@@ -13,10 +13,11 @@ const SCRIPTS: [&str; 2] = [
 const STUDY_STYLE: &str = include_str!("../assets/study.css");
 
 /// The page of classes: one HTML file that opens offline. `data` holds `pairs`, `curves`, `gaps`, `states`, `measure`,
-/// `range`, counts, deviations and `warnings`; intensities are in g.
+/// `range`, counts, deviations, `warnings` and the names of the tables of `capacities` and `damage`; intensities are in g.
 #[must_use]
 pub fn render_classes(title: &str, data: &Value) -> String {
     let number = |key: &str| data[key].as_f64().unwrap_or(0.0);
+    let text = |key: &str| data[key].as_str().unwrap_or("HAZUS");
     let deviation = |key: &str| format!("{:.1e}", number(key));
     let warnings = data["warnings"].as_array().map_or(&[][..], Vec::as_slice);
     let body = html! {
@@ -49,6 +50,7 @@ pub fn render_classes(title: &str, data: &Value) -> String {
         }
         section {
             h2 { (message::classes_limits()) }
+            p { (message::classes_sources(text("capacities"), text("damage"))) }
             p { (message::classes_limits_text()) }
         }
     };

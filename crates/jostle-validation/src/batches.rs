@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use jostle_batch::{Building, Gap, Law, Motion, Options, Precision, Row, Rule, run};
 use jostle_city::{City, EXAMPLE_FILE, RunOptions, example_city};
-use jostle_classes::{BothWays, Class, Level, both_ways, lognormal, uniform};
+use jostle_classes::{BothWays, Class, Level, Types, both_ways, lognormal, uniform};
 use jostle_io::{CityFile, Format, MotionSpec};
 use rayon::prelude::*;
 
@@ -115,10 +115,12 @@ fn el_centro() -> Result<Motion, String> {
 /// A building of a random class; every number belongs to its name.
 fn building(seed: u64, at: u64, bilinear: bool) -> Building {
     let dice = |what: &str| uniform(seed, at, what);
-    let classes: Vec<Class> = Class::all()
+    let types = Types::hazus();
+    let classes: Vec<&Class> = types
+        .classes()
         .filter(|own| *own.storeys.start() <= MOST_STOREYS)
         .collect();
-    let class = &classes[(dice("class") * classes.len() as f64) as usize];
+    let class = classes[(dice("class") * classes.len() as f64) as usize];
     let most = (*class.storeys.end()).min(MOST_STOREYS);
     let least = *class.storeys.start();
     let storeys = least + (dice("storeys") * (most - least + 1) as f64) as usize;
@@ -220,7 +222,7 @@ pub fn compare(pairs: usize, rows: usize, seed: u64) -> Result<Vec<Compared>, St
 /// When a row cannot run.
 pub fn speed() -> Result<Vec<(&'static str, f64, f64)>, String> {
     let motion = [el_centro()?];
-    let class = Class::named("C1M", Level::Moderate)?;
+    let class = Types::hazus().of("C1M", 5, Level::Moderate)?;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
     let pool = pool.map_err(|error| error.to_string())?;
     let mut all = Vec::new();

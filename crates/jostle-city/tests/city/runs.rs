@@ -190,3 +190,91 @@ fn the_sides_of_a_pair_are_those_of_the_inventory_whatever_the_order_of_its_row(
     assert_eq!(cases.len(), 6);
     assert!(alone(0.0).eq(alone(1.0)), "{cases:?}");
 }
+
+#[test]
+fn types_damage_and_levels_may_be_a_user_s_own() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    let run_of = |name: &str, extra: &str| {
+        let text = format!("[run]\ndraws = 3\nsample = 0\n[gap]\nmedian = \"12 mm\"\n{extra}");
+        let own = city(folder.path(), 60, &text);
+        let out = folder.path().join(name);
+        run(&own, &out, None).unwrap();
+        let damaged: f64 = own
+            .answers(&out)
+            .unwrap()
+            .buildings
+            .iter()
+            .flatten()
+            .map(|own| own.states[0][1..].iter().sum::<f64>())
+            .sum();
+        (own.cases_for_tests(&out).unwrap(), damaged)
+    };
+    let usual = run_of("usual", "");
+    assert!(usual.1 > 0.0);
+    // The table of HAZUS as a file, and the levels of California as a table: the same bits.
+    write("types.csv", jostle_classes::Types::text());
+    let table = "[buildings]\ntable = \"types.csv\"\n";
+    let same = format!("{table}level = {{ moderate = 1941, high = 1976 }}\n");
+    assert!(run_of("same", &same) == usual);
+    // Heavier floors on a period that stays: equal drifts, so the same damage where nothing collides; other forces.
+    let heavy = run_of("heavy", &format!("{table}area_mass = \"14 kN/m2\"\n"));
+    assert!(heavy.0 != usual.0);
+    // Damage that begins at a drift which nobody reaches.
+    write("damage.csv", &damage_of_all([0.6, 0.7, 0.8, 0.9]));
+    let none = run_of("none", "[damage]\ntable = \"damage.csv\"\n");
+    assert!(none.0 == usual.0, "drifts do not hang on damage");
+    assert_eq!(none.1, 0.0);
+    // Nobody has a code.
+    let weak = run_of("weak", "[buildings]\nlevel = { high = 3000 }\n");
+    let named = run_of("named", "[buildings]\nlevel = \"pre\"\n");
+    assert!(weak.0 != usual.0);
+    // Buildings without a year are moderate, unless all are pre.
+    assert!(
+        weak.1 > usual.1 && named.1 >= weak.1,
+        "{} {} {}",
+        usual.1,
+        weak.1,
+        named.1
+    );
+}
+
+/// A table of damage that has every type of HAZUS.
+fn damage_of_all([slight, moderate, extensive, complete]: [f64; 4]) -> String {
+    let mut text = String::from("type,slight,moderate,extensive,complete\n");
+    let names: std::collections::BTreeSet<String> = jostle_classes::Types::hazus()
+        .classes()
+        .map(|own| own.name.to_string())
+        .collect();
+    for own in names {
+        text += &format!("{own},{slight},{moderate},{extensive},{complete}\n");
+    }
+    text
+}
+
+#[test]
+fn a_wrong_table_of_types_ends_before_anything_is_run() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(
+        folder.path().join("footprints.geojson"),
+        example_city(20, 7),
+    )
+    .unwrap();
+    std::fs::write(folder.path().join("types.csv"), "type,dy\nA,3\n").unwrap();
+    let text = "[inventory]\nfile = \"footprints.geojson\"\n[buildings]\ntable = \"types.csv\"\n[motion]\nrecord = \"el-centro-1940-ns\"\n";
+    let file = CityFile::parse("city.toml", text, Format::Toml, folder.path()).unwrap();
+    let told = City::new(file)
+        .expect_err("a table without units")
+        .to_string();
+    assert!(
+        told.contains("types.csv") && told.contains("dy_mm"),
+        "{told}"
+    );
+    let text = text.replace(
+        "table = \"types.csv\"",
+        "level = { high = 1950, low = 1960 }",
+    );
+    let told = CityFile::parse("city.toml", &text, Format::Toml, folder.path())
+        .expect_err("years that fall");
+    assert!(told.to_string().contains("rise from low to high"), "{told}");
+}

@@ -239,6 +239,8 @@ const CITY: &str = r#"
 file = "city.geojson"
 columns = { storeys = "levels" }
 [buildings]
+level = { low = 1950 }
+[damage]
 [gap]
 [contact]
 [motion]
@@ -248,6 +250,8 @@ record = "el-centro-1940-ns"
 
 /// A classes file that has every table.
 const CLASSES: &str = r#"
+[buildings]
+[damage]
 [class]
 types = ["C1"]
 storeys = [3]

@@ -35,7 +35,8 @@ messages! {
     classes_curves = "Fragility curves of the chosen pair";
     classes_curves_help = "Solid: with contact. Dashed: without. Points: share of cases at each intensity.";
     classes_limits = "Limits";
-    classes_limits_text = "Shear models by the capacity curves of HAZUS and the formulas of Lu and Guan. Damage is peak storey drift. Out-of-plane failure of masonry, local damage of columns that slabs strike, torsion and P-Delta are not modelled. Gaps are assumed, not surveyed.";
+    classes_sources(capacities, damage) = "Shear models by the formulas of Lu and Guan. Capacity curves: {capacities}. Damage is peak storey drift by the thresholds of: {damage}.";
+    classes_limits_text = "Out-of-plane failure of masonry, local damage of columns that slabs strike, torsion and P-Delta are not modelled. Gaps are assumed, not surveyed.";
     classes_factor = "pounding factor: median with contact over median without";
     classes_factor_short = "pounding factor";
     classes_median_with = "median with contact [g]";

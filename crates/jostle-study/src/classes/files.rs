@@ -115,10 +115,10 @@ fn pair_columns(results: &ClassesResults, pairs: &[usize]) -> Vec<(String, Value
     };
     vec![
         text("pair", &|at| own(at).name()),
-        text("class", &|at| own(at).own.class.name.to_owned()),
+        text("class", &|at| own(at).own.class.name.to_string()),
         text("level", &|at| own(at).own.class.level.name().to_owned()),
         whole("storeys", &|at| own(at).own.storeys),
-        text("neighbour", &|at| own(at).neighbour.class.name.to_owned()),
+        text("neighbour", &|at| own(at).neighbour.class.name.to_string()),
         text("neighbour_level", &|at| {
             own(at).neighbour.class.level.name().to_owned()
         }),
@@ -450,6 +450,7 @@ fn page(file: &ClassesFile, results: &ClassesResults) -> Value {
         "measure": file.measure.name(), "range": [low, high],
         "cases": results.cases.len(), "motions": results.motions.len(), "draws": file.draws,
         "checked": results.checked.len(), "drift_deviation": drift, "force_deviation": force,
+        "capacities": results.sources[0], "damage": results.sources[1],
         "warnings": results.warnings,
     })
 }

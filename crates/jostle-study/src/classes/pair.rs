@@ -1,7 +1,7 @@
 //! A class beside its neighbour, and the rows that it stands for.
 
 use jostle_batch::{Building, Gap, Law, Row};
-use jostle_classes::{Class, lognormal};
+use jostle_classes::{Class, Types, lognormal};
 use jostle_io::{ClassesFile, ClassesSide, InputError};
 
 /// A class of some storeys.
@@ -34,13 +34,26 @@ pub(crate) struct Draw {
     pub(crate) gap: Option<f64>,
 }
 
+/// The structural types of a file.
+///
+/// # Errors
+/// A table that is not understood.
+pub(crate) fn types(file: &ClassesFile) -> Result<Types, InputError> {
+    let at = if file.types.types.is_some() {
+        "buildings.table"
+    } else {
+        "damage.table"
+    };
+    Types::read(&file.types).map_err(|problem| file.fault(at, problem))
+}
+
 /// Every pair of a file, in its order.
 ///
 /// # Errors
 /// A type that is not understood, at its line.
-pub(crate) fn pairs(file: &ClassesFile) -> Result<Vec<Pair>, InputError> {
-    let owns = members(file, &file.class)?;
-    let neighbours = members(file, &file.neighbour)?;
+pub(crate) fn pairs(file: &ClassesFile, types: &Types) -> Result<Vec<Pair>, InputError> {
+    let owns = members(file, types, &file.class)?;
+    let neighbours = members(file, types, &file.neighbour)?;
     let mut pairs = Vec::new();
     for own in &owns {
         for neighbour in &neighbours {
@@ -60,13 +73,18 @@ pub(crate) fn pairs(file: &ClassesFile) -> Result<Vec<Pair>, InputError> {
     Ok(pairs)
 }
 
-fn members(file: &ClassesFile, side: &ClassesSide) -> Result<Vec<Member>, InputError> {
+fn members(
+    file: &ClassesFile,
+    types: &Types,
+    side: &ClassesSide,
+) -> Result<Vec<Member>, InputError> {
     let level = side.level.parse();
     let level = level.map_err(|problem: String| file.fault(&side.path, problem))?;
     let mut members = Vec::new();
     for (at, kind) in side.types.iter().enumerate() {
         for &storeys in &side.storeys {
-            let class = Class::of(kind, storeys, level)
+            let class = types
+                .of(kind, storeys, level)
                 .map_err(|problem| file.fault(&format!("{}.types[{at}]", side.path), problem))?;
             let member = Member {
                 kind: kind.clone(),
@@ -88,7 +106,7 @@ fn members(file: &ClassesFile, side: &ClassesSide) -> Result<Vec<Member>, InputE
 impl Member {
     /// Such as `C1M-low-5`.
     pub(crate) fn name(&self) -> String {
-        let (class, level) = (self.class.name, self.class.level.name());
+        let (class, level) = (&self.class.name, self.class.level.name());
         format!("{class}-{level}-{}", self.storeys)
     }
 

@@ -10,7 +10,7 @@ use super::ClassesError;
 use super::cases::Motions;
 use super::check::{Checked, check};
 use super::curves::{Fragility, curves};
-use super::pair::{Draw, Pair, pairs};
+use super::pair::{Draw, Pair, pairs, types};
 use super::shared::{Shared, shared};
 
 /// Factors on records beyond which their shape is doubtful.
@@ -57,6 +57,8 @@ pub struct Case {
 /// What came out of a classes file.
 #[derive(Debug)]
 pub struct ClassesResults {
+    /// Where capacities and damage drifts come from.
+    pub(crate) sources: [String; 2],
     pub(crate) pairs: Vec<Pair>,
     pub(crate) motions: Vec<String>,
     /// Every case, by pair, motion, intensity, draw and gap.
@@ -96,7 +98,8 @@ pub fn run_classes(
 /// # Errors
 /// [`ClassesError`] when a type or a motion is wrong.
 pub fn count_rows(file: &ClassesFile) -> Result<usize, ClassesError> {
-    let pairs = pairs(file)?;
+    let types = types(file)?;
+    let pairs = pairs(file, &types)?;
     let motions = Motions::new(file)?;
     Ok(pairs.len() * motions.all.len() * file.levels.len().max(1) * file.draws)
 }
@@ -106,7 +109,8 @@ fn run_here(
     stop: &(dyn Fn() -> bool + Sync),
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<Option<ClassesResults>, ClassesError> {
-    let pairs = pairs(file)?;
+    let types = types(file)?;
+    let pairs = pairs(file, &types)?;
     let motions = Motions::new(file)?;
     let mut warnings = file.warnings.clone();
     warn_of_storeys(&pairs, &mut warnings);
@@ -183,6 +187,7 @@ fn run_here(
     let shared = shared(file, &curves, &cases, pairs.len());
     Ok(Some(ClassesResults {
         shared,
+        sources: types.sources().map(str::to_owned),
         pairs,
         motions: motions.names,
         cases,
@@ -197,7 +202,7 @@ fn warn_of_storeys(pairs: &[Pair], warnings: &mut Vec<String>) {
     for pair in pairs {
         for own in [&pair.own, &pair.neighbour] {
             let text = format!(
-                "{}: {} storeys lie outside {} to {}, for which HAZUS means the type",
+                "{}: {} storeys lie outside {} to {}, for which the table means the type",
                 own.class.name,
                 own.storeys,
                 own.class.storeys.start(),
