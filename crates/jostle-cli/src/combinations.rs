@@ -183,7 +183,7 @@ fn features() -> Vec<Feature> {
         Feature { name: "shaking from two sides", motion: "angle = \"30 deg\"\n", ..USUAL },
         Feature { name: "vertical shaking", motion: "vertical = { kind = \"sine\", amplitude = 1, period = 0.1 }\n", ..USUAL },
         Feature { name: "vertical shaking of a building under self weight", keys: "gravity = true\n", motion: "vertical = { kind = \"sine\", amplitude = 1, period = 0.1 }\n", ..USUAL },
-        Feature { name: "ground that differs under buildings", keys: "motion = { arrival = \"40 ms\" }\n", ..USUAL },
+        Feature { name: "different motion under each building", keys: "motion = { arrival = \"40 ms\" }\n", ..USUAL },
         Feature { name: "forces of columns and beams", more: "[output]\nmembers = true\n", ..USUAL },
         Feature { name: "solver `modal`", analysis: "solver = \"modal\"\n", ..USUAL },
         Feature { name: "solver `riccati`", analysis: "solver = \"riccati\"\n", ..USUAL },

@@ -76,7 +76,7 @@ pub(crate) enum Command {
     Classes(crate::classes::ClassesArgs),
     /// Find the smallest gap without pounding, and compare it with rules and codes
     Gap(crate::gap::GapArgs),
-    /// Search the least damper, gap or other key that keeps conditions, such as no impact
+    /// Find the smallest damper, gap or other input that meets given conditions, such as no impact
     Size(Box<crate::size::SizeArgs>),
     /// Open a local page that runs the model after every change
     Live(crate::live::LiveArgs),

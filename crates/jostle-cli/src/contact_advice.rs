@@ -19,7 +19,7 @@ pub(crate) struct ContactAdviceArgs {
     /// Length of the slabs in the direction of the impact; with --width and --thickness: E A/L and waves
     #[arg(long, value_name = "QUANTITY")]
     length: Option<String>,
-    /// Width of the slabs that meets
+    /// Width of the slabs in contact
     #[arg(long, value_name = "QUANTITY")]
     width: Option<String>,
     /// Thickness of the slabs

@@ -46,10 +46,10 @@ pub(crate) struct SizeArgs {
     /// Seed of the search
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
-    /// Most trials
+    /// Maximum number of trials
     #[arg(long, value_name = "N", default_value_t = 600)]
     trials: usize,
-    /// End the search when the objectives of a generation differ by less than this part
+    /// Relative convergence tolerance of the objective
     #[arg(long, value_name = "NUMBER", default_value_t = 1e-4)]
     tolerance: f64,
     /// Number of runs at the same time [default: one per core]

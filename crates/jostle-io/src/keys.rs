@@ -1232,7 +1232,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Study, "base", Text, "The model that varies: a path from this file, or a built-in name."),
     optional(S::Study, "model", Kind::Any, "The model written out here, instead of base."),
     optional(S::Study, "vary", Tables(&[S::Vary]), "Keys that vary; needed unless the base model lists several records."),
-    optional(S::Study, "design", Kind::Table(S::Design), "Design of the cases; by default every combination."),
+    optional(S::Study, "design", Kind::Table(S::Design), "Design of the cases; by default all combinations."),
     optional(S::Study, "histories", Kind::Any, "Numbers of the cases whose histories are kept, from 0."),
     default(S::Study, "without_contact", Flag, "false", "Run every case without contact as well; columns with those results, and with amplifications by contact."),
     optional(S::Study, "fragility", Tables(&[S::Fragility]), "Fragility curves to fit."),

@@ -22,7 +22,7 @@ pub struct Opened {
     pub input: Arc<Input>,
     /// Name for messages and folders of results.
     pub name: String,
-    /// Assembled.
+    /// The assembled equations of motion.
     pub system: Arc<System>,
     /// Whether the ground motion was named apart from the model file.
     pub other_record: bool,

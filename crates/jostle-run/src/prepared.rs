@@ -16,7 +16,7 @@ use crate::history_file::STORAGE;
 pub struct Prepared {
     /// The model file; its warnings include that of an unusual motion.
     pub input: Arc<Input>,
-    /// Assembled.
+    /// The assembled equations of motion.
     pub system: Arc<System>,
     /// Its ground motion.
     pub motion: GroundMotion,

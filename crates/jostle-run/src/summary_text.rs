@@ -234,25 +234,25 @@ fn write_buildings(
 /// Effect of contact on every building: peaks with contact divided by peaks without, where this ratio is greatest and
 /// where it is least over the height.
 fn write_changes(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::Result {
-    const HEADING: &str = "peaks with ÷ without contact";
+    const HEADING: &str = "effect of pounding (with ÷ without)";
     let width = buildings
         .iter()
-        .map(|building| building.name.chars().count() + "  greatest".len())
+        .map(|building| building.name.chars().count() + "  worst".len())
         .fold(HEADING.chars().count(), usize::max);
     let mut rows = String::new();
     for building in buildings {
         let [Some(drift), Some(shear), Some(acceleration)] = changes(building) else {
             continue;
         };
-        let name = width - "  greatest".len();
-        for (side, label) in [(0, "greatest"), (1, "least")] {
+        let name = width - "  worst".len();
+        for (side, label) in [(0, "worst"), (1, "best")] {
             let cell = |extremes: &Extremes, place: &str| {
                 let (ratio, at) = extremes[side];
                 format!("{ratio:.2} ({place} {at})")
             };
             writeln!(
                 rows,
-                "{:name$}  {label:8}  {:>17}  {:>17}  {:>17}",
+                "{:name$}  {label:5}  {:>17}  {:>17}  {:>17}",
                 if side == 0 { &*building.name } else { "" },
                 cell(&drift, "storey"),
                 cell(&shear, "storey"),
@@ -386,7 +386,7 @@ fn write_hinges(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::R
         });
         writeln!(
             text,
-            "{between}{} yields at {} of {} places{first}; cracked: {}",
+            "{between}{}: {} of {} hinges yielded{first}; {} cracked",
             building.name, hinges.yielded, hinges.total, hinges.cracked
         )?;
         between = "";
@@ -464,7 +464,7 @@ fn write_capacity(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt:
     let label = format!("capacity ({rule}):");
     match first {
         Some(first) => {
-            let beyond = format!("{exceeded} of {all} members beyond it");
+            let beyond = format!("{exceeded} of {all} members exceed it");
             writeln!(
                 text,
                 "\n{label} {}, first {}",
@@ -484,7 +484,7 @@ fn write_capacity(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt:
             if let Some(worst) = worst {
                 writeln!(
                     text,
-                    "\n{label} none of {all} members beyond it; greatest {:.2} × capacity: {}",
+                    "\n{label} none of {all} members exceeds it; greatest {:.2} × capacity: {}",
                     worst.ratio,
                     place(worst)
                 )?;
@@ -501,7 +501,7 @@ fn write_capacity(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt:
     if let Some(first) = firsts.min_by(|a, b| a.at_s.total_cmp(&b.at_s)) {
         writeln!(
             text,
-            "  joints: {exceeded} of {all} beyond it, first {}",
+            "  joints: {exceeded} of {all} exceed it, first {}",
             place(first)
         )?;
     }
@@ -613,7 +613,7 @@ fn write_gap(
     if let Some(closing) = gap.closing_without_contact_m {
         writeln!(
             text,
-            "  Smallest gap without pounding: {} mm (from a run without contact).",
+            "  Gap needed under this motion: {} mm (from a run without contact).",
             mm(closing)
         )?;
     }
@@ -873,9 +873,9 @@ mod tests {
         assert_eq!(
             text,
             "\n\
-             peaks with ÷ without contact       storey drift       storey shear       acceleration\n\
-             A                   greatest    1.50 (storey 2)    1.20 (storey 2)     4.50 (floor 2)\n\
-             \x20                   least       0.50 (storey 1)    0.80 (storey 1)     0.50 (floor 1)\n\n"
+             effect of pounding (with ÷ without)       storey drift       storey shear       acceleration\n\
+             A                            worst    1.50 (storey 2)    1.20 (storey 2)     4.50 (floor 2)\n\
+             \x20                            best     0.50 (storey 1)    0.80 (storey 1)     0.50 (floor 1)\n\n"
         );
         let mut text = String::new();
         let _ = write_changes(&mut text, &[]);
@@ -913,8 +913,8 @@ mod tests {
         let _ = write_hinges(&mut text, &buildings);
         assert_eq!(
             text,
-            "\nA yields at 7 of 50 places, first at 2.134 s, with a ductility up to 2.4; cracked: 40\n\
-             C yields at 0 of 4 places; cracked: 0\n"
+            "\nA: 7 of 50 hinges yielded, first at 2.134 s, with a ductility up to 2.4; 40 cracked\n\
+             C: 0 of 4 hinges yielded; 0 cracked\n"
         );
     }
 }

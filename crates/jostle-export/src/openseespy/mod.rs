@@ -71,7 +71,7 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
     if export.motion.has_own_grounds() && export.system.is_in_space() {
         refuse(
             "motion".into(),
-            "ground that differs under buildings with plans is not exported: their ties need the constraint handler Transformation, which does not let the script move supports; leave out arrival, position, apparent_velocity and [building.motion], or compare buildings in one plane".into(),
+            "different motion under each building with a plan is not exported: their ties need the constraint handler Transformation, which does not let the script move supports; leave out arrival, position, apparent_velocity and [building.motion], or compare buildings in one plane".into(),
         );
     }
     for (index, wall) in model.walls.iter().enumerate() {

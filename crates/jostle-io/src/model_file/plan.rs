@@ -357,7 +357,7 @@ fn spring(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Spring> {
     Some(found)
 }
 
-/// What yields of storeys, whose springs then have no stiffness of their own in that direction. They act at the centre of
+/// Yielding storey springs; the storey then has no elastic stiffness in that direction. They act at the centre of
 /// stiffness.
 fn of_storeys(
     reader: &mut Reader<'_>,

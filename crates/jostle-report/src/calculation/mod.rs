@@ -134,11 +134,7 @@ fn spectrum(calculation: &Calculation<'_>, motion: &Accelerogram, name: &str) ->
         });
     }
     Some(Plot {
-        title: format!(
-            "{}, {} %",
-            message::response_spectrum_damping(),
-            format::plain(100.0 * damping, 3)
-        ),
+        title: message::response_spectrum_at(format::plain(100.0 * damping, 3)),
         x_label: format!("{} [s]", message::period()),
         y_label: format!("{} [m/s²]", message::pseudo_acceleration()),
         logarithmic: true,

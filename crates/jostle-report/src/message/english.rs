@@ -345,9 +345,9 @@ messages! {
     cracking_and_yielding_title = "Cracking and yielding";
     hinges_with_the_largest_ductility = "Hinges with the largest ductility or dissipated energy. Dashed: the curve of first loading. The dot is the instant of the cursor; the strong line leads to it from the left end of the charts above.";
     residual_displacement_of_the_roof(residual) = "Residual displacement of the roof: {residual}.";
-    yields_at_of_places_first(name, yielded, total, instant, cracked, ductility, dissipated, residual) = "{name} yields at {yielded} of {total} places, first at {instant}; {cracked} are cracked. Greatest ductility {ductility}; {dissipated} dissipated. {residual}";
-    neither_cracks_nor_yields(name, total) = "{name} neither cracks nor yields at any of {total} places.";
-    cracks_at_of_places(name, cracked, total, residual) = "{name} cracks at {cracked} of {total} places and does not yield. {residual}";
+    yields_at_of_places_first(name, yielded, total, instant, cracked, ductility, dissipated, residual) = "{name}: {yielded} of {total} hinges yielded, first at {instant}; {cracked} cracked. Greatest ductility {ductility}; {dissipated} dissipated. {residual}";
+    neither_cracks_nor_yields(name, total) = "{name}: none of {total} hinges cracked or yielded.";
+    cracks_at_of_places(name, cracked, total, residual) = "{name}: {cracked} of {total} hinges cracked, none yielded. {residual}";
     cracked = "cracked";
     yielded = "yielded";
     ductility = "ductility";
@@ -384,8 +384,8 @@ messages! {
     during_the_impact(left, right, start) = ", during the impact of {left} and {right} that starts at {start}";
     in_at(member, kind, at, at_2, during) = "{member} in {kind} at its {at}, at {at_2}{during}";
     greatest_ratio_title(ratio, worst) = "Greatest ratio {ratio}: {worst}.";
-    of_members_are_beyond(name, exceeded, rated, place, worst) = "{name}: {exceeded} of {rated} members are beyond their capacity, first {place}. {worst}";
-    none_of_members_is_beyond(name, rated, worst) = "{name}: none of {rated} members is beyond its capacity. {worst}";
+    of_members_are_beyond(name, exceeded, rated, place, worst) = "{name}: {exceeded} of {rated} members exceed their capacity, first {place}. {worst}";
+    none_of_members_is_beyond(name, rated, worst) = "{name}: none of {rated} members exceeds its capacity. {worst}";
     no_capacity = "no capacity";
     beyond_last(last) = "beyond {last}";
     mrad_at(rule, measure, milliradians, at) = "{rule}: {measure} {milliradians} mrad at the {at}";
@@ -877,7 +877,7 @@ messages! {
     restitution_is_separation_speed_impact = "Restitution is separation speed ÷ impact speed, as computed. Two free masses would rebound with";
     under_this_contact_law = "under this contact law. In a building the storeys and other contacts also act during the impact, so the two ratios differ. After a light impact the ratio may exceed one.";
     the_coefficient_in_the_published(restitution, free_restitution) = "The coefficient in the published hertz-damp formula is not the rebound of free masses: with e = {restitution} they rebound with {free_restitution}.";
-    peaks_of_in_numbers(name) = "Peaks of {name} in numbers";
+    peaks_of_in_numbers(name) = "{name}: table of peaks";
     height = "height";
     with_word = "with";
     without = "without";
@@ -974,7 +974,7 @@ messages! {
 
     // calculation
     ground_acceleration = "ground acceleration";
-    response_spectrum_damping = "Response spectrum, damping";
+    response_spectrum_at(damping) = "Response spectrum, {damping} % damping";
     pseudo_acceleration = "pseudo-acceleration";
     pseudo_velocity = "pseudo-velocity";
     time = "time";
@@ -1066,7 +1066,7 @@ messages! {
     records_of_the_curve(count) = ", {count} records: thin lines, mean bold, 16 to 84 % shaded";
     one_against_other(result, key, records) = "{result} against {key}{records}";
     points_of(done, all) = "{done} of {all} points. ";
-    smallest_gap_is(width) = "Smallest gap without pounding: {width} mm. ";
+    smallest_gap_is(width) = "Gap needed under this motion: {width} mm. ";
     no_pounding = "no pounding";
     greatest_closing_without_contact = "greatest closing without contact";
     mark_of_a_rule(name, width, source) = "{name}: {width} mm. {source}";
@@ -1188,7 +1188,7 @@ messages! {
     probability_axis = "probability";
     mean_of_cases(count) = "mean of {count} cases";
     case_of_number(number) = "case {number}";
-    one_row_a_case = "one row a case: inputs and everything that came out";
+    one_row_a_case = "one row per case: inputs and results";
     same_as_text = "the same as text";
     buildings_pound_in_cases(touched, known, forces) = "The buildings pound in {touched} of {known} cases{forces}.";
     greatest_force_of_cases(force) = "; the greatest force is {force} kN";
@@ -1253,7 +1253,7 @@ messages! {
     first_impact_axis = "first impact";
     greatest_closing_axis = "greatest closing";
     peak_ground_acceleration_axis = "peak ground acceleration";
-    every_combination = "every combination";
+    every_combination = "all combinations";
     side_by_side = "side by side";
     latin_hypercube = "Latin hypercube";
     sobol_sequence = "Sobol sequence";

@@ -266,7 +266,7 @@ fn what_yields_is_told_in_order() {
         frame.yielded,
         storeys.yielded
     );
-    let said = format!("J1 yields at {} of {} places", frame.yielded, frame.total);
+    let said = format!("J1: {} of {} hinges yielded", frame.yielded, frame.total);
     assert!(text.contains(&said), "{said}");
     let table = text.split("id=\"hinge-table\"").nth(1).unwrap();
     let table = table.split("</table>").next().unwrap();

@@ -218,7 +218,7 @@ fn a_run_says_which_member_goes_first() {
         "Force diagrams of J1",
         "11.4.6",
         "Moment, envelope",
-        "beyond their capacity",
+        "exceed their capacity",
     ] {
         assert!(report.contains(word), "the report lacks {word}");
     }

@@ -54,7 +54,7 @@ pub struct Case {
     pub column: bool,
 }
 
-/// What came out of a classes file.
+/// Results of a classes file.
 #[derive(Debug)]
 pub struct ClassesResults {
     /// Where capacities and damage drifts come from.

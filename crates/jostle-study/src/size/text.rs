@@ -59,7 +59,7 @@ pub(super) fn rounded(text: &str) -> String {
 }
 
 impl SizeResults {
-    /// What came out, in sentences.
+    /// The result in sentences.
     #[must_use]
     pub fn headline(&self) -> Vec<String> {
         let mut sentences = Vec::new();
@@ -79,15 +79,21 @@ impl SizeResults {
                     .collect();
                 // A search that did not end by itself has a best trial, not a least value.
                 let least = if self.converged {
-                    "Least"
+                    "Smallest"
                 } else {
-                    "Not converged; best so far of"
+                    "Not converged; smallest so far of"
+                };
+                // An objective that is the only input has said where it lies.
+                let is_input = self.inputs.len() == 1 && self.inputs[0].0 == self.objective.text;
+                let at = if is_input {
+                    String::new()
+                } else {
+                    format!(", at {}", inputs.join(", "))
                 };
                 sentences.push(format!(
-                    "{least} {}{keeping}: {}, at {}.",
+                    "{least} {}{keeping}: {}{at}.",
                     self.objective.text,
                     number(objective, &self.objective.suffix),
-                    inputs.join(", ")
                 ));
             }
             None => sentences.push(format!(
@@ -102,7 +108,7 @@ impl SizeResults {
             format!("The search was stopped after {} trials.", self.trials.len())
         } else {
             format!(
-                "The search used {} trials, and another round is more than allowed: the least may lie lower. --trials allows more.",
+                "The search stopped at {} trials before it converged: the smallest may lie lower. Raise --trials.",
                 self.trials.len()
             )
         });

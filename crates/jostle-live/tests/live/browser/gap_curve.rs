@@ -12,7 +12,7 @@ fn the_curve_shows_the_smallest_gap_and_its_line_can_be_moved() {
         return;
     };
     page.type_into("motion.pga", "70 cm/s2");
-    page.wait("document.getElementById('curve-note').textContent.includes('Smallest gap without pounding')");
+    page.wait("document.getElementById('curve-note').textContent.includes('Gap needed under this motion')");
     let note = page.text("document.getElementById('curve-note').textContent");
     let needed: f64 = note
         .split(": ")
@@ -84,7 +84,7 @@ fn the_gap_without_pounding_is_in_sight_after_one_change() {
         "{}",
         page.headline()
     );
-    page.wait("document.getElementById('curve-note').textContent.includes('Smallest gap without pounding')");
+    page.wait("document.getElementById('curve-note').textContent.includes('Gap needed under this motion')");
     page.wait("document.querySelector('.code-marks .needed') !== null");
     let said = page.text(
         "/pounding: ([\\d.]+) mm/.exec(document.getElementById('curve-note').textContent)[1]",
@@ -124,7 +124,7 @@ fn sensitive_results_are_found_after_the_frame() {
     page.wait(&format!("{shown} === {sound:?}"));
     // A gap that the buildings just graze, as `jostle gap` finds it.
     let note = "document.getElementById('curve-note').textContent";
-    page.wait(&format!("{note}.includes('Smallest gap without pounding')"));
+    page.wait(&format!("{note}.includes('Gap needed under this motion')"));
     let needed = page.text(&format!("/pounding: ([\\d.]+) mm/.exec({note})[1]"));
     let width = format!("{needed} mm");
     let [before, found] = accuracy_of(&width);

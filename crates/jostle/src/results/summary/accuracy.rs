@@ -42,10 +42,14 @@ impl PromiseSummary {
         let tolerance = self.tolerance;
         let estimate = match (self.residual, self.met) {
             (Some(residual), Some(true)) => format!(
-                "estimated error of floor peaks and shears {residual:.1e} of the greatest of their kind, within the tolerance {tolerance:e}"
+                "estimated numerical error of floor peaks and shears {} of the largest value (limit {})",
+                percent(residual),
+                percent(tolerance)
             ),
             (Some(residual), _) => format!(
-                "estimated error of floor peaks and shears {residual:.1e} of the greatest of their kind, beyond the tolerance {tolerance:e}"
+                "estimated numerical error of floor peaks and shears {} of the largest value, above the limit of {}",
+                percent(residual),
+                percent(tolerance)
             ),
             (None, _) => "not estimated: the run did not end".to_owned(),
         };
@@ -59,6 +63,22 @@ impl PromiseSummary {
             (None, None) => format!("accuracy: {estimate}"),
         }
     }
+}
+
+/// A fraction in per cent with two digits, such as `0.013 %`.
+fn percent(fraction: f64) -> String {
+    let value = 100.0 * fraction;
+    if value < 1e-4 {
+        return "below 0.0001 %".to_owned();
+    }
+    let decimals = (1.0 - libm::floor(libm::log10(value))).max(0.0) as usize;
+    let text = format!("{value:.decimals$}");
+    let text = if decimals > 0 {
+        text.trim_end_matches('0').trim_end_matches('.')
+    } else {
+        &text
+    };
+    format!("{text} %")
 }
 
 /// Work done, and the time it took.
@@ -115,4 +135,26 @@ impl WorkSummary {
         Quantity::<Self>::optional("contact_step_s", Unit::S, "smallest regular step in contact", |w| w.contact_step_s),
         Quantity::<Self>::real("wall_s", Unit::S, "wall time of the stepping", |w| w.wall_s),
     ];
+}
+
+#[cfg(test)]
+mod tests {
+    use super::percent;
+
+    #[test]
+    fn errors_are_told_in_per_cent_with_two_digits() {
+        for (fraction, text) in [
+            (1.3e-4, "0.013 %"),
+            (1e-3, "0.1 %"),
+            (1e-2, "1 %"),
+            (4.96e-4, "0.05 %"),
+            (0.123, "12 %"),
+            (1.0, "100 %"),
+            (1.86e-6, "0.00019 %"),
+            (1e-7, "below 0.0001 %"),
+            (0.0, "below 0.0001 %"),
+        ] {
+            assert_eq!(percent(fraction), text);
+        }
+    }
 }

@@ -41,7 +41,7 @@ impl EnergySummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
         Quantity::<Self>::real("input_j", Unit::J, "work of the ground motion", |e| e.input_j).in_study(),
-        Quantity::<Self>::optional("ground_j", Unit::J, "work of grounds that move apart, through contacts and links, beside the input; only with ground that differs", |e| e.ground_j).not_in_summary(),
+        Quantity::<Self>::optional("ground_j", Unit::J, "work of grounds that move apart, through contacts and links, beside the input; only with different motion under each building", |e| e.ground_j).not_in_summary(),
         Quantity::<Self>::real("kinetic_j", Unit::J, "kinetic energy", |e| e.kinetic_j),
         Quantity::<Self>::real("strain_j", Unit::J, "strain energy", |e| e.strain_j),
         Quantity::<Self>::real("damped_j", Unit::J, "dissipated by viscous damping, that of links included", |e| e.damped_j).in_study(),

@@ -142,7 +142,7 @@ impl ContactSummary {
         Quantity::<Self>::real("impulse_n_s", Unit::NS, "time integral of the force", |c| c.impulse_n_s).in_study(),
         Quantity::<Self>::real("closing_peak_m", Unit::M, "greatest closing; beyond width_m it is indentation", |c| c.closing_peak_m).in_study(),
         Quantity::<Self>::real("closing_peak_at_s", Unit::S, "its instant", |c| c.closing_peak_at_s),
-        Quantity::<Self>::optional("closing_peak_ground_m", Unit::M, "the part of it that the grounds contribute; only with ground that differs", |c| c.closing_peak_ground_m).not_in_summary(),
+        Quantity::<Self>::optional("closing_peak_ground_m", Unit::M, "the part of it that the grounds contribute; only with different motion under each building", |c| c.closing_peak_ground_m).not_in_summary(),
     ];
 }
 
