@@ -100,7 +100,7 @@ fn a_flipped_bit_is_noticed_or_harmless() {
             let bits = if full {
                 (0..8).collect()
             } else {
-                vec![at * 3 % 8, (at * 3 + 5) % 8]
+                vec![at * 3 % 8]
             };
             for bit in bits {
                 bytes[at] ^= 1 << bit;
@@ -390,7 +390,7 @@ fn mutated_files_never_panic() {
     let iterations = std::env::var("JOSTLE_MUTATIONS")
         .ok()
         .and_then(|n| n.parse().ok())
-        .unwrap_or(150);
+        .unwrap_or(60);
     let seed = std::env::var("JOSTLE_SEED")
         .ok()
         .and_then(|n| n.parse().ok())
@@ -413,7 +413,7 @@ fn mutated_files_never_panic() {
             }
         }
     }
-    if iterations > 150 {
+    if iterations > 60 {
         let count = iterations * all.len();
         eprintln_done(count);
     }
