@@ -103,7 +103,10 @@ class Frame(Part):
         beam_segments: segments of the beams, 4 by default: one count, or one per span.
         axial: ``"rigid"`` or ``"flexible"`` columns, or ``{"columns": …, "beams": …}``; by default columns with ``EA`` are flexible
             in frames above 3 times as high as wide or ten storeys, except on a foundation.
-        joint: elastic hinges at the beam ends, ``{"rotational_stiffness": "2e8 N.m/rad"}``.
+        joint: semi-rigid connections of beams, ``{"rotational_stiffness": "2e8 N.m/rad"}``; with ``"hinge"`` they yield:
+            ``{"rule": "bilinear", "yield": "200 kN.m", "post_yield": 0.02}``.
+        rigid_ends: share of the half depths of columns and beams that is rigid inside joints, 0 by default, 1 up to their faces; or
+            lengths from the axes, ``{"beams": "0.25 m", "columns": "0.3 m"}``.
         damping: ``{"ratio": 0.05, "modes": [1, 3]}`` or ``{"alpha": …, "beta": …}``; 5 % by default, 3 % or less is usual with
             hinges.
         base: springs and dashpots under every column: ``"fixed"`` (default) or ``{"rotational_stiffness": …}``.
@@ -174,6 +177,7 @@ class Frame(Part):
         beam_segments: int | Iterable[int] | None = None,
         axial: _Flexibility | Table | None = None,
         joint: Table | None = None,
+        rigid_ends: float | Table | None = None,
         damping: Table | None = None,
         base: Literal["fixed"] | Table | None = None,
         isolation: Table | None = None,
@@ -216,6 +220,7 @@ class Frame(Part):
                 "beam_segments": beam_segments,
                 "axial": axial,
                 "joint": joint,
+                "rigid_ends": rigid_ends,
                 "damping": damping,
                 "base": base,
                 "isolation": isolation,

@@ -81,6 +81,7 @@ pub(crate) enum Section {
     Axial,
     ShearDeformation,
     Joint,
+    RigidEnds,
     /// Springs and dashpots under any building.
     ShearBase,
     /// Further ones under the columns of a frame.
@@ -671,7 +672,8 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Frame, "axial", ChoiceOrTable(AXIAL, S::Axial), "\"flexible\" for columns with EA of frames with walls, above 3 times as high as wide or ten storeys, except on a foundation; otherwise \"rigid\"", "Axial deformation: \"flexible\" is that of columns, `{ columns = \"flexible\", beams = \"flexible\" }` lets beams stretch too, as without a slab: a neighbour then strikes joints instead of floors."),
     default(S::Frame, "shear", ChoiceOrTable(AXIAL, S::ShearDeformation), "\"rigid\"", "Shear deformation of members (Timoshenko)."),
     default(S::Frame, "poisson_ratio", Quantity(D::Dimensionless), "0.2", "Poisson's ratio, for the shear modulus.").usual("a Poisson's ratio", 0.01, 0.5),
-    optional(S::Frame, "joint", Kind::Table(S::Joint), "Elastic hinge at the beam ends."),
+    optional(S::Frame, "joint", Kind::Table(S::Joint), "Semi-rigid connection between beam ends and columns."),
+    default(S::Frame, "rigid_ends", NumberOrTable(S::RigidEnds), "0", "How much of the half depths of columns and beams is rigid inside joints: 1 up to the faces, 0 not at all; or lengths.").usual("a share of a joint", 0.01, 1.0),
     optional(S::Frame, "hinges", Kind::Table(S::Hinges), "Plastic hinges at the member ends; without them the frame is elastic."),
     optional(S::Frame, "brace", Tables(&[S::Brace]), "Braces between joints."),
     optional(S::Frame, "infill", Tables(&[S::Infill]), "Masonry panels in the bays."),
@@ -719,7 +721,8 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::PlanFrame, "axial", ChoiceOrTable(AXIAL, S::Axial), "\"flexible\" for columns with EA of frames with walls, above 3 times as high as wide or ten storeys, except on a foundation; otherwise \"rigid\"", "Axial deformation of columns; floors are rigid."),
     default(S::PlanFrame, "shear", ChoiceOrTable(AXIAL, S::ShearDeformation), "\"rigid\"", "Shear deformation of members (Timoshenko)."),
     default(S::PlanFrame, "poisson_ratio", Quantity(D::Dimensionless), "0.2", "Poisson's ratio, for the shear modulus.").usual("a Poisson's ratio", 0.01, 0.5),
-    optional(S::PlanFrame, "joint", Kind::Table(S::Joint), "Elastic hinge at the beam ends."),
+    optional(S::PlanFrame, "joint", Kind::Table(S::Joint), "Semi-rigid connection between beam ends and columns."),
+    default(S::PlanFrame, "rigid_ends", NumberOrTable(S::RigidEnds), "0", "How much of the half depths of columns and beams is rigid inside joints: 1 up to the faces, 0 not at all; or lengths.").usual("a share of a joint", 0.01, 1.0),
     optional(S::PlanFrame, "hinges", Kind::Table(S::Hinges), "Plastic hinges at the ends of its members, given by moments; without them it is elastic."),
     optional(S::PlanFrame, "brace", Tables(&[S::Brace]), "Braces between joints."),
     optional(S::PlanFrame, "infill", Tables(&[S::Infill]), "Masonry panels in the bays."),
@@ -978,8 +981,11 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::FrameBase, "rotational_hinge", Kind::Table(S::BaseRocking), "Yielding of the rotational spring; without this table it is elastic."),
     default(S::FrameBase, "rotational_damping", Quantity(D::RotationalDamping), "0", "Dashpot parallel to the rotational spring.").usual("a rotational dashpot coefficient", 100.0, 1e11),
 
+    default(S::RigidEnds, "beams", Quantity(D::Length), "0", "From the axis of a column to where its beams begin to bend.").usual("a rigid end", 0.02, 2.0),
+    default(S::RigidEnds, "columns", Quantity(D::Length), "0", "From the axis of a beam to where the columns below and above it begin to bend; feet on the ground have none.").usual("a rigid end", 0.02, 2.0),
     default(S::Joint, "horizontal_stiffness", WordOr("rigid", D::Stiffness), "\"rigid\"", "Horizontal stiffness between beam end and column.").usual("a stiffness of a joint", 1e4, 9e12),
     default(S::Joint, "vertical_stiffness", WordOr("rigid", D::Stiffness), "\"rigid\"", "Vertical stiffness between beam end and column.").usual("a stiffness of a joint", 1e4, 9e12),
+    optional(S::Joint, "hinge", Kind::Table(S::BaseRocking), "Yielding of the connection, in place of hinges of beams; without this table it is elastic. Needs rotational_stiffness."),
     default(S::Joint, "rotational_stiffness", WordOr("rigid", D::RotationalStiffness), "\"rigid\"", "Rotational stiffness of the hinge between beam end and column.").usual("a rotational stiffness", 1e4, 1e12),
 
     default(S::Damping, "ratio", Quantity(D::Dimensionless), "0.05", "Fraction of critical damping in the modes below.").usual("a damping ratio", 1e-4, 1.0),
@@ -1049,7 +1055,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::ColumnHinge, "x", Kind::Table(S::Hinge), "Bending in the vertical plane along the lines x. Without x and y both planes yield alike; with one of them, the other stays elastic. What is not given here stands beside it."),
     optional(S::ColumnHinge, "y", Kind::Table(S::Hinge), "Bending in the vertical plane across."),
 
-    required(S::BaseRocking, "rule", Choice(RULES), "Unloading and reloading rule of the base."),
+    required(S::BaseRocking, "rule", Choice(RULES), "Unloading and reloading rule."),
     default(S::BaseRocking, "gamma", Quantity(D::Dimensionless), "0.4", "Exponent of the unloading stiffness of takeda.").usual("an exponent", 1e-3, 1.0),
     optional(S::BaseRocking, "pinching", Kind::Table(S::Pinching), "Where reloading stiffens; required with the rule pinched."),
     default(S::BaseRocking, "unloading_exponent", Quantity(D::Dimensionless), "0", "Exponent with which the unloading stiffness of pinched falls with the peak, 0 to 1.").usual("an exponent", 1e-3, 1.0),

@@ -32,6 +32,15 @@ pub(super) fn read(
     })
 }
 
+/// Size of a profile in the direction of bending \[m\].
+pub(super) fn depth(reader: &mut Reader<'_>, view: &View<'_>, field: &Field<'_>) -> Option<f64> {
+    let own = named_or_sized(reader, field)?;
+    Some(match axis_of(reader, view)?.unwrap_or(Axis::Strong) {
+        Axis::Strong => own.depth,
+        Axis::Weak => own.width,
+    })
+}
+
 /// The profile of a brace, and the axis about which it buckles.
 pub(super) fn of_brace(
     reader: &mut Reader<'_>,

@@ -35,7 +35,7 @@ element = [{ at = [0, 0], stiffness = 1, storeys = [1, 1] }]
 kind = "frame"
 plan = [1, 1]
 mass = 1
-frame = [{ at = [0, 0], lines = ["A"], stiffness_factor = { column = 1 }, axial = { columns = "rigid" }, shear = { columns = "flexible" }, joint = {}, base = { mass = 1 }, column = { EI = 1 }, beam = { EI = 1 } }]
+frame = [{ at = [0, 0], lines = ["A"], stiffness_factor = { column = 1 }, axial = { columns = "rigid" }, shear = { columns = "flexible" }, joint = {}, rigid_ends = { beams = 1 }, base = { mass = 1 }, column = { EI = 1 }, beam = { EI = 1 } }]
 "#,
     r#"
 [motion]
@@ -49,7 +49,8 @@ stiffness_factor = { column = 1 }
 axial = { columns = "rigid" }
 shear = { columns = "flexible" }
 base = { horizontal_stiffness = 1, horizontal_hinge = { rule = "normal" }, rotational_stiffness = 1, rotational_hinge = { rule = "normal" } }
-joint = { rotational_stiffness = 1 }
+joint = { rotational_stiffness = 1, hinge = { rule = "bilinear" } }
+rigid_ends = { beams = 1 }
 damping = { ratio = 0.1 }
 foundation = { length = 1 }
 isolation = { kind = "friction-pendulum", friction = { slow = 0.03 }, bounds = { upper = { strength = 2 } }, stop = { left = { at = 1 } } }

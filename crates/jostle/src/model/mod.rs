@@ -333,6 +333,9 @@ pub struct Frame {
     pub walls: Vec<FrameWall>,
     /// Beams between them whose forces are followed; their sections are those of beams.
     pub coupling_beams: Vec<CouplingBeam>,
+    /// Rigid zones of joints, by floor and line from 0: how far from the axes beams on either side, and columns below and above, are
+    /// rigid, ≥ 0; none where there is no entry: read [`Frame::rigid_zone`] \[m\].
+    pub rigid_zones: BTreeMap<FramePlace, [f64; 2]>,
 }
 
 /// Cross-section of a member.
