@@ -863,7 +863,7 @@ pub(crate) const KEYS: &[Key] = &[
 
     optional(S::Column, "width", Quantity(D::Length), "Width, across the direction of bending.").usual("a section width", 0.05, 5.0).possible(0.005, 10.0),
     optional(S::Column, "depth", Quantity(D::Length), "Depth, in the direction of bending.").usual("a section depth", 0.05, 5.0).possible(0.005, 10.0),
-    optional(S::Column, "profile", TextOrTable(S::Profile), "Steel profile instead of width and depth: a name, such as `\"HEB300\"` (IPE, HEA and HEB are known), or its sizes. It has E = 210 GPa unless the building states elastic_modulus, 7850 kg/m3, and no factor of cracking."),
+    optional(S::Column, "profile", TextOrTable(S::Profile), "Steel profile instead of width and depth: a name, such as `\"HEB300\"` (IPE, HEA, HEB), `\"W14X90\"` (W shapes) or `\"HSS8X6X3/8\"` (American tubes), or sizes of an I shape. It has E = 210 GPa, or 29 000 ksi by an American name, unless the building states elastic_modulus, 7850 kg/m3, and no factor of cracking."),
     optional(S::Column, "axis", Choice(AXES), "Which axis the profile bends about; `strong` if not given."),
     optional(S::Column, "EI", Quantity(D::FlexuralRigidity), "Flexural rigidity, instead of width and depth.").usual("a flexural rigidity", 1e5, 1e12),
     optional(S::Column, "EA", Quantity(D::Force), "Axial rigidity, with EI; needed for axially flexible columns.").usual("an axial rigidity", 1e5, 1e13),
