@@ -123,7 +123,8 @@ class Frame(Part):
         brace: braces between joints: ``[{"storeys": [1, 3], "bay": 1, "direction": "both", "EA": "600 MN"}]``; with ``"hinge"`` they
             yield, or buckle: ``{"profile": "HEB160", "hinge": {"rule": "buckling", "curve": "c", "yield_strength": "275 MPa"}}``.
         infill: masonry panels in the bays, as struts that bear compression alone:
-            ``[{"storeys": [2, 4], "modulus": "4 GPa", "thickness": "200 mm", "width": "1.4 m"}]``.
+            ``[{"storeys": [2, 4], "modulus": "4 GPa", "thickness": "200 mm", "width": "1.4 m"}]``; ``"out_of_plane"`` compares
+            what they bear across their plane.
         wall: walls, each in place of a column line: ``[{"at": "4.5 m", "length": "3 m", "thickness": "250 mm"}]``; with ``"hinge"``
             they yield at their feet.
         coupling_beam: beams between walls with properties of their own, whose forces are reported:

@@ -45,6 +45,7 @@ pub(crate) enum Section {
     Infill,
     /// Strengths of its masonry.
     InfillStrength,
+    InfillOutOfPlane,
     /// Curve of first loading of its struts.
     InfillBackbone,
     /// Openings in it.
@@ -547,6 +548,9 @@ pub(crate) const STRUT_WIDTHS: &[&str] = &["mainstone", "bertoldi", "paulay-prie
 /// Rules for the strength of a panel.
 pub(crate) const PANEL_STRENGTHS: &[&str] = &["bertoldi", "sliding"];
 
+/// Rules for what a panel bears across its plane.
+pub(crate) const ARCHINGS: &[&str] = &["asce41", "en1996"];
+
 /// Rules for its curve of first loading.
 pub(crate) const PANEL_CURVES: &[&str] = &["bertoldi", "panagiotakos-fardis"];
 
@@ -748,6 +752,12 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Infill, "backbone", TextOrTable(S::InfillBackbone), "Curve of first loading with strength or force: `\"bertoldi\"` (usual), or `{ rule = \"panagiotakos-fardis\", softening = 0.05, residual = 0.1 }`."),
     optional(S::Infill, "opening", NumberOrTable(S::InfillOpening), "Share of the length that openings take: 1 − 1.5 share of stiffness and strength stay (Dawe and Seah, 1989); or length and area (Decanini and others, 2014).").usual("a share of openings", 0.01, 1.0),
     optional(S::Infill, "hinge", Kind::Table(S::LinkHinge), "Cracking of each strut: rule pinched and corners; without it struts stay elastic."),
+    optional(S::Infill, "out_of_plane", Kind::Table(S::InfillOutOfPlane), "What the panel bears across its plane, compared with its inertia force by the accelerations of the floors; it does not change the motion."),
+    optional(S::InfillOutOfPlane, "rule", Choice(ARCHINGS), "Arching between the floors of panels without openings up to 25 times as high as thick: `asce41`, 0.7 compression λ₂ thickness/height with λ₂ of FEMA 356, table 7-11; `en1996`, compression (thickness/height)² (EN 1996-1-1, 6.3.2)."),
+    optional(S::InfillOutOfPlane, "compression", Quantity(D::Modulus), "Compressive strength of the masonry along its height; that of strength if it has one.").usual("a strength of masonry", 1e5, 5e7),
+    optional(S::InfillOutOfPlane, "strength", Quantity(D::Modulus), "Pressure that the panel bears, instead of rule.").usual("a pressure on a panel", 100.0, 1e5),
+    required(S::InfillOutOfPlane, "density", Quantity(D::Density), "Density of the panel with its plaster.").usual("a density of masonry", 300.0, 2600.0),
+    optional(S::InfillOutOfPlane, "height", Quantity(D::Length), "Clear height of the panel; that of the storey between axes if not given.").usual("a height of a panel", 1.0, 8.0),
     required(S::InfillStrength, "rule", Choice(PANEL_STRENGTHS), "`bertoldi`, the least of four stresses (crushing of the diagonal and of corners, sliding, cracking); or `sliding`, (sliding + 0.4 vertical_stress) over the length and thickness of the panel (FEMA 306)."),
     optional(S::InfillStrength, "compression", Quantity(D::Modulus), "bertoldi: compressive strength across the bed joints.").usual("a strength of masonry", 1e5, 5e7),
     optional(S::InfillStrength, "shear", Quantity(D::Modulus), "bertoldi: shear strength in diagonal compression.").usual("a strength of masonry", 1e4, 5e6),

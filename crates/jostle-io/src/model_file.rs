@@ -31,6 +31,7 @@ mod joint_capacity;
 mod link;
 mod matching;
 pub(crate) mod motion;
+mod out_of_plane;
 mod output;
 mod partial;
 mod places;

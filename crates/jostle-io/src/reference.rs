@@ -74,6 +74,11 @@ const TABLES: &[(Section, &str, &str)] = &[
         "",
     ),
     (
+        Section::InfillOutOfPlane,
+        "`out_of_plane` of `[[building.infill]]`",
+        "`parts` of the results have its `out_of_plane_ratio`.",
+    ),
+    (
         Section::InfillBackbone,
         "`backbone` of `[[building.infill]]`",
         "",

@@ -181,6 +181,7 @@ pub(super) fn places(
                     place,
                     stiffness: stiffness(place, length)?,
                     hysteresis: None,
+                    across: None,
                 });
             }
         }
