@@ -117,7 +117,8 @@ class Frame(Part):
         hinges: plastic hinges at the member ends; without them the frame is elastic:
             ``{"rule": "peak-oriented", "from": "section"}`` or
             ``{"rule": "normal", "initial": 100, "column": {"cracking": "120 kN.m", …}, "beam": {…}}``. With
-            ``{"rule": "fibre", "length": "0.4 m"}`` the ends of columns with bars are fibres, whose strength follows the axial force.
+            ``{"rule": "fibre", "length": "0.4 m"}`` the ends of columns with bars are fibres, whose strength follows the axial force;
+            ``"steel": "menegotto-pinto"`` bends the loops of their bars.
         shear_failure: columns that fail in shear: ``{"rule": "sezen-moehle", "residual": 0.2}`` or
             ``{"strength": "300 kN", "slope": "5 MN/m"}``; without it their shear strength has no limit.
         brace: braces between joints: ``[{"storeys": [1, 3], "bay": 1, "direction": "both", "EA": "600 MN"}]``; with ``"hinge"`` they

@@ -83,6 +83,7 @@ pub(crate) enum Section {
     ShearDeformation,
     Joint,
     RigidEnds,
+    FibreSteel,
     /// Springs and dashpots under any building.
     ShearBase,
     /// Further ones under the columns of a frame.
@@ -430,6 +431,8 @@ pub(crate) const SHEAR_ENDS: &[&str] = &["foot", "both"];
 pub(crate) const HINGE_RULES: &[&str] = &joined::<8>(&[RULES, &["fibre"]]);
 /// Where fibres stand: at both ends of all columns, or at their feet on the ground.
 pub(crate) const FIBRE_ENDS: &[&str] = &["both", "base"];
+/// How bars of fibres go through loops.
+pub(crate) const FIBRE_STEELS: &[&str] = &["bilinear", "menegotto-pinto"];
 pub(crate) const HINGE_SOURCES: &[&str] = &["section"];
 pub(crate) const HINGE_METHODS: &[&str] = &["formula", "fibre"];
 pub(crate) const WAVES: &[&str] = &["sine", "ricker"];
@@ -991,6 +994,10 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::FrameBase, "rotational_hinge", Kind::Table(S::BaseRocking), "Yielding of the rotational spring; without this table it is elastic."),
     default(S::FrameBase, "rotational_damping", Quantity(D::RotationalDamping), "0", "Dashpot parallel to the rotational spring.").usual("a rotational dashpot coefficient", 100.0, 1e11),
 
+    required(S::FibreSteel, "rule", Choice(FIBRE_STEELS), "Loops of the bars."),
+    default(S::FibreSteel, "R0", Quantity(D::Dimensionless), "20", "menegotto-pinto: exponent of the first curve, 1 or more; smaller ones bend earlier.").usual("an exponent", 5.0, 30.0),
+    default(S::FibreSteel, "cR1", Quantity(D::Dimensionless), "0.925", "menegotto-pinto: share of the exponent that plastic deformation takes.").usual("a share of an exponent", 0.5, 0.97),
+    default(S::FibreSteel, "cR2", Quantity(D::Dimensionless), "0.15", "menegotto-pinto: plastic over yield deformation at which half of that share is lost.").usual("a ratio of deformations", 0.01, 1.0),
     default(S::RigidEnds, "beams", Quantity(D::Length), "0", "From the axis of a column to where its beams begin to bend.").usual("a rigid end", 0.02, 2.0),
     default(S::RigidEnds, "columns", Quantity(D::Length), "0", "From the axis of a beam to where the columns below and above it begin to bend; feet on the ground have none.").usual("a rigid end", 0.02, 2.0),
     default(S::Joint, "horizontal_stiffness", WordOr("rigid", D::Stiffness), "\"rigid\"", "Horizontal stiffness between beam end and column.").usual("a stiffness of a joint", 1e4, 9e12),
@@ -1028,6 +1035,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Hinges, "residual", Quantity(D::Dimensionless), "0.2", "Strength of crushed concrete over its strength.").usual("a ratio", 1e-3, 1.0),
     default(S::Hinges, "ultimate_strain", Quantity(D::Dimensionless), "on the straight line through its stress at the crushing strain", "Strain at which concrete has fallen to its residual strength.").usual("a strain", 2e-3, 0.3),
     default(S::Hinges, "hardening", Quantity(D::Dimensionless), "that of the steel", "Modulus of bars after yield over that before.").usual("a ratio of stiffnesses", 1e-4, 0.2),
+    default(S::Hinges, "steel", TextOrTable(S::FibreSteel), "\"bilinear\"", "Loops of the bars: straight lines with one corner, or `\"menegotto-pinto\"`, which bend smoothly; its numbers as a table."),
     default(S::Hinges, "beam_rule", Choice(RULES), "\"peak-oriented\"", "Rule of the hinges of beams beside fibres in columns; from = \"section\" computes their moments."),
 
     optional(S::Hinge, "cracking", Quantity(D::Moment), "Cracking moment.").usual("a cracking moment", 1e3, 1e9),
@@ -1055,6 +1063,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::SpaceHinges, "residual", Quantity(D::Dimensionless), "0.2", "Strength of crushed concrete over its strength.").usual("a ratio", 1e-3, 1.0),
     default(S::SpaceHinges, "ultimate_strain", Quantity(D::Dimensionless), "on the straight line through its stress at the crushing strain", "Strain at which concrete has fallen to its residual strength.").usual("a strain", 2e-3, 0.3),
     default(S::SpaceHinges, "hardening", Quantity(D::Dimensionless), "that of the steel", "Modulus of bars after yield over that before.").usual("a ratio of stiffnesses", 1e-4, 0.2),
+    default(S::SpaceHinges, "steel", TextOrTable(S::FibreSteel), "\"bilinear\"", "Loops of the bars: straight lines with one corner, or `\"menegotto-pinto\"`, which bend smoothly; its numbers as a table."),
     default(S::SpaceHinges, "beam_rule", Choice(RULES), "\"peak-oriented\"", "Rule of the hinges of beams beside fibres in columns."),
     optional(S::ColumnHinge, "cracking", Quantity(D::Moment), "Cracking moment.").usual("a cracking moment", 1e3, 1e9),
     optional(S::ColumnHinge, "yield", Quantity(D::Moment), "Yield moment.").usual("a yield moment", 1e3, 1e9),

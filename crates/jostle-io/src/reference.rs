@@ -148,6 +148,11 @@ const TABLES: &[(Section, &str, &str)] = &[
     (Section::ShearDeformation, "`shear` of a frame", ""),
     (Section::Joint, "`joint` of a frame", ""),
     (
+        Section::FibreSteel,
+        "`hinges.steel` with fibres",
+        "By Menegotto and Pinto (1973) with the exponents of Filippou, Popov and Bertero (1983): see [the rules](hysteresis.md#menegotto-pinto).",
+    ),
+    (
         Section::RigidEnds,
         "`rigid_ends` of a frame",
         "The same lengths at all joints. As a number it is a share of half depths: beams are rigid over half the deeper column at the joint, columns over half the deeper beam. Forces and hinges of members are those where they begin to bend.",

@@ -652,6 +652,7 @@ fn corners_of(rule: HysteresisRule, numbers: [Option<f64>; 4]) -> Option<Corners
         | HysteresisRule::Failing(_)
         | HysteresisRule::Buckling(_)
         | HysteresisRule::Concrete(_)
+        | HysteresisRule::MenegottoPinto(_)
         | HysteresisRule::Pendulums(_)
         | HysteresisRule::InPlan { .. } => Corners {
             cracking: cracking?,
