@@ -78,6 +78,7 @@ fn inches(text: &str) -> Option<f64> {
 /// Depth d, width bf, web tw, flange tf and distance k from the outer face of the flange to the toe of the fillet (AISC shapes database)
 /// \[in\].
 #[rustfmt::skip]
+#[expect(clippy::approx_constant, reason = "a depth of 6.28 in")]
 const W_SHAPES: &[(&str, [f64; 5])] = &[
     ("W44X408", [44.8, 16.1, 1.22, 2.17, 2.96]),
     ("W44X368", [44.4, 16.0, 1.1, 1.97, 2.76]),
@@ -364,7 +365,7 @@ const W_SHAPES: &[(&str, [f64; 5])] = &[
     ("W6X16", [6.28, 4.03, 0.26, 0.405, 0.655]),
     ("W6X12", [6.03, 4.0, 0.23, 0.28, 0.53]),
     ("W6X9", [5.9, 3.94, 0.17, 0.215, 0.465]),
-    ("W6X8_5", [5.83, 3.94, 0.17, 0.195, 0.445]),
+    ("W6X8.5", [5.83, 3.94, 0.17, 0.195, 0.445]),
     ("W5X19", [5.15, 5.03, 0.27, 0.43, 0.73]),
     ("W5X16", [5.01, 5.0, 0.24, 0.36, 0.66]),
     ("W4X13", [4.16, 4.06, 0.28, 0.345, 0.595]),
@@ -436,7 +437,7 @@ mod tests {
             let (_, weight) = name.split_once('X').expect("a weight");
             let weight: f64 = weight.parse().expect("a number");
             let found = own.area() / (INCH * INCH) / 144.0 * 490.0;
-            assert!((found / weight - 1.0).abs() < 0.03, "{name}: {found}");
+            assert!((found / weight - 1.0).abs() < 0.02, "{name}: {found}");
         }
     }
 

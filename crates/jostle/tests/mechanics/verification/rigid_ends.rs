@@ -6,11 +6,11 @@ use jostle::statics::STANDARD_GRAVITY;
 use jostle::stiffness::DirectStiffness;
 use jostle::structure::{MemberPlace, solve_once};
 use jostle::{
-    Axial, Damping, Frame, FrameHinges, Gravity, Hinges, MemberRequest, Model, RiccatiSweep,
-    Section, State, Structure, System,
+    Axial, Damping, FloorPairs, Frame, FrameHinges, Gap, Gravity, Hinges, Level, MemberRequest,
+    Model, RiccatiSweep, Section, State, Structure, System,
 };
 use jostle_testkit::compare::close;
-use jostle_testkit::models::{bending, building};
+use jostle_testkit::models::{CONCRETE_REALISED, bending, building};
 use jostle_testkit::motions::fading;
 
 use crate::verification::support::{assembled, moving, run, steps};
@@ -481,4 +481,38 @@ fn forces_and_energies_balance_while_it_yields() {
     for (own, storey) in sheared.into_iter().zip(storeys) {
         close(own, storey, 1e5, 1e-9, "shear of a storey");
     }
+}
+
+/// What would strike the rigid end of a column is refused; above it, the column is struck.
+#[test]
+fn rigid_ends_are_not_struck() {
+    let struck_at = |height: f64| {
+        let mut model = alone(portal());
+        model
+            .buildings
+            .push(building("B", Structure::Frame(portal())));
+        model.gaps.push(Gap {
+            floors: FloorPairs::Listed(vec![[Level::Height(height), Level::Floor(1)]]),
+            ..Gap::after(0, 0.02, CONCRETE_REALISED)
+        });
+        if let Structure::Frame(frame) = &mut model.buildings[1].structure {
+            frame.storey_heights = vec![height];
+        }
+        for own in &mut model.buildings {
+            if let Structure::Frame(frame) = &mut own.structure {
+                frame.columns[0].line_mass = 600.0;
+            }
+        }
+        System::assemble(&model)
+    };
+    // The column bends up to 3.25 m.
+    let system = struck_at(3.2).expect("it can be struck");
+    close(system.contacts[0].height, 3.2, 1.0, 1e-9, "height");
+    let faults = struck_at(3.4).expect_err("it is rigid there");
+    assert!(
+        faults
+            .iter()
+            .any(|own| own.problem.contains("is rigid there")),
+        "{faults:?}"
+    );
 }
