@@ -257,8 +257,11 @@ fn uneven() -> Frame {
     own
 }
 
+/// A frame, all its members, those with names, and joints as floor, line and node.
+type Explicit = (Plane, Vec<Beam>, Vec<(MemberPlace, Beam)>, Vec<[usize; 3]>);
+
 /// The same with members that are a million times as stiff inside joints; also joints by floor and line, and the members by name.
-fn explicit(frame: &Frame) -> (Plane, Vec<Beam>, Vec<(MemberPlace, Beam)>, Vec<[usize; 3]>) {
+fn explicit(frame: &Frame) -> Explicit {
     const STIFF: f64 = 1e6;
     let mut plane = Plane::default();
     let lines = frame.line_positions();
