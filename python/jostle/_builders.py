@@ -103,7 +103,10 @@ class Frame(Part):
         beam_segments: segments of the beams, 4 by default: one count, or one per span.
         axial: ``"rigid"`` or ``"flexible"`` columns, or ``{"columns": …, "beams": …}``; by default columns with ``EA`` are flexible
             in frames above 3 times as high as wide or ten storeys, except on a foundation.
-        joint: elastic hinges at the beam ends, ``{"rotational_stiffness": "2e8 N.m/rad"}``.
+        joint: semi-rigid connections of beams, ``{"rotational_stiffness": "2e8 N.m/rad"}``; with ``"hinge"`` they yield:
+            ``{"rule": "bilinear", "yield": "200 kN.m", "post_yield": 0.02}``.
+        rigid_ends: share of the half depths of columns and beams that is rigid inside joints, 0 by default, 1 up to their faces; or
+            lengths from the axes, ``{"beams": "0.25 m", "columns": "0.3 m"}``.
         damping: ``{"ratio": 0.05, "modes": [1, 3]}`` or ``{"alpha": …, "beta": …}``; 5 % by default, 3 % or less is usual with
             hinges.
         base: springs and dashpots under every column: ``"fixed"`` (default) or ``{"rotational_stiffness": …}``.
@@ -114,13 +117,15 @@ class Frame(Part):
         hinges: plastic hinges at the member ends; without them the frame is elastic:
             ``{"rule": "peak-oriented", "from": "section"}`` or
             ``{"rule": "normal", "initial": 100, "column": {"cracking": "120 kN.m", …}, "beam": {…}}``. With
-            ``{"rule": "fibre", "length": "0.4 m"}`` the ends of columns with bars are fibres, whose strength follows the axial force.
+            ``{"rule": "fibre", "length": "0.4 m"}`` the ends of columns with bars are fibres, whose strength follows the axial force;
+            ``"steel": "menegotto-pinto"`` bends the loops of their bars.
         shear_failure: columns that fail in shear: ``{"rule": "sezen-moehle", "residual": 0.2}`` or
             ``{"strength": "300 kN", "slope": "5 MN/m"}``; without it their shear strength has no limit.
         brace: braces between joints: ``[{"storeys": [1, 3], "bay": 1, "direction": "both", "EA": "600 MN"}]``; with ``"hinge"`` they
             yield, or buckle: ``{"profile": "HEB160", "hinge": {"rule": "buckling", "curve": "c", "yield_strength": "275 MPa"}}``.
         infill: masonry panels in the bays, as struts that bear compression alone:
-            ``[{"storeys": [2, 4], "modulus": "4 GPa", "thickness": "200 mm", "width": "1.4 m"}]``.
+            ``[{"storeys": [2, 4], "modulus": "4 GPa", "thickness": "200 mm", "width": "1.4 m"}]``; ``"out_of_plane"`` compares
+            what they bear across their plane.
         wall: walls, each in place of a column line: ``[{"at": "4.5 m", "length": "3 m", "thickness": "250 mm"}]``; with ``"hinge"``
             they yield at their feet.
         coupling_beam: beams between walls with properties of their own, whose forces are reported:
@@ -174,6 +179,7 @@ class Frame(Part):
         beam_segments: int | Iterable[int] | None = None,
         axial: _Flexibility | Table | None = None,
         joint: Table | None = None,
+        rigid_ends: float | Table | None = None,
         damping: Table | None = None,
         base: Literal["fixed"] | Table | None = None,
         isolation: Table | None = None,
@@ -216,6 +222,7 @@ class Frame(Part):
                 "beam_segments": beam_segments,
                 "axial": axial,
                 "joint": joint,
+                "rigid_ends": rigid_ends,
                 "damping": damping,
                 "base": base,
                 "isolation": isolation,

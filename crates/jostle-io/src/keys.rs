@@ -45,6 +45,7 @@ pub(crate) enum Section {
     Infill,
     /// Strengths of its masonry.
     InfillStrength,
+    InfillOutOfPlane,
     /// Curve of first loading of its struts.
     InfillBackbone,
     /// Openings in it.
@@ -81,6 +82,8 @@ pub(crate) enum Section {
     Axial,
     ShearDeformation,
     Joint,
+    RigidEnds,
+    FibreSteel,
     /// Springs and dashpots under any building.
     ShearBase,
     /// Further ones under the columns of a frame.
@@ -434,6 +437,8 @@ pub(crate) const SHEAR_ENDS: &[&str] = &["foot", "both"];
 pub(crate) const HINGE_RULES: &[&str] = &joined::<8>(&[RULES, &["fibre"]]);
 /// Where fibres stand: at both ends of all columns, or at their feet on the ground.
 pub(crate) const FIBRE_ENDS: &[&str] = &["both", "base"];
+/// How bars of fibres go through loops.
+pub(crate) const FIBRE_STEELS: &[&str] = &["bilinear", "menegotto-pinto"];
 pub(crate) const HINGE_SOURCES: &[&str] = &["section"];
 pub(crate) const HINGE_METHODS: &[&str] = &["formula", "fibre"];
 pub(crate) const WAVES: &[&str] = &["sine", "ricker"];
@@ -551,6 +556,9 @@ pub(crate) const STRUT_WIDTHS: &[&str] = &["mainstone", "bertoldi", "paulay-prie
 
 /// Rules for the strength of a panel.
 pub(crate) const PANEL_STRENGTHS: &[&str] = &["bertoldi", "sliding"];
+
+/// Rules for what a panel bears across its plane.
+pub(crate) const ARCHINGS: &[&str] = &["asce41", "en1996"];
 
 /// Rules for its curve of first loading.
 pub(crate) const PANEL_CURVES: &[&str] = &["bertoldi", "panagiotakos-fardis"];
@@ -677,7 +685,8 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Frame, "axial", ChoiceOrTable(AXIAL, S::Axial), "\"flexible\" for columns with EA of frames with walls, above 3 times as high as wide or ten storeys, except on a foundation; otherwise \"rigid\"", "Axial deformation: \"flexible\" is that of columns, `{ columns = \"flexible\", beams = \"flexible\" }` lets beams stretch too, as without a slab: a neighbour then strikes joints instead of floors."),
     default(S::Frame, "shear", ChoiceOrTable(AXIAL, S::ShearDeformation), "\"rigid\"", "Shear deformation of members (Timoshenko)."),
     default(S::Frame, "poisson_ratio", Quantity(D::Dimensionless), "0.2", "Poisson's ratio, for the shear modulus.").usual("a Poisson's ratio", 0.01, 0.5),
-    optional(S::Frame, "joint", Kind::Table(S::Joint), "Elastic hinge at the beam ends."),
+    optional(S::Frame, "joint", Kind::Table(S::Joint), "Semi-rigid connection between beam ends and columns."),
+    default(S::Frame, "rigid_ends", NumberOrTable(S::RigidEnds), "0", "How much of the half depths of columns and beams is rigid inside joints: 1 up to the faces, 0 not at all; or lengths.").usual("a share of a joint", 0.01, 1.0),
     optional(S::Frame, "hinges", Kind::Table(S::Hinges), "Plastic hinges at the member ends; without them the frame is elastic."),
     optional(S::Frame, "brace", Tables(&[S::Brace]), "Braces between joints."),
     optional(S::Frame, "infill", Tables(&[S::Infill]), "Masonry panels in the bays."),
@@ -725,7 +734,8 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::PlanFrame, "axial", ChoiceOrTable(AXIAL, S::Axial), "\"flexible\" for columns with EA of frames with walls, above 3 times as high as wide or ten storeys, except on a foundation; otherwise \"rigid\"", "Axial deformation of columns; floors are rigid."),
     default(S::PlanFrame, "shear", ChoiceOrTable(AXIAL, S::ShearDeformation), "\"rigid\"", "Shear deformation of members (Timoshenko)."),
     default(S::PlanFrame, "poisson_ratio", Quantity(D::Dimensionless), "0.2", "Poisson's ratio, for the shear modulus.").usual("a Poisson's ratio", 0.01, 0.5),
-    optional(S::PlanFrame, "joint", Kind::Table(S::Joint), "Elastic hinge at the beam ends."),
+    optional(S::PlanFrame, "joint", Kind::Table(S::Joint), "Semi-rigid connection between beam ends and columns."),
+    default(S::PlanFrame, "rigid_ends", NumberOrTable(S::RigidEnds), "0", "How much of the half depths of columns and beams is rigid inside joints: 1 up to the faces, 0 not at all; or lengths.").usual("a share of a joint", 0.01, 1.0),
     optional(S::PlanFrame, "hinges", Kind::Table(S::Hinges), "Plastic hinges at the ends of its members, given by moments; without them it is elastic."),
     optional(S::PlanFrame, "brace", Tables(&[S::Brace]), "Braces between joints."),
     optional(S::PlanFrame, "infill", Tables(&[S::Infill]), "Masonry panels in the bays."),
@@ -751,6 +761,12 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Infill, "backbone", TextOrTable(S::InfillBackbone), "Curve of first loading with strength or force: `\"bertoldi\"` (usual), or `{ rule = \"panagiotakos-fardis\", softening = 0.05, residual = 0.1 }`."),
     optional(S::Infill, "opening", NumberOrTable(S::InfillOpening), "Share of the length that openings take: 1 − 1.5 share of stiffness and strength stay (Dawe and Seah, 1989); or length and area (Decanini and others, 2014).").usual("a share of openings", 0.01, 1.0),
     optional(S::Infill, "hinge", Kind::Table(S::LinkHinge), "Cracking of each strut: rule pinched and corners; without it struts stay elastic."),
+    optional(S::Infill, "out_of_plane", Kind::Table(S::InfillOutOfPlane), "What the panel bears across its plane, compared with its inertia force by the accelerations of the floors; it does not change the motion."),
+    optional(S::InfillOutOfPlane, "rule", Choice(ARCHINGS), "Arching between the floors of panels without openings up to 25 times as high as thick: `asce41`, 0.7 compression λ₂ thickness/height with λ₂ of FEMA 356, table 7-11; `en1996`, compression (thickness/height)² (EN 1996-1-1, 6.3.2)."),
+    optional(S::InfillOutOfPlane, "compression", Quantity(D::Modulus), "Compressive strength of the masonry along its height; that of strength if it has one.").usual("a strength of masonry", 1e5, 5e7),
+    optional(S::InfillOutOfPlane, "strength", Quantity(D::Modulus), "Pressure that the panel bears, instead of rule.").usual("a pressure on a panel", 100.0, 1e5),
+    required(S::InfillOutOfPlane, "density", Quantity(D::Density), "Density of the panel with its plaster.").usual("a density of masonry", 300.0, 2600.0),
+    optional(S::InfillOutOfPlane, "height", Quantity(D::Length), "Clear height of the panel; that of the storey between axes if not given.").usual("a height of a panel", 1.0, 8.0),
     required(S::InfillStrength, "rule", Choice(PANEL_STRENGTHS), "`bertoldi`, the least of four stresses (crushing of the diagonal and of corners, sliding, cracking); or `sliding`, (sliding + 0.4 vertical_stress) over the length and thickness of the panel (FEMA 306)."),
     optional(S::InfillStrength, "compression", Quantity(D::Modulus), "bertoldi: compressive strength across the bed joints.").usual("a strength of masonry", 1e5, 5e7),
     optional(S::InfillStrength, "shear", Quantity(D::Modulus), "bertoldi: shear strength in diagonal compression.").usual("a strength of masonry", 1e4, 5e6),
@@ -866,7 +882,7 @@ pub(crate) const KEYS: &[Key] = &[
 
     optional(S::Column, "width", Quantity(D::Length), "Width, across the direction of bending.").usual("a section width", 0.05, 5.0).possible(0.005, 10.0),
     optional(S::Column, "depth", Quantity(D::Length), "Depth, in the direction of bending.").usual("a section depth", 0.05, 5.0).possible(0.005, 10.0),
-    optional(S::Column, "profile", TextOrTable(S::Profile), "Steel profile instead of width and depth: a name, such as `\"HEB300\"` (IPE, HEA and HEB are known), or its sizes. It has E = 210 GPa unless the building states elastic_modulus, 7850 kg/m3, and no factor of cracking."),
+    optional(S::Column, "profile", TextOrTable(S::Profile), "Steel profile instead of width and depth: a name, such as `\"HEB300\"` (IPE, HEA, HEB), `\"W14X90\"` (W shapes) or `\"HSS8X6X3/8\"` (American tubes), or sizes of an I shape. It has E = 210 GPa, or 29 000 ksi by an American name, unless the building states elastic_modulus, 7850 kg/m3, and no factor of cracking."),
     optional(S::Column, "axis", Choice(AXES), "Which axis the profile bends about; `strong` if not given."),
     optional(S::Column, "EI", Quantity(D::FlexuralRigidity), "Flexural rigidity, instead of width and depth.").usual("a flexural rigidity", 1e5, 1e12),
     optional(S::Column, "EA", Quantity(D::Force), "Axial rigidity, with EI; needed for axially flexible columns.").usual("an axial rigidity", 1e5, 1e13),
@@ -984,8 +1000,15 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::FrameBase, "rotational_hinge", Kind::Table(S::BaseRocking), "Yielding of the rotational spring; without this table it is elastic."),
     default(S::FrameBase, "rotational_damping", Quantity(D::RotationalDamping), "0", "Dashpot parallel to the rotational spring.").usual("a rotational dashpot coefficient", 100.0, 1e11),
 
+    required(S::FibreSteel, "rule", Choice(FIBRE_STEELS), "Loops of the bars."),
+    default(S::FibreSteel, "R0", Quantity(D::Dimensionless), "20", "menegotto-pinto: exponent of the first curve, 1 or more; smaller ones bend earlier.").usual("an exponent", 5.0, 30.0),
+    default(S::FibreSteel, "cR1", Quantity(D::Dimensionless), "0.925", "menegotto-pinto: share of the exponent that plastic deformation takes.").usual("a share of an exponent", 0.5, 0.97),
+    default(S::FibreSteel, "cR2", Quantity(D::Dimensionless), "0.15", "menegotto-pinto: plastic over yield deformation at which half of that share is lost.").usual("a ratio of deformations", 0.01, 1.0),
+    default(S::RigidEnds, "beams", Quantity(D::Length), "0", "From the axis of a column to where its beams begin to bend.").usual("a rigid end", 0.02, 2.0),
+    default(S::RigidEnds, "columns", Quantity(D::Length), "0", "From the axis of a beam to where the columns below and above it begin to bend; feet on the ground have none.").usual("a rigid end", 0.02, 2.0),
     default(S::Joint, "horizontal_stiffness", WordOr("rigid", D::Stiffness), "\"rigid\"", "Horizontal stiffness between beam end and column.").usual("a stiffness of a joint", 1e4, 9e12),
     default(S::Joint, "vertical_stiffness", WordOr("rigid", D::Stiffness), "\"rigid\"", "Vertical stiffness between beam end and column.").usual("a stiffness of a joint", 1e4, 9e12),
+    optional(S::Joint, "hinge", Kind::Table(S::BaseRocking), "Yielding of the connection, in place of hinges of beams; without this table it is elastic. Needs rotational_stiffness."),
     default(S::Joint, "rotational_stiffness", WordOr("rigid", D::RotationalStiffness), "\"rigid\"", "Rotational stiffness of the hinge between beam end and column.").usual("a rotational stiffness", 1e4, 1e12),
 
     default(S::Damping, "ratio", Quantity(D::Dimensionless), "0.05", "Fraction of critical damping in the modes below.").usual("a damping ratio", 1e-4, 1.0),
@@ -1018,6 +1041,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Hinges, "residual", Quantity(D::Dimensionless), "0.2", "Strength of crushed concrete over its strength.").usual("a ratio", 1e-3, 1.0),
     default(S::Hinges, "ultimate_strain", Quantity(D::Dimensionless), "on the straight line through its stress at the crushing strain", "Strain at which concrete has fallen to its residual strength.").usual("a strain", 2e-3, 0.3),
     default(S::Hinges, "hardening", Quantity(D::Dimensionless), "that of the steel", "Modulus of bars after yield over that before.").usual("a ratio of stiffnesses", 1e-4, 0.2),
+    default(S::Hinges, "steel", TextOrTable(S::FibreSteel), "\"bilinear\"", "Loops of the bars: straight lines with one corner, or `\"menegotto-pinto\"`, which bend smoothly; its numbers as a table."),
     default(S::Hinges, "beam_rule", Choice(RULES), "\"peak-oriented\"", "Rule of the hinges of beams beside fibres in columns; from = \"section\" computes their moments."),
 
     optional(S::Hinge, "cracking", Quantity(D::Moment), "Cracking moment.").usual("a cracking moment", 1e3, 1e9),
@@ -1045,6 +1069,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::SpaceHinges, "residual", Quantity(D::Dimensionless), "0.2", "Strength of crushed concrete over its strength.").usual("a ratio", 1e-3, 1.0),
     default(S::SpaceHinges, "ultimate_strain", Quantity(D::Dimensionless), "on the straight line through its stress at the crushing strain", "Strain at which concrete has fallen to its residual strength.").usual("a strain", 2e-3, 0.3),
     default(S::SpaceHinges, "hardening", Quantity(D::Dimensionless), "that of the steel", "Modulus of bars after yield over that before.").usual("a ratio of stiffnesses", 1e-4, 0.2),
+    default(S::SpaceHinges, "steel", TextOrTable(S::FibreSteel), "\"bilinear\"", "Loops of the bars: straight lines with one corner, or `\"menegotto-pinto\"`, which bend smoothly; its numbers as a table."),
     default(S::SpaceHinges, "beam_rule", Choice(RULES), "\"peak-oriented\"", "Rule of the hinges of beams beside fibres in columns."),
     optional(S::ColumnHinge, "cracking", Quantity(D::Moment), "Cracking moment.").usual("a cracking moment", 1e3, 1e9),
     optional(S::ColumnHinge, "yield", Quantity(D::Moment), "Yield moment.").usual("a yield moment", 1e3, 1e9),
@@ -1055,7 +1080,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::ColumnHinge, "x", Kind::Table(S::Hinge), "Bending in the vertical plane along the lines x. Without x and y both planes yield alike; with one of them, the other stays elastic. What is not given here stands beside it."),
     optional(S::ColumnHinge, "y", Kind::Table(S::Hinge), "Bending in the vertical plane across."),
 
-    required(S::BaseRocking, "rule", Choice(RULES), "Unloading and reloading rule of the base."),
+    required(S::BaseRocking, "rule", Choice(RULES), "Unloading and reloading rule."),
     default(S::BaseRocking, "gamma", Quantity(D::Dimensionless), "0.4", "Exponent of the unloading stiffness of takeda.").usual("an exponent", 1e-3, 1.0),
     optional(S::BaseRocking, "pinching", Kind::Table(S::Pinching), "Where reloading stiffens; required with the rule pinched."),
     default(S::BaseRocking, "unloading_exponent", Quantity(D::Dimensionless), "0", "Exponent with which the unloading stiffness of pinched falls with the peak, 0 to 1.").usual("an exponent", 1e-3, 1.0),

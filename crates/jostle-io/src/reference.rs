@@ -74,6 +74,11 @@ const TABLES: &[(Section, &str, &str)] = &[
         "",
     ),
     (
+        Section::InfillOutOfPlane,
+        "`out_of_plane` of `[[building.infill]]`",
+        "`parts` of the results have its `out_of_plane_ratio`.",
+    ),
+    (
         Section::InfillBackbone,
         "`backbone` of `[[building.infill]]`",
         "",
@@ -143,6 +148,16 @@ const TABLES: &[(Section, &str, &str)] = &[
     (Section::ShearDeformation, "`shear` of a frame", ""),
     (Section::Joint, "`joint` of a frame", ""),
     (
+        Section::FibreSteel,
+        "`hinges.steel` with fibres",
+        "By Menegotto and Pinto (1973) with the exponents of Filippou, Popov and Bertero (1983): see [the rules](hysteresis.md#menegotto-pinto).",
+    ),
+    (
+        Section::RigidEnds,
+        "`rigid_ends` of a frame",
+        "The same lengths at all joints. As a number it is a share of half depths: beams are rigid over half the deeper column at the joint, columns over half the deeper beam. Forces and hinges of members are those where they begin to bend.",
+    ),
+    (
         Section::Foundation,
         "`foundation` of a building",
         "See [Buildings on soil](how-to/soil.md).",
@@ -167,7 +182,11 @@ const TABLES: &[(Section, &str, &str)] = &[
     ),
     (Section::ShearBase, "`base`", ""),
     (Section::FrameBase, "`base` of a frame, further keys", ""),
-    (Section::BaseRocking, "`base.rotational_hinge`", ""),
+    (
+        Section::BaseRocking,
+        "`base.rotational_hinge`, `joint.hinge`",
+        "",
+    ),
     (Section::BaseSliding, "`base.horizontal_hinge`", ""),
     (Section::Damping, "`damping`", ""),
     (Section::ShearFailure, "`shear_failure` of a frame", ""),

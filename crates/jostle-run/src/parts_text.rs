@@ -31,6 +31,14 @@ pub(crate) fn write_parts(text: &mut String, buildings: &[BuildingSummary]) -> s
                 worst.name,
                 buckled(&own().collect::<Vec<_>>())
             )?;
+            let across = own().filter_map(|own| Some((own.out_of_plane_ratio?, &own.name)));
+            if let Some((ratio, name)) = across.max_by(|a, b| a.0.total_cmp(&b.0)) {
+                writeln!(
+                    text,
+                    "Across their plane, panels of {} need up to {ratio:.2} of what they bear, in {name}",
+                    building.name
+                )?;
+            }
         }
     }
     buildings

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use jostle::Fibre;
 use jostle::hysteresis::{
-    Backbone, ConcreteFall, Corners, Hysteresis, HysteresisRule, SpringFault,
+    Backbone, ConcreteFall, Corners, Hysteresis, HysteresisRule, MenegottoPinto, SpringFault,
 };
 
 use crate::law::{self, ConcreteLaw};
@@ -27,6 +27,8 @@ pub struct FibreOptions {
     pub ultimate_strain: Option<f64>,
     /// Modulus of bars after yield over that before; `None`: that of the steel \[–\].
     pub hardening: Option<f64>,
+    /// How the loops of bars bend; `None`: straight lines with one corner.
+    pub loops: Option<MenegottoPinto>,
 }
 
 impl FibreOptions {
@@ -41,6 +43,7 @@ impl FibreOptions {
             residual: 0.2,
             ultimate_strain: None,
             hardening: None,
+            loops: None,
         }
     }
 
@@ -126,12 +129,19 @@ impl Section {
         let steel = &self.steel;
         for ([depth, across], area) in self.bar_fibres(options.across.is_some()) {
             let post_yield = options.hardening.unwrap_or(steel.hardening);
-            let corners = Corners::bilinear(steel.yield_strength * area, post_yield);
+            let strength = steel.yield_strength * area;
             let stiffness = steel.modulus * area / options.length;
-            let backbone = Backbone::from_forces(stiffness, corners, corners)?;
+            let spring = match options.loops {
+                Some(law) => Hysteresis::menegotto_pinto(stiffness, strength, post_yield, law)?,
+                None => {
+                    let corners = Corners::bilinear(strength, post_yield);
+                    let backbone = Backbone::from_forces(stiffness, corners, corners)?;
+                    Hysteresis::new(HysteresisRule::Bilinear, backbone)?
+                }
+            };
             fibres.push(Fibre {
                 at: [depth - 0.5 * self.depth, across],
-                spring: Hysteresis::new(HysteresisRule::Bilinear, backbone)?,
+                spring,
             });
         }
         Ok(fibres.into())

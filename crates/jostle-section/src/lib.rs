@@ -38,7 +38,9 @@ pub use fibre::{Fibres, Resultants};
 pub use fit::Trilinear;
 pub use law::{ConcreteLaw, SteelLaw, confined};
 pub use member::{EndCurve, EndSide, FORMULA_POST_YIELD};
-pub use profile::{Axis, Profile, STEEL_DENSITY, STEEL_MODULUS};
+pub use profile::{
+    AISC_STEEL_MODULUS, Axis, ISection, Pipe, Profile, STEEL_DENSITY, STEEL_MODULUS, Tube,
+};
 pub use section::{Section, SectionFault, Transformed};
 pub use steel::{ASTM_STEEL_GRADES, EN_STEEL_GRADES, STEEL_GRADES, Steel};
 pub use survey::{Analysis, SectionSurvey};

@@ -118,6 +118,7 @@ impl Materials {
             | HysteresisRule::Sliding { .. }
             | HysteresisRule::Buckling(_)
             | HysteresisRule::Concrete(_)
+            | HysteresisRule::MenegottoPinto(_)
             | HysteresisRule::Pendulums(_)
             | HysteresisRule::Ground
             | HysteresisRule::InPlan { .. }) => Err(rule.name()),

@@ -156,6 +156,12 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
                 "stands on rigid arms that turn with it, which are not exported yet; make it a column with its EI, EA and GA to compare frames without arms".into(),
             );
         }
+        if frames.iter().any(|frame| !frame.rigid_zones.is_empty()) {
+            refuse(
+                format!("building[{index}].rigid_ends"),
+                "are rigid arms that turn with joints, which are not exported yet; leave them out to compare frames between axes".into(),
+            );
+        }
         // Ductility is that of the hinges of columns.
         if let Some(Hinges::Frame(hinges)) = &building.hinges
             && !hinges.columns.is_empty()

@@ -23,6 +23,7 @@ impl Script<'_> {
             | HysteresisRule::Stop { .. }
             | HysteresisRule::Buckling(_)
             | HysteresisRule::Concrete(_)
+            | HysteresisRule::MenegottoPinto(_)
             | HysteresisRule::Pendulums(_)
             | HysteresisRule::Ground
             | HysteresisRule::InPlan { .. } => None,

@@ -1,7 +1,6 @@
 //! `[[building.brace]]`: diagonals of the bays of a frame.
 
 use jostle::{Diagonal, DiagonalKind, DiagonalPlace, Rise};
-use jostle_section::STEEL_MODULUS;
 
 use super::buckling::{self, Strut};
 use super::hinges::read_spring;
@@ -99,7 +98,7 @@ fn read(reader: &mut Reader<'_>, entry: &Field<'_>, bays: Bays<'_>) -> Option<Ve
         }
     };
     let rigidity = match (rigidity, stiffness, profile) {
-        (None, None, Some((own, _))) => Some(Some(STEEL_MODULUS * own.area())),
+        (None, None, Some(own)) => Some(Some(own.modulus * own.profile.area())),
         _ => rigidity,
     };
     let stiffness_of: &Stiffness<'_> = match (rigidity, stiffness) {
@@ -182,6 +181,7 @@ pub(super) fn places(
                     place,
                     stiffness: stiffness(place, length)?,
                     hysteresis: None,
+                    across: None,
                 });
             }
         }

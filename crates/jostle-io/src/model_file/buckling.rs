@@ -3,8 +3,9 @@
 use std::f64::consts::PI;
 
 use jostle::hysteresis::{BucklingBrace, Hysteresis};
-use jostle_section::{Axis, BucklingCurve, Profile, STEEL_MODULUS};
+use jostle_section::BucklingCurve;
 
+use super::steel_profile::SteelMember;
 use crate::keys::{BUCKLING_CURVES, LINK_RULES};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
@@ -63,8 +64,8 @@ pub(super) struct Strut {
     pub(super) stiffness: f64,
     /// Length between the joints \[m\].
     pub(super) length: f64,
-    /// Profile, and the axis about which it buckles.
-    pub(super) profile: Option<(Profile, Axis)>,
+    /// Its profile, if it states one.
+    pub(super) profile: Option<SteelMember>,
 }
 
 /// The spring of a brace that buckles; `None` after faults.
@@ -119,21 +120,19 @@ pub(super) fn read(
     let yield_force = needed(
         "yield",
         yielding,
-        of_profile.map(|((own, _), strength)| own.area() * strength),
+        of_profile.map(|(own, strength)| own.profile.area() * strength),
         "\"900 kN\"",
     );
-    let slender = |force: f64, own: Profile, axis: Axis| {
+    let slender = |force: f64, own: SteelMember| {
         let length = factor * strut.length;
-        let euler = PI * PI * STEEL_MODULUS * own.inertia(axis) / (length * length);
+        let inertia = own.profile.inertia(own.axis);
+        let euler = PI * PI * own.modulus * inertia / (length * length);
         (force / euler).sqrt()
     };
     let slenderness = needed(
         "slenderness",
         slenderness,
-        yield_force.and_then(|force| {
-            let (own, axis) = strut.profile?;
-            Some(slender(force, own, axis))
-        }),
+        yield_force.and_then(|force| Some(slender(force, strut.profile?))),
         "1.1",
     );
     let lever_arm = needed(
@@ -141,7 +140,7 @@ pub(super) fn read(
         lever_arm,
         strut
             .profile
-            .map(|(own, axis)| own.plastic_modulus(axis) / own.area()),
+            .map(|own| own.profile.plastic_modulus(own.axis) / own.profile.area()),
         "\"60 mm\"",
     );
     let (yield_force, slenderness, lever_arm) = (yield_force?, slenderness?, lever_arm?);

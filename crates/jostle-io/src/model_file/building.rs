@@ -10,7 +10,7 @@ use super::damper::{self, Damper};
 use super::places::is_by_place;
 use super::reinforced::{self, ReinforcedMember};
 use super::{
-    codes, frame, given, given_in_plan, hinges, isolation, plan, shear, shear_failure, soil,
+    codes, frame, given, given_in_plan, hinges, isolation, joint, plan, shear, shear_failure, soil,
 };
 use crate::files::Files;
 use crate::keys::{BUILDING_KINDS, Section};
@@ -295,6 +295,7 @@ fn read(
             let hinges = stated
                 .as_ref()
                 .and_then(|field| hinges::read_frame(reader, field, frame, here.as_deref()));
+            let hinges = joint::with_hinge(reader, &view, frame, hinges);
             let failing = reader
                 .get(&view, "shear_failure")
                 .map(|field| shear_failure::read(reader, &field, frame, here.as_deref()));

@@ -2,12 +2,13 @@
 
 use std::collections::BTreeMap;
 
+use jostle::hysteresis::MenegottoPinto;
 use jostle::{ColumnFibres, Frame, FramePlace};
 use jostle_section::formula::Member;
 use jostle_section::{FibreOptions, Section};
 
 use super::reinforced::ReinforcedMember;
-use crate::keys::FIBRE_ENDS;
+use crate::keys::{FIBRE_ENDS, FIBRE_STEELS, Section as KeySection};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
 
@@ -21,7 +22,7 @@ const MOST_IN_SPACE: usize = 100;
 const USUAL_IN_SPACE: usize = 12;
 
 /// Keys that belong to fibres alone.
-pub(super) const KEYS: [&str; 8] = [
+pub(super) const KEYS: [&str; 9] = [
     "length",
     "fibres",
     "ends",
@@ -29,6 +30,7 @@ pub(super) const KEYS: [&str; 8] = [
     "residual",
     "ultimate_strain",
     "hardening",
+    "steel",
     "beam_rule",
 ];
 
@@ -59,6 +61,7 @@ pub(super) struct AskedFibres {
     residual: Option<f64>,
     ultimate_strain: Option<f64>,
     hardening: Option<f64>,
+    loops: Option<MenegottoPinto>,
 }
 
 /// Into how many parts a section is cut.
@@ -106,6 +109,10 @@ impl AskedFibres {
         let residual = number("residual", below_one, "be at least 0 and less than 1");
         let ultimate_strain = number("ultimate_strain", |v| v > 0.0, "be greater than 0");
         let hardening = number("hardening", below_one, "be at least 0 and less than 1");
+        let loops = match reader.get(view, "steel") {
+            Some(field) => read_loops(reader, &field),
+            None => Some(None),
+        };
         Some(Self {
             length,
             parts,
@@ -114,6 +121,7 @@ impl AskedFibres {
             residual: residual?,
             ultimate_strain: ultimate_strain?,
             hardening: hardening?,
+            loops: loops?,
         })
     }
 
@@ -157,6 +165,7 @@ impl AskedFibres {
             residual: self.residual.unwrap_or(options.residual),
             ultimate_strain: self.ultimate_strain,
             hardening: self.hardening,
+            loops: self.loops,
             ..options
         };
         let fibres = section.fibres(&options).map_err(|faults| {
@@ -169,6 +178,43 @@ impl AskedFibres {
             fibres,
         })
     }
+}
+
+/// How the loops of bars bend: a word, or a table with its numbers; `None` after a fault.
+fn read_loops(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Option<MenegottoPinto>> {
+    let usual = MenegottoPinto::USUAL;
+    if field.as_text().is_some() {
+        let word = reader.choice(field, FIBRE_STEELS, &[])?;
+        return Some((word == "menegotto-pinto").then_some(usual));
+    }
+    let view = reader.open(field, &[KeySection::FibreSteel])?;
+    let word = match reader.get(&view, "rule") {
+        Some(field) => reader.choice(&field, FIBRE_STEELS, &[]),
+        None => {
+            reader.missing(&view, "rule", "add rule = \"menegotto-pinto\"");
+            None
+        }
+    };
+    let [sharpness, loss, half] = [
+        ("R0", usual.sharpness),
+        ("cR1", usual.loss),
+        ("cR2", usual.half),
+    ]
+    .map(|(key, usual)| match reader.get(&view, key) {
+        Some(field) if word == Some("bilinear") => {
+            *reader.bad(&field, "has no meaning with straight lines") =
+                Some(format!("remove {key}, or set rule = \"menegotto-pinto\""));
+            None
+        }
+        Some(field) => reader.quantity(&field, Dimension::Dimensionless),
+        None => Some(usual),
+    });
+    let law = MenegottoPinto {
+        sharpness: sharpness?,
+        loss: loss?,
+        half: half?,
+    };
+    Some((word? == "menegotto-pinto").then_some(law))
 }
 
 fn read_parts(reader: &mut Reader<'_>, field: &Field<'_>, in_space: bool) -> Option<Parts> {

@@ -1,11 +1,11 @@
 //! `kind = "frame"`: columns, beams and their masses.
 
-use jostle::{Axial, DiagonalPlace, Frame, Joint};
+use jostle::{Axial, DiagonalPlace, Frame};
 
 use super::brace::{self, Bays};
-use super::building::{or_rigid, per_storey, storeys};
+use super::building::{per_storey, storeys};
 use super::section::{Material, read_modulus};
-use super::{frame_members, frame_walls, infill};
+use super::{frame_members, frame_walls, infill, joint, rigid_ends};
 use crate::keys::{AXIAL, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
@@ -112,8 +112,9 @@ fn read_members(
         materials,
     };
     let walls = frame_walls::read(reader, view, bays);
-    let [(columns, own_columns), (beams, own_beams)] =
-        frame_members::read(reader, view, count, &spans, materials, &walls);
+    let members = frame_members::read(reader, view, count, &spans, materials, &walls);
+    let (columns, own_columns) = members.columns;
+    let (beams, own_beams) = members.beams;
     let (beam_mass, floor_mass) = masses(reader);
     // Frames in plan have no such key.
     let floor_load = view
@@ -137,11 +138,12 @@ fn read_members(
         floor_mass,
         floor_load: floor_load.unwrap_or_default(),
         column_segments,
-        joint: joint(reader, view),
+        joint: joint::read(reader, view),
         walls: walls.walls,
         coupling_beams: walls.beams,
         ..Frame::default()
     };
+    frame.rigid_zones = rigid_ends::read(reader, view, &frame, &members.depths);
     let has_joints = |place: DiagonalPlace| {
         let [lower, upper] = place.lines();
         let mut lines = place.lines().into_iter();
@@ -336,23 +338,4 @@ pub(super) fn read_poisson_ratio(reader: &mut Reader<'_>, view: &View<'_>) -> f6
 
 fn is_flexible(reader: &mut Reader<'_>, field: &Field<'_>) -> bool {
     reader.choice(field, AXIAL, &[]) == Some("flexible")
-}
-
-fn joint(reader: &mut Reader<'_>, view: &View<'_>) -> Joint {
-    let Some(field) = reader.get(view, "joint") else {
-        return Joint::default();
-    };
-    let Some(view) = reader.open(&field, &[Section::Joint]) else {
-        return Joint::default();
-    };
-    Joint {
-        rotational_stiffness: or_rigid(
-            reader,
-            &view,
-            "rotational_stiffness",
-            Dimension::RotationalStiffness,
-        ),
-        horizontal_stiffness: or_rigid(reader, &view, "horizontal_stiffness", Dimension::Stiffness),
-        vertical_stiffness: or_rigid(reader, &view, "vertical_stiffness", Dimension::Stiffness),
-    }
 }

@@ -14,8 +14,16 @@ use crate::reader::{Field, Reader, View};
 /// Sections of columns or beams by storey or floor, and those that differ.
 pub(super) type Sections = (Vec<Section>, BTreeMap<FramePlace, Option<Section>>);
 
-/// Sections by storey or floor and by line or bay; `None` where there is nothing.
-type Grid = Vec<Vec<Option<Section>>>;
+/// Sections by storey or floor and by line or bay, with their depths \[m\]; `None` where there is nothing, or no depth.
+type Grid = Vec<Vec<Option<(Section, Option<f64>)>>>;
+
+/// Columns and beams of a frame.
+pub(super) struct FrameMembers {
+    pub(super) columns: Sections,
+    pub(super) beams: Sections,
+    /// Depths of columns by storey and line, then of beams by floor and bay; empty after a fault \[m\].
+    pub(super) depths: [Vec<Vec<Option<f64>>>; 2],
+}
 
 /// Columns and beams of a frame of such bays \[m\], with their materials; after a fault, harmless ones.
 pub(super) fn read(
@@ -25,7 +33,7 @@ pub(super) fn read(
     spans: &[f64],
     [column, beam]: [Material; 2],
     walls: &Walls,
-) -> [Sections; 2] {
+) -> FrameMembers {
     let noted = reader.count_faults();
     let all_joints = |_, _| true;
     let bays = spans.len();
@@ -65,10 +73,24 @@ pub(super) fn read(
         &span,
         walls,
     );
-    [&columns, &beams].map(|grid| match grid {
-        Some(grid) if !walls.incomplete && reader.count_faults() == noted => compact(grid),
-        _ => (vec![STAND_IN; storeys.unwrap_or(1)], BTreeMap::new()),
-    })
+    let [columns, beams] = [&columns, &beams].map(|grid| {
+        grid.as_ref()
+            .filter(|_| !walls.incomplete && reader.count_faults() == noted)
+    });
+    let sections = |grid: Option<&Grid>| match grid {
+        Some(grid) => compact(grid),
+        None => (vec![STAND_IN; storeys.unwrap_or(1)], BTreeMap::new()),
+    };
+    let depths = |grid: Option<&Grid>| {
+        let rows = grid.into_iter().flatten();
+        let depth = |own: &Option<(Section, Option<f64>)>| own.and_then(|(_, depth)| depth);
+        rows.map(|row| row.iter().map(depth).collect()).collect()
+    };
+    FrameMembers {
+        columns: sections(columns),
+        beams: sections(beams),
+        depths: [depths(columns), depths(beams)],
+    }
 }
 
 /// Walls and coupling beams take the places of others. `stands`: whether a member finds its joints; beams stand only between joints, unless a table names their bay.
@@ -92,11 +114,11 @@ fn read_grid(
     // A stick has no beams.
     if layout.is_none() && (walls.incomplete || !own.is_empty() || across == 0) {
         let rows = (0..storeys.unwrap_or(1)).map(|storey| {
-            let places = (0..across).map(|place| own.get(&[storey, place]).copied());
+            let places = (0..across).map(|place| Some((*own.get(&[storey, place])?, None)));
             places.collect::<Vec<_>>()
         });
         let grid: Grid = rows.collect();
-        let is_full = |(storey, row): (usize, &Vec<Option<Section>>)| {
+        let is_full = |(storey, row): (usize, &Vec<Option<_>>)| {
             let mut row = row.iter().enumerate();
             row.all(|(place, section)| section.is_some() || !stands(storey, place))
         };
@@ -116,7 +138,7 @@ fn read_grid(
         let mut row_of_sections = Vec::new();
         for (place, table) in row.iter().enumerate() {
             if let Some(section) = own.get(&[storey, place]) {
-                row_of_sections.push(Some(*section));
+                row_of_sections.push(Some((*section, None)));
                 continue;
             }
             let stands = stands(storey, place);
@@ -130,7 +152,7 @@ fn read_grid(
             };
             let exists = stands || layout.tables[table].names_across;
             let own = sections[table].filter(|_| exists);
-            row_of_sections.push(own.map(|own| own.at(span(place))));
+            row_of_sections.push(own.map(|own| (own.at(span(place)), own.depth)));
         }
         grid.push(row_of_sections);
     }
@@ -177,6 +199,7 @@ fn compact(grid: &Grid) -> Sections {
     let mut own = BTreeMap::new();
     let mut rows = Vec::new();
     for (storey, row) in grid.iter().enumerate() {
+        let row: Vec<Option<Section>> = row.iter().map(|own| Some(own.as_ref()?.0)).collect();
         let usual = row.iter().flatten().next().copied();
         for (place, section) in row.iter().enumerate() {
             // Without any, all are left out.

@@ -14,6 +14,7 @@ use super::building::{has_length, per_storey};
 use super::fibre_hinges;
 use super::frame_members::filled;
 use super::reinforced::ReinforcedMember;
+use super::rigid_ends;
 use crate::keys::{HINGE_METHODS, HINGE_SOURCES, RULES, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View, join};
@@ -321,10 +322,7 @@ fn read_members(
     for storey in 0..storeys {
         let at = if entries.is_some() { storey } else { 0 };
         let sides = read[at]?;
-        let lengths = match key {
-            "column" => vec![frame.storey_heights[storey]; frame.spans.len() + 1],
-            _ => frame.spans.clone(),
-        };
+        let lengths = rigid_ends::bending_lengths(frame, key, storey);
         let mut row = Vec::new();
         for (place, length) in lengths.into_iter().enumerate() {
             // Where there is no member, its hinge has no part.
@@ -654,6 +652,7 @@ fn corners_of(rule: HysteresisRule, numbers: [Option<f64>; 4]) -> Option<Corners
         | HysteresisRule::Failing(_)
         | HysteresisRule::Buckling(_)
         | HysteresisRule::Concrete(_)
+        | HysteresisRule::MenegottoPinto(_)
         | HysteresisRule::Pendulums(_)
         | HysteresisRule::InPlan { .. } => Corners {
             cracking: cracking?,

@@ -8,6 +8,7 @@ use jostle_section::masonry::{
 
 use super::brace::{Bays, add, places, tables};
 use super::hinges::read_spring;
+use super::out_of_plane;
 use crate::keys::{PANEL_CURVES, PANEL_STRENGTHS, STRUT_WIDTHS, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
@@ -63,6 +64,7 @@ fn read(reader: &mut Reader<'_>, entry: &Field<'_>, bays: Bays<'_>) -> Option<Ve
         curve(reader, &view, modulus)
     });
     refuse_without_strength(reader, &view, strength.is_some());
+    let across = out_of_plane::read(reader, &view);
     let left = left?;
     let hinge = reader.get(&view, "hinge");
     let panel = |wall: &Wall, place: DiagonalPlace| {
@@ -93,6 +95,10 @@ fn read(reader: &mut Reader<'_>, entry: &Field<'_>, bays: Bays<'_>) -> Option<Ve
     let kind = DiagonalKind::Infill;
     let mut struts = places(reader, &view, kind, &Rise::BOTH, bays, &stiffness_of)?;
     for strut in &mut struts {
+        if let Some(across) = &across {
+            let height = bays.heights[strut.place.storey - 1];
+            strut.across = Some(across.as_ref()?.panel(reader, entry, height)?);
+        }
         if let Some(field) = &hinge {
             strut.hysteresis = Some(by_hinge(reader, field, strut.stiffness)?);
         } else if let (Some(strength), Some(curve)) = (&strength, &curve) {

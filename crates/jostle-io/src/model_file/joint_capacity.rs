@@ -68,7 +68,8 @@ pub(super) fn joints(
             building: column.building,
             line,
             floor,
-            half_depth: 0.5 * column.section.depth,
+            half_depth: (0.5 * column.section.depth - frame.rigid_zone([floor - 1, line - 1])[0])
+                .max(0.0),
             levers: beams.map(|beam| beam.map(RatedJoint::lever)),
             capacity: MemberCapacity {
                 member: format!("{}.joint.{line}.{floor}", building.name),

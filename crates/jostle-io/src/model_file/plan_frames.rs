@@ -5,6 +5,7 @@ use jostle::{FrameHinges, Hinges, PlanFrame, PlanPoint};
 use super::building::read_base;
 use super::frame;
 use super::hinges;
+use super::joint;
 use super::plan::pair;
 use crate::keys::Section;
 use crate::quantity::Dimension;
@@ -102,7 +103,11 @@ fn read(
             Hinges::Storeys(_) => None,
         }
     });
-    let hinges: FrameHinges = hinges.unwrap_or_default();
+    let hinges = joint::with_hinge(reader, view, &frame, hinges.map(Hinges::Frame));
+    let hinges = match hinges {
+        Some(Hinges::Frame(hinges)) => hinges,
+        _ => FrameHinges::default(),
+    };
     let lines = match reader.get(view, "lines") {
         Some(field) => {
             let names = read_lines(reader, &field);

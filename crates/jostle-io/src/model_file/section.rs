@@ -98,6 +98,8 @@ fn modulus_of_grade(grade: ConcreteGrade) -> Option<f64> {
 pub(super) struct OfTable {
     section: Section,
     slab: Option<OnSlab>,
+    /// Size in the direction of bending, if the table gives one \[m\].
+    pub(super) depth: Option<f64>,
 }
 
 impl OfTable {
@@ -142,6 +144,7 @@ pub(super) fn read_sections(
         Some(section.unwrap_or(OfTable {
             section: STAND_IN,
             slab: None,
+            depth: None,
         }))
     });
     sections.collect()
@@ -186,6 +189,7 @@ fn read_section(
     if let Some(section) = &mut section {
         section.flexural_rigidity *= factor;
     }
+    let depth = depth_of(reader, &view);
     if member == Member::Beam {
         let slab = match reader.get(&view, "slab") {
             Some(field) => Some(slab::read(reader, &view, &field, material)?),
@@ -195,7 +199,11 @@ fn read_section(
             line_mass: 0.0,
             ..section?
         };
-        return Some(OfTable { section, slab });
+        return Some(OfTable {
+            section,
+            slab,
+            depth,
+        });
     }
     let stated = reader.get(&view, "mass");
     let mass = match stated {
@@ -218,6 +226,18 @@ fn read_section(
     Some(OfTable {
         section,
         slab: None,
+        depth,
+    })
+}
+
+/// Size of a rectangle or a profile in the direction of bending. Faults are noted where the section is read.
+fn depth_of(reader: &mut Reader<'_>, view: &View<'_>) -> Option<f64> {
+    reader.quietly(|reader| match reader.get(view, "profile") {
+        Some(field) => steel_profile::depth(reader, view, &field),
+        None => {
+            let field = reader.get(view, "depth")?;
+            reader.positive(&field, Dimension::Length)
+        }
     })
 }
 

@@ -1,13 +1,23 @@
 //! Columns and beams of rolled or welded steel: `profile`.
 
 use jostle::Section;
-use jostle_section::{Axis, Profile, STEEL_DENSITY, STEEL_MODULUS};
+use jostle_section::{Axis, ISection, Profile, STEEL_DENSITY, STEEL_MODULUS};
 
 use super::section::Material;
 use crate::keys::{AXES, Section as KeySection};
 use crate::nearest::nearest;
 use crate::quantity::{Dimension, shorten};
 use crate::reader::{Field, Reader, View};
+
+/// A member of steel.
+#[derive(Clone, Copy)]
+pub(super) struct SteelMember {
+    pub(super) profile: Profile,
+    /// The axis about which it bends or buckles.
+    pub(super) axis: Axis,
+    /// Modulus of elasticity of its steel \[Pa\].
+    pub(super) modulus: f64,
+}
 
 /// A steel profile by its name or its sizes. Its modulus is that of steel unless the building states one in numbers.
 pub(super) fn read(
@@ -17,11 +27,11 @@ pub(super) fn read(
     material: Material,
 ) -> Option<Section> {
     let axis = axis_of(reader, view)?.unwrap_or(Axis::Strong);
-    let own = named_or_sized(reader, field)?;
+    let (own, modulus) = named_or_sized(reader, field)?;
     let modulus = material
         .modulus
         .filter(|_| material.modulus_is_stated)
-        .unwrap_or(STEEL_MODULUS);
+        .unwrap_or(modulus);
     let shears = material.shears;
     Some(Section {
         flexural_rigidity: modulus * own.inertia(axis),
@@ -32,14 +42,25 @@ pub(super) fn read(
     })
 }
 
-/// The profile of a brace, and the axis about which it buckles.
+/// Size of a profile in the direction of bending \[m\].
+pub(super) fn depth(reader: &mut Reader<'_>, view: &View<'_>, field: &Field<'_>) -> Option<f64> {
+    let (own, _) = named_or_sized(reader, field)?;
+    Some(own.depth(axis_of(reader, view)?.unwrap_or(Axis::Strong)))
+}
+
+/// The profile of a brace, with the axis about which it buckles.
 pub(super) fn of_brace(
     reader: &mut Reader<'_>,
     view: &View<'_>,
     field: &Field<'_>,
-) -> Option<(Profile, Axis)> {
+) -> Option<SteelMember> {
     let axis = axis_of(reader, view)?.unwrap_or(Axis::Weak);
-    Some((named_or_sized(reader, field)?, axis))
+    let (profile, modulus) = named_or_sized(reader, field)?;
+    Some(SteelMember {
+        profile,
+        axis,
+        modulus,
+    })
 }
 
 /// The axis, if one is given; `None` after a fault.
@@ -53,20 +74,21 @@ fn axis_of(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Option<Axis>> {
     })
 }
 
-fn named_or_sized(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Profile> {
-    let own = if let Some(name) = field.as_text() {
+/// The profile, and the modulus of its steel.
+fn named_or_sized(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<(Profile, f64)> {
+    if let Some(name) = field.as_text() {
         let Some(own) = Profile::named(name) else {
             let plain = name.to_uppercase().replace(' ', "");
             let remedy = nearest(&plain, Profile::names())
                 .map_or_else(|| "give its sizes: profile = { depth = \"310 mm\", width = \"205 mm\", web = \"9.4 mm\", flange = \"16.3 mm\" }".to_owned(), |name| format!("did you mean \"{name}\"? Others by sizes: profile = {{ depth = \"310 mm\", width = \"205 mm\", web = \"9.4 mm\", flange = \"16.3 mm\" }}"));
             let problem = format!(
-                "\"{}\" is not known; available: IPE80 to IPE600, HEA100 to HEA1000, HEB100 to HEB1000",
+                "\"{}\" is not known; available: IPE80 to IPE600, HEA100 to HEA1000, HEB100 to HEB1000, W shapes such as W14X90, tubes such as HSS8X6X3/8 and HSS6.625X0.280",
                 shorten(name)
             );
             *reader.bad(field, problem) = Some(remedy);
             return None;
         };
-        own
+        Some((own, Profile::modulus_of(name)))
     } else {
         let sizes = reader.open(field, &[KeySection::Profile])?;
         let mut size = |key: &'static str, example: &str| match reader.get(&sizes, key) {
@@ -82,7 +104,7 @@ fn named_or_sized(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Profile>
             Some(field) => reader.positive(&field, Dimension::Length)?,
             None => 0.0,
         };
-        let own = Profile {
+        let own = ISection {
             depth: depth?,
             width: width?,
             web: web?,
@@ -93,9 +115,8 @@ fn named_or_sized(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Profile>
             *reader.bad(field, fault) = Some("check the sizes and their units".into());
             return None;
         }
-        own
-    };
-    Some(own)
+        Some((Profile::I(own), STEEL_MODULUS))
+    }
 }
 
 /// ν of steel (EN 1993-1-1, 3.2.6) \[–\].

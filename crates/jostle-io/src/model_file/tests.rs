@@ -35,7 +35,7 @@ element = [{ at = [0, 0], stiffness = 1, storeys = [1, 1] }]
 kind = "frame"
 plan = [1, 1]
 mass = 1
-frame = [{ at = [0, 0], lines = ["A"], stiffness_factor = { column = 1 }, axial = { columns = "rigid" }, shear = { columns = "flexible" }, joint = {}, base = { mass = 1 }, column = { EI = 1 }, beam = { EI = 1 } }]
+frame = [{ at = [0, 0], lines = ["A"], stiffness_factor = { column = 1 }, axial = { columns = "rigid" }, shear = { columns = "flexible" }, joint = {}, rigid_ends = { beams = 1 }, base = { mass = 1 }, column = { EI = 1 }, beam = { EI = 1 } }]
 "#,
     r#"
 [motion]
@@ -49,7 +49,8 @@ stiffness_factor = { column = 1 }
 axial = { columns = "rigid" }
 shear = { columns = "flexible" }
 base = { horizontal_stiffness = 1, horizontal_hinge = { rule = "normal" }, rotational_stiffness = 1, rotational_hinge = { rule = "normal" } }
-joint = { rotational_stiffness = 1 }
+joint = { rotational_stiffness = 1, hinge = { rule = "bilinear" } }
+rigid_ends = { beams = 1 }
 damping = { ratio = 0.1 }
 foundation = { length = 1 }
 isolation = { kind = "friction-pendulum", friction = { slow = 0.03 }, bounds = { upper = { strength = 2 } }, stop = { left = { at = 1 } } }
@@ -129,7 +130,7 @@ column = { width = 1, depth = 1, bars = { top = "4 d20" } }
 beam = { EI = 1 }
 axial = "flexible"
 floor_load = 1
-hinges = { rule = "fibre", length = 1, beam_rule = "takeda", beam = { yield = 1 } }
+hinges = { rule = "fibre", length = 1, steel = { rule = "bilinear" }, beam_rule = "takeda", beam = { yield = 1 } }
 "#,
     r#"
 [[building]]
@@ -183,7 +184,7 @@ kind = "frame"
 shear_failure = { strength = 1 }
 column = { profile = { depth = 1 }, axis = "weak" }
 brace = [{ EA = 1 }, { stiffness = 1, hinge = { rule = "bilinear", yield = 1 } }, { profile = "HEB160", hinge = { rule = "buckling", curve = "c", yield_strength = 1 } }]
-infill = [{ modulus = 1, thickness = 1, width = "mainstone", opening = { length = 0.1 }, strength = { rule = "bertoldi" }, backbone = { rule = "panagiotakos-fardis" } }, { force = 1 }, { stiffness = 1, hinge = { rule = "pinched", residual = 1 } }]
+infill = [{ modulus = 1, thickness = 1, width = "mainstone", opening = { length = 0.1 }, strength = { rule = "bertoldi" }, out_of_plane = { density = 1 }, backbone = { rule = "panagiotakos-fardis" } }, { force = 1 }, { stiffness = 1, hinge = { rule = "pinched", residual = 1 } }]
 wall = [{ at = 1, length = 1, thickness = 1, hinge = { rule = "takeda", length = 1 } }, { line = 1, length = 1, EI = 1, shear_hinge = { rule = "bilinear", yield = 1, stiffness = 1 } }]
 coupling_beam = [{ between = [1, 2], width = 1, depth = 1, hinge = { rule = "pinched" } }, { bay = 1, EI = 1 }]
 [[building]]

@@ -312,3 +312,64 @@ fn panels_crack_in_compression() {
         assert_eq!(compression.yielding.force, 160e3);
     }
 }
+
+/// Arching by hand: 0.7 × 3 MPa × 0.047 / 12.5, and 3 MPa / 12.5², on 280 kg/m².
+#[test]
+fn panels_bear_pressure_across_their_plane() {
+    let panel = |more: &str| {
+        format!(
+            "[[building.infill]]\nbay = 1\nmodulus = \"4 GPa\"\nthickness = \"200 mm\"\nwidth = \"1.2 m\"\n{more}\n"
+        )
+    };
+    for (more, strength) in [
+        (
+            "out_of_plane = { rule = \"asce41\", compression = \"3 MPa\", density = \"1400 kg/m3\", height = \"2.5 m\" }",
+            0.7 * 3e6 * 0.047 / 12.5,
+        ),
+        (
+            "out_of_plane = { rule = \"en1996\", density = \"1400 kg/m3\", height = \"2.5 m\" }\nstrength = { rule = \"bertoldi\", compression = \"3 MPa\", shear = \"0.3 MPa\", sliding = \"0.2 MPa\" }",
+            3e6 / 156.25,
+        ),
+        // Storeys of 3 m.
+        (
+            "out_of_plane = { rule = \"en1996\", compression = \"3 MPa\", density = \"1400 kg/m3\" }",
+            3e6 / 225.0,
+        ),
+        (
+            "out_of_plane = { strength = \"4 kPa\", density = \"1400 kg/m3\" }\nopening = 0.2",
+            4e3,
+        ),
+    ] {
+        let all = diagonals(&panel(more));
+        for own in all {
+            let across = own.across.expect("it is compared");
+            assert!(
+                (across.strength / strength - 1.0).abs() < 1e-12,
+                "{more}: {across:?}"
+            );
+            assert!((across.surface_mass - 280.0).abs() < 1e-9);
+        }
+    }
+    for (more, part) in [
+        (
+            "out_of_plane = { rule = \"asce41\", density = 1400 }",
+            "add compression",
+        ),
+        (
+            "out_of_plane = { rule = \"asce41\", compression = \"3 MPa\", density = 1400 }\nopening = 0.2",
+            "cannot arch around an opening",
+        ),
+        (
+            "out_of_plane = { rule = \"asce41\", compression = \"3 MPa\", density = 1400, height = 6 }",
+            "30.0 times as high as thick",
+        ),
+        ("out_of_plane = { density = 1400 }", "add rule"),
+        (
+            "out_of_plane = { rule = \"asce41\", strength = 3e3, compression = \"3 MPa\", density = 1400 }",
+            "and rule are both given",
+        ),
+    ] {
+        let text = refusal(&format!("{FRAME}{}", panel(more)));
+        assert!(text.contains(part), "{more}: {text}");
+    }
+}

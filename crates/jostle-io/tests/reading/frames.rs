@@ -366,3 +366,98 @@ fn an_elevation_of_all_is_that_of_none() {
         assert_eq!(flat.height_m + 2.0, high.height_m);
     }
 }
+
+/// Shares of half depths, or lengths; the deeper of two members counts, and a profile about its axis.
+#[test]
+fn rigid_ends_follow_depths_or_lengths() {
+    let frame = |more: &str| {
+        let input = sound(&format!(
+            r#"
+motion = {{ record = "el-centro-1940-ns" }}
+[[building]]
+name = "A"
+storeys = 2
+storey_height = 3
+spans = [5]
+concrete = "C30"
+beam_mass = 3000
+beam = [{{ width = 0.3, depth = 0.6 }}, {{ profile = "IPE300" }}]
+column = [{{ width = 0.4, depth = 0.5 }}, {{ profile = "HEB200", axis = "weak" }}]
+{more}
+"#
+        ));
+        match &input.model.buildings[0].structure {
+            Structure::Frame(frame) => (frame.clone(), input.model.buildings[0].hinges.clone()),
+            other => panic!("{other:?}"),
+        }
+    };
+    let (own, _) = frame("rigid_ends = 0.5");
+    let near = |found: [f64; 2], wanted: [f64; 2]| {
+        let mut both = found.into_iter().zip(wanted);
+        assert!(
+            both.all(|(a, b)| (a - b).abs() < 1e-12),
+            "{found:?} {wanted:?}"
+        );
+    };
+    for line in 0..2 {
+        near(own.rigid_zone([0, line]), [0.125, 0.15]);
+        near(own.rigid_zone([1, line]), [0.05, 0.075]);
+    }
+    near(
+        [own.clear_span([0, 0]), own.clear_height([1, 0])],
+        [4.75, 2.775],
+    );
+    near([own.clear_height([0, 1]), 0.0], [2.85, 0.0]);
+    let (own, hinges) = frame(
+        "rigid_ends = { beams = \"20 cm\" }\njoint = { rotational_stiffness = \"40 MN.m/rad\", hinge = { rule = \"bilinear\", yield = \"180 kN.m\", post_yield = 0.03 } }",
+    );
+    near(own.rigid_zone([1, 1]), [0.2, 0.0]);
+    assert_eq!(own.joint.rotational_stiffness, None);
+    let Some(jostle::Hinges::Frame(hinges)) = hinges else {
+        panic!("{hinges:?}");
+    };
+    let law = hinges.beams[1][0];
+    assert_eq!(law.backbone().initial(), 40e6);
+    assert_eq!(law.backbone().yield_force(), 180e3);
+    // Hinges given in EI/L take the length that bends.
+    let hinged = "hinges = { rule = \"bilinear\", initial = 100, beam = { yield = \"180 kN.m\", post_yield = 0.03 } }\n";
+    let stiffness = |more: &str| match frame(&format!("{hinged}{more}")).1 {
+        Some(jostle::Hinges::Frame(hinges)) => hinges.beams[0][0].backbone().initial(),
+        other => panic!("{other:?}"),
+    };
+    let ratio = stiffness("rigid_ends = 1") / stiffness("");
+    assert!((ratio - 5.0 / 4.5).abs() < 1e-12, "{ratio}");
+}
+
+#[test]
+fn rigid_ends_that_do_not_fit_are_refused() {
+    let refused = |sections: &str, more: &str| {
+        refusal(&format!(
+            "motion = {{ record = \"el-centro-1940-ns\" }}\n[[building]]\nname = \"A\"\nstoreys = 1\nstorey_height = 3\nspans = [5]\nfloor_mass = 1e5\n{sections}\n{more}\n"
+        ))
+    };
+    let stiff = "column = { EI = \"60 MN.m2\", mass = 500 }\nbeam = { EI = \"60 MN.m2\" }";
+    for (more, part) in [
+        ("rigid_ends = 0.5", "no column or beam has a depth"),
+        ("rigid_ends = 1.5", "must lie between 0 and 1"),
+        (
+            "rigid_ends = { beams = \"2.6 m\" }",
+            "leaves nothing of the beam of bay 1",
+        ),
+        (
+            "rigid_ends = { columns = \"3.5 m\" }",
+            "leaves nothing of the column at line 1",
+        ),
+        (
+            "joint = { hinge = { rule = \"bilinear\", yield = 1e5, post_yield = 0.03 } }",
+            "needs the stiffness of the connection",
+        ),
+        (
+            "joint = { rotational_stiffness = 1e7, hinge = { rule = \"bilinear\", yield = 1e5, post_yield = 0.03 } }\nhinges = { rule = \"bilinear\", beam = { yield = 1e5, post_yield = 0.03 } }",
+            "keep either joint.hinge",
+        ),
+    ] {
+        let text = refused(stiff, more);
+        assert!(text.contains(part), "{more}: {text}");
+    }
+}

@@ -644,3 +644,40 @@ hinges = { rule = "fibre", length = 0.4 }
 "#;
     says(in_plan, &["is not possible for frames in plan yet"]);
 }
+
+/// The bars alone bend smoothly; their first line is that of straight loops.
+#[test]
+fn bars_of_fibres_bend_smoothly() {
+    let bars = |more: &str| -> Vec<jostle::hysteresis::Hysteresis> {
+        let hinges = hinges_of(&of_fibres(FLEXIBLE, &format!(", length = \"0.4 m\"{more}")));
+        let fibres = hinges.fibres[&[1, 2]].fibres.iter().map(|own| own.spring);
+        fibres
+            .filter(|own| !matches!(own.rule(), HysteresisRule::Concrete(_)))
+            .collect()
+    };
+    let (straight, bent) = (bars(""), bars(", steel = \"menegotto-pinto\""));
+    assert_eq!(straight.len(), bent.len());
+    for (straight, bent) in straight.iter().zip(&bent) {
+        assert_eq!(straight.backbone(), bent.backbone());
+        let HysteresisRule::MenegottoPinto(law) = bent.rule() else {
+            panic!("{bent:?}");
+        };
+        assert_eq!([law.sharpness, law.loss, law.half], [20.0, 0.925, 0.15]);
+    }
+    let own = bars(", steel = { rule = \"menegotto-pinto\", R0 = 15 }");
+    assert!(matches!(own[0].rule(), HysteresisRule::MenegottoPinto(law) if law.sharpness == 15.0));
+    assert_eq!(bars(", steel = \"bilinear\""), straight);
+    for (more, part) in [
+        (
+            ", length = 0.4, steel = { rule = \"bilinear\", R0 = 15 }",
+            "has no meaning with straight lines",
+        ),
+        (
+            ", length = 0.4, steel = { rule = \"menegotto-pinto\", cR1 = 1.2 }",
+            "cR1 must be",
+        ),
+    ] {
+        let text = files::refusal(&of_fibres(FLEXIBLE, more));
+        assert!(text.contains(part), "{more}: {text}");
+    }
+}

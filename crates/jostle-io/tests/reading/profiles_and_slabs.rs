@@ -110,7 +110,7 @@ fn mistakes_are_explained() {
     for (more, expected) in [
         (column("profile = \"HEB310\""), "did you mean \"HEB300\"?"),
         (
-            column("profile = \"W14x90\""),
+            column("profile = \"UB305x165x40\""),
             "available: IPE80 to IPE600, HEA100 to HEA1000, HEB100 to HEB1000",
         ),
         (
@@ -151,4 +151,31 @@ fn mistakes_are_explained() {
         let shown = refusal(&text(&more));
         assert!(shown.contains(expected), "{more}\n{shown}");
     }
+}
+
+/// W14X90: A = 26.5 in², Ix = 999 in⁴, of 29 000 ksi; a tube of a name has 0.93 of its wall.
+#[test]
+fn american_names_have_american_steel() {
+    let frame = frame("column = { profile = \"W14X90\" }\nbeam = { profile = \"HSS8X6X3/8\" }\n");
+    let (inch, ksi) = (0.0254_f64, 6.894_757e6);
+    let column = frame.column(0, 0).expect("it stands");
+    let near = |found: f64, due: f64| assert!((found / due - 1.0).abs() < 5e-3, "{found} {due}");
+    near(column.flexural_rigidity, 29e3 * ksi * 999.0 * inch.powi(4));
+    near(
+        column.axial_rigidity.expect("known"),
+        29e3 * ksi * 26.5 * inch * inch,
+    );
+    // 90 lb/ft.
+    near(column.line_mass, 90.0 * 0.453_592_37 / 0.3048);
+    let beam = frame.beam(0, 0).expect("it stands");
+    near(
+        beam.axial_rigidity.expect("known"),
+        29e3 * ksi * 8.97 * inch * inch,
+    );
+    assert!(
+        refusal(&text(
+            "column = { profile = \"W14X91\" }\nbeam = { profile = \"IPE400\" }\n"
+        ))
+        .contains("W14X9")
+    );
 }

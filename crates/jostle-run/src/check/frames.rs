@@ -2,6 +2,7 @@
 
 use crate::numbers::counted;
 use jostle::hysteresis::{Hysteresis, HysteresisRule, Side};
+use jostle::statics::STANDARD_GRAVITY;
 use jostle::{DiagonalKind, Frame, Section};
 
 /// Whether the columns of a frame shorten, and why; `None` if it is not known whether the file says so.
@@ -187,6 +188,27 @@ pub(super) fn diagonals(frame: &Frame) -> String {
             between(&cracking, &|own| 1e-6 * own.backbone().initial()),
             between(&cracking, &|own| 1e-3 * pressed(own).cracking.force),
             between(&cracking, &|own| 1e-3 * pressed(own).yielding.force),
+        );
+    }
+    let panels = frame.diagonals.iter().filter_map(|own| own.across);
+    let accelerations = panels.map(|own| own.strength / own.surface_mass / STANDARD_GRAVITY);
+    let [least, most] = accelerations.fold([f64::INFINITY, 0.0], |[least, most], own| {
+        [f64::min(least, own), f64::max(most, own)]
+    });
+    if most > 0.0 {
+        let range = match most - least < 5e-3 * most {
+            true => format!("{most:.2}"),
+            false => format!("{least:.2} to {most:.2}"),
+        };
+        text += &format!(", which bear {range} g across their plane");
+    }
+    if !frame.rigid_zones.is_empty() {
+        let zones = || frame.rigid_zones.values();
+        let [beams, columns] = [0, 1].map(|side| zones().map(|own| own[side]).fold(0.0, f64::max));
+        text += &format!(
+            ", rigid ends up to {:.0} mm of beams and {:.0} mm of columns",
+            1e3 * beams,
+            1e3 * columns
         );
     }
     text

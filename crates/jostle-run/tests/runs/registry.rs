@@ -314,6 +314,9 @@ fn every_number_of_the_summary_is_in_the_registry_and_the_other_way_round() {
         "EA = \"630 MN\"\nhinge = { rule = \"bilinear\", yield = \"700 kN\", post_yield = 0.02 }";
     let buckles = "profile = \"HEB120\"\nhinge = { rule = \"buckling\", curve = \"c\", yield_strength = \"275 MPa\" }";
     let braced = BRACED.replace(yields, buckles);
+    let panel = "width = \"1.4 m\"\n";
+    let across = "out_of_plane = { strength = \"4 kPa\", density = \"1400 kg/m3\" }\n";
+    let braced = braced.replace(panel, &format!("{panel}{across}"));
     let parts = [&braced[..], WALLED, LIFTING, FIBRED];
     let parts =
         parts.map(|text| serde_json::to_value(summary_of(text)).expect("a summary is JSON"));

@@ -1,4 +1,4 @@
-//! Walls of a frame that do not fit it, and beams between them.
+//! Walls and rigid zones of a frame that do not fit it, and beams between walls.
 
 use super::{Faults, each};
 use crate::model::Frame;
@@ -30,6 +30,7 @@ pub(super) fn check_walls(faults: &mut Faults, path: &str, frame: &Frame) {
             ));
         }
     }
+    check_rigid_zones(faults, path, frame);
     if frame.walls.is_empty() && frame.coupling_beams.is_empty() {
         return;
     }
@@ -37,7 +38,8 @@ pub(super) fn check_walls(faults: &mut Faults, path: &str, frame: &Frame) {
     for floor in 0..storeys {
         for bay in (0..bays).filter(|bay| frame.beam(floor, *bay).is_some()) {
             let clear = frame.clear_span([floor, bay]);
-            if clear > 0.0 || said.contains(&bay) {
+            let beside_walls = [bay, bay + 1].map(|line| stands_at(frame, [floor, line]));
+            if clear > 0.0 || said.contains(&bay) || beside_walls == [false; 2] {
                 continue;
             }
             said.push(bay);
@@ -61,7 +63,7 @@ pub(super) fn check_walls(faults: &mut Faults, path: &str, frame: &Frame) {
             continue;
         }
         let place = [beam.floor - 1, beam.bay - 1];
-        let column = (0..2).find(|side| frame.arm([place[0], place[1] + side]) == 0.0);
+        let column = (0..2).find(|side| !stands_at(frame, [place[0], place[1] + side]));
         if let Some(side) = column {
             faults.add(field, format!(
                 "ends at line {} at floor {}, where no wall stands; add the wall, or make it a beam",
@@ -82,5 +84,62 @@ pub(super) fn check_walls(faults: &mut Faults, path: &str, frame: &Frame) {
                 own.place, wall.line
             ));
         }
+    }
+}
+
+/// Whether a wall stands below or above a floor at a line, both counted from 0.
+fn stands_at(frame: &Frame, [floor, line]: [usize; 2]) -> bool {
+    let mut storeys = [floor, floor + 1].into_iter();
+    storeys.any(|storey| frame.wall([storey, line]).is_some())
+}
+
+/// Faults of the rigid ends of beams and columns.
+fn check_rigid_zones(faults: &mut Faults, path: &str, frame: &Frame) {
+    let field = format!("{path}.rigid_ends");
+    for (&[floor, line], zone) in &frame.rigid_zones {
+        let sound = zone.iter().all(|own| *own >= 0.0 && own.is_finite());
+        faults.require(sound && frame.has_joint(floor + 1, line), field.as_str(), || {
+            format!(
+                "gives line {} at floor {} rigid ends of {} and {} m; they must not be negative, and a joint must be there",
+                line + 1,
+                floor + 1,
+                zone[0],
+                zone[1]
+            )
+        });
+    }
+    if frame.rigid_zones.is_empty() {
+        return;
+    }
+    let columns = frame.all_columns();
+    let column = columns
+        .map(|(place, _)| place)
+        .find(|own| frame.clear_height(*own) <= 0.0);
+    if let Some([storey, line]) = column {
+        let [foot, head] = frame.rigid_ends_of_column([storey, line]);
+        faults.add(field.as_str(), format!(
+            "leaves nothing of the column at line {} in storey {} that bends: {foot} m and {head} m of its {} m are rigid; make them shorter",
+            line + 1,
+            storey + 1,
+            frame.storey_heights[storey]
+        ));
+    }
+    let beams = frame.all_beams();
+    let beam = beams
+        .map(|(place, _)| place)
+        .find(|own| frame.clear_span(*own) <= 0.0);
+    let beam = beam.filter(|[floor, bay]| {
+        let mut ends = [*bay, bay + 1].into_iter();
+        !ends.any(|line| stands_at(frame, [*floor, line]))
+    });
+    if let Some([floor, bay]) = beam {
+        faults.add(field.as_str(), format!(
+            "leaves nothing of the beam of bay {} at floor {} that bends: {} m and {} m of its {} m are rigid; make them shorter",
+            bay + 1,
+            floor + 1,
+            frame.arm([floor, bay]),
+            frame.arm([floor, bay + 1]),
+            frame.spans[bay]
+        ));
     }
 }

@@ -446,6 +446,18 @@ fn check_members_of(faults: &mut Faults, path: &str, frame: &Frame) {
         faults.require(is_first, field.as_str(), || {
             format!("there are two of {place}; give one with the stiffness of both")
         });
+        if let Some(across) = own.across {
+            faults.positive(
+                across.strength,
+                format!("{field}.out_of_plane.strength"),
+                "Pa",
+            );
+            faults.positive(
+                across.surface_mass,
+                format!("{field}.out_of_plane.density"),
+                "kg/m2",
+            );
+        }
         faults.positive(own.stiffness, field, "N/m");
     }
     for (name, stiffness, unit) in [

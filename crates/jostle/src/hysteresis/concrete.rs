@@ -11,8 +11,9 @@
 //! with a slope of at most E₀ = 2 f / ε₀; a crack opens there. The parabola is a polygon with [`CHORDS`] chords of equal work: all
 //! springs have straight lines with exact corners.
 
-use super::backbone::{Backbone, Side};
+use super::backbone::{Backbone, Corners, Quantity, Side, SpringFault};
 use super::memory::{HysteresisMemory, Response};
+use super::rule::{Hysteresis, HysteresisRule};
 
 /// Chords of the parabola. They differ from it by 1/(6 n²) of the strength at most, less than 2·10⁻⁴.
 const CHORDS: usize = 32;
@@ -40,6 +41,40 @@ impl ConcreteFall {
                 "the ultimate strain must be greater than the strain at the strength, found {ultimate} times it"
             )
         })
+    }
+}
+
+impl Hysteresis {
+    /// A fibre of concrete that bears compression alone: its strength \[N\], the compression at it \[m\], and how it falls beyond. It
+    /// starts with the slope 2 strength / compression.
+    ///
+    /// # Errors
+    /// Numbers that are not positive, or a fall out of range.
+    pub fn concrete(
+        strength: f64,
+        compression: f64,
+        fall: ConcreteFall,
+    ) -> Result<Self, Vec<SpringFault>> {
+        // Two chords stand for the parabola: through the point at half of the strength, with the initial slope.
+        let corners = Corners {
+            cracking: 0.5 * strength,
+            yielding: strength,
+            post_cracking: 1.0 / 3.0,
+            post_yield: 0.0,
+        };
+        let initial = 2.0 * strength / compression;
+        let backbone = Backbone::from_forces(initial, corners, corners)?.without_tension();
+        match fall.fault() {
+            None => Ok(Self {
+                rule: HysteresisRule::Concrete(fall),
+                backbone,
+            }),
+            Some(problem) => Err(vec![SpringFault {
+                quantity: Quantity::Rule,
+                side: None,
+                problem,
+            }]),
+        }
     }
 }
 
@@ -258,7 +293,6 @@ pub(super) fn unloading_stiffness(
 
 #[cfg(test)]
 mod tests {
-    use super::super::rule::Hysteresis;
     use super::*;
 
     const FALL: ConcreteFall = ConcreteFall {

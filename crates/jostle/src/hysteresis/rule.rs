@@ -7,6 +7,7 @@ use super::concrete::{self, ConcreteFall};
 use super::failing::{self, FallingBranch};
 use super::friction::{Rates, Strength};
 use super::memory::{Branch, HysteresisMemory, Response, Stage};
+use super::menegotto_pinto::{self, MenegottoPinto};
 use super::pendulums::{self, SlidingStage};
 use super::pinched::{self, Pinching};
 use super::{compression, degrading, oriented, sliders};
@@ -63,6 +64,8 @@ pub enum HysteresisRule {
     Buckling(Buckling),
     /// Concrete that bears compression alone, crushes, and unloads towards a strain that stays; [`Hysteresis::concrete`] makes it.
     Concrete(ConcreteFall),
+    /// A bar of steel whose loops bend smoothly; [`Hysteresis::menegotto_pinto`] makes it.
+    MenegottoPinto(MenegottoPinto),
     /// Sliding surfaces in series: double and triple friction pendulums; [`Hysteresis::pendulums`] makes them.
     Pendulums([SlidingStage; 3]),
     /// A row of a force in plan that is the same in every direction; [`Hysteresis::in_plan`] makes all three. On its own a row
@@ -116,6 +119,7 @@ impl HysteresisRule {
             | Self::Failing(_)
             | Self::Buckling(_)
             | Self::Concrete(_)
+            | Self::MenegottoPinto(_)
             | Self::Pendulums(_)
             | Self::InPlan { .. } => false,
         }
@@ -138,6 +142,7 @@ impl HysteresisRule {
             Self::Failing(_) => "failing",
             Self::Buckling(_) => "buckling",
             Self::Concrete(_) => "concrete",
+            Self::MenegottoPinto(_) => "menegotto-pinto",
             Self::Pendulums(_) => "pendulums",
             Self::InPlan { law, .. } => match law {
                 CircularLaw::Slider | CircularLaw::Friction { .. } => "friction in plan",
@@ -304,38 +309,6 @@ impl Hysteresis {
         }
     }
 
-    /// A fibre of concrete that bears compression alone: its strength \[N\], the compression at it \[m\], and how it falls beyond. It
-    /// starts with the slope 2 strength / compression.
-    ///
-    /// # Errors
-    /// Numbers that are not positive, or a fall out of range.
-    pub fn concrete(
-        strength: f64,
-        compression: f64,
-        fall: ConcreteFall,
-    ) -> Result<Self, Vec<SpringFault>> {
-        // Two chords stand for the parabola: through the point at half of the strength, with the initial slope.
-        let corners = Corners {
-            cracking: 0.5 * strength,
-            yielding: strength,
-            post_cracking: 1.0 / 3.0,
-            post_yield: 0.0,
-        };
-        let initial = 2.0 * strength / compression;
-        let backbone = Backbone::from_forces(initial, corners, corners)?.without_tension();
-        match fall.fault() {
-            None => Ok(Self {
-                rule: HysteresisRule::Concrete(fall),
-                backbone,
-            }),
-            Some(problem) => Err(vec![SpringFault {
-                quantity: Quantity::Rule,
-                side: None,
-                problem,
-            }]),
-        }
-    }
-
     /// What happens beyond the strength, for a spring that loses it.
     #[must_use]
     pub fn falling_branch(&self) -> Option<FallingBranch> {
@@ -399,6 +372,7 @@ impl Hysteresis {
             | HysteresisRule::Failing(_)
             | HysteresisRule::Buckling(_)
             | HysteresisRule::Concrete(_)
+            | HysteresisRule::MenegottoPinto(_)
             | HysteresisRule::Pendulums(_)
             | HysteresisRule::InPlan { .. }
             | HysteresisRule::Sliding { .. } => self.backbone.initial(),
@@ -500,6 +474,9 @@ impl Hysteresis {
             HysteresisRule::Concrete(fall) => {
                 concrete::respond(&self.backbone, &fall, memory, deformation)
             }
+            HysteresisRule::MenegottoPinto(law) => {
+                menegotto_pinto::respond(&self.backbone, &law, memory, deformation)
+            }
             HysteresisRule::Pendulums(stages) => {
                 pendulums::respond(&self.backbone, &stages, memory, deformation)
             }
@@ -572,6 +549,7 @@ impl Hysteresis {
             | HysteresisRule::Failing(_)
             | HysteresisRule::Buckling(_)
             | HysteresisRule::Concrete(_)
+            | HysteresisRule::MenegottoPinto(_)
             | HysteresisRule::Pendulums(_)
             | HysteresisRule::InPlan { .. } => {
                 let response = self.respond(memory, deformation);
@@ -605,6 +583,7 @@ impl Hysteresis {
             | HysteresisRule::Stop { .. }
             | HysteresisRule::Pinched(_)
             | HysteresisRule::Ground
+            | HysteresisRule::MenegottoPinto(_)
             | HysteresisRule::Pendulums(_)
             | HysteresisRule::Failing(_)
             | HysteresisRule::Buckling(_) => *memory = self.respond(memory, deformation).memory,
@@ -649,6 +628,7 @@ impl Hysteresis {
             | HysteresisRule::PeakOriented
             | HysteresisRule::Sliding { .. }
             | HysteresisRule::Failing(_)
+            | HysteresisRule::MenegottoPinto(_)
             | HysteresisRule::Pendulums(_)
             | HysteresisRule::InPlan { .. }
             | HysteresisRule::Stop { .. } => self.backbone.initial(),
@@ -726,6 +706,9 @@ impl Hysteresis {
             }
             HysteresisRule::Concrete(fall) => {
                 concrete::next_corner(&self.backbone, &fall, memory, towards)
+            }
+            HysteresisRule::MenegottoPinto(law) => {
+                menegotto_pinto::next_corner(&self.backbone, &law, memory, towards)
             }
             HysteresisRule::Pendulums(stages) => {
                 pendulums::next_corner(&self.backbone, &stages, memory, towards)

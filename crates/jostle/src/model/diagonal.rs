@@ -13,6 +13,7 @@ use crate::hysteresis::Hysteresis;
 ///     place: DiagonalPlace { kind: DiagonalKind::Brace, storey: 1, bay: 1, rise: Rise::Right },
 ///     stiffness: 210e9 * 2000e-6 / length,
 ///     hysteresis: None, // it stays elastic
+///     across: None,
 /// };
 /// assert_eq!(rod.place.to_string(), "brace.1.1.up");
 /// ```
@@ -24,6 +25,31 @@ pub struct Diagonal {
     pub stiffness: f64,
     /// Its force if it yields, positive in tension; its initial stiffness then takes the place of `stiffness`.
     pub hysteresis: Option<Hysteresis>,
+    /// What the panel of a strut bears across its plane, if that is compared; it has no part in the motion.
+    pub across: Option<PanelAcross>,
+}
+
+/// What an infill panel bears across its plane.
+///
+/// ```
+/// // 200 mm of masonry of 1400 kg/m³ that bears 5 kPa falls at an acceleration of 17.9 m/s².
+/// let panel = jostle::PanelAcross { strength: 5e3, surface_mass: 0.2 * 1400.0 };
+/// assert!((panel.ratio(17.9) - 1.0).abs() < 0.01);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PanelAcross {
+    /// Pressure that it bears, > 0 \[Pa\].
+    pub strength: f64,
+    /// Mass per area, > 0 \[kg/m²\].
+    pub surface_mass: f64,
+}
+
+impl PanelAcross {
+    /// Inertia force under an acceleration \[m/s²\] over what the panel bears \[–\].
+    #[must_use]
+    pub fn ratio(&self, acceleration: f64) -> f64 {
+        self.surface_mass * acceleration / self.strength
+    }
 }
 
 /// What a diagonal is, and where; storeys and bays count from 1, from the ground up and from the left.

@@ -108,16 +108,44 @@ impl Frame {
         [bare.count(), beams.count()]
     }
 
-    /// Distance from a column line, counted from 0, to where beams of a floor, counted from 0, meet it: half the length of the longer wall
-    /// below and above; 0 at a column \[m\].
+    /// Distance from a column line, counted from 0, to where beams of a floor, counted from 0, begin to bend: half the length of the longer
+    /// wall below and above; of a column, that of its [`Frame::rigid_zone`] \[m\].
     #[must_use]
     pub fn arm(&self, [floor, line]: FramePlace) -> f64 {
         let walls = [floor, floor + 1].map(|storey| self.wall([storey, line]));
         let lengths = walls.into_iter().flatten().map(|wall| wall.length);
-        0.5 * lengths.fold(0.0, f64::max)
+        (0.5 * lengths.fold(0.0, f64::max)).max(self.rigid_zone([floor, line])[0])
     }
 
-    /// Length of the beam at a floor in a bay, both counted from 0, between the faces of walls or the axes of columns \[m\].
+    /// Rigid zone of the joint at a floor and a line, both counted from 0: how far from the axes beams on either side, and columns
+    /// below and above, are rigid \[m\].
+    #[must_use]
+    pub fn rigid_zone(&self, place: FramePlace) -> [f64; 2] {
+        let stated = self.rigid_zones.get(&place);
+        stated.copied().unwrap_or_default()
+    }
+
+    /// Lengths of the rigid ends of the column in a storey at a line, both counted from 0, at its foot and at its head; walls and feet on
+    /// the ground have none \[m\].
+    #[must_use]
+    pub fn rigid_ends_of_column(&self, [storey, line]: FramePlace) -> [f64; 2] {
+        if self.wall([storey, line]).is_some() {
+            return [0.0; 2];
+        }
+        let foot = storey
+            .checked_sub(1)
+            .map(|floor| self.rigid_zone([floor, line])[1]);
+        [foot.unwrap_or(0.0), self.rigid_zone([storey, line])[1]]
+    }
+
+    /// Length over which the column in a storey at a line, both counted from 0, bends \[m\].
+    #[must_use]
+    pub fn clear_height(&self, [storey, line]: FramePlace) -> f64 {
+        let ends = self.rigid_ends_of_column([storey, line]);
+        self.storey_heights[storey] - ends[0] - ends[1]
+    }
+
+    /// Length over which the beam at a floor in a bay, both counted from 0, bends: between walls or the rigid zones of joints \[m\].
     #[must_use]
     pub fn clear_span(&self, [floor, bay]: FramePlace) -> f64 {
         self.spans[bay] - self.arm([floor, bay]) - self.arm([floor, bay + 1])

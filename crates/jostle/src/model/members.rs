@@ -32,7 +32,8 @@ pub struct JointRequest {
     pub line: usize,
     /// Floor, counted from 1.
     pub floor: usize,
-    /// Half the depth of the column: distance from its axis to the ends of the beams \[m\].
+    /// Half the depth of the column beyond its rigid zone: distance from where the forces of beams are followed to its faces, ≥ 0
+    /// \[m\].
     pub half_depth: f64,
     /// Distance between the upper and the lower bars of the beams on the left and on the right; `None` for beams that are
     /// left out, > 0 \[m\].

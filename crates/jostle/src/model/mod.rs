@@ -34,7 +34,7 @@ pub use base::{Base, MassDamping};
 pub use capacity::{
     CapacityLine, MemberCapacity, RotationLimits, RotationMeasure, RuleCapacity, ShearCapacity,
 };
-pub use diagonal::{Diagonal, DiagonalKind, DiagonalPlace, Rise};
+pub use diagonal::{Diagonal, DiagonalKind, DiagonalPlace, PanelAcross, Rise};
 pub use fibres::{ColumnFibres, Fibre};
 pub(crate) use floor_matrices::displacement_in_words;
 pub use floor_matrices::{FloorMatrices, GivenFloor, GivenInPlan};
@@ -333,6 +333,9 @@ pub struct Frame {
     pub walls: Vec<FrameWall>,
     /// Beams between them whose forces are followed; their sections are those of beams.
     pub coupling_beams: Vec<CouplingBeam>,
+    /// Rigid zones of joints, by floor and line from 0: how far from the axes beams on either side, and columns below and above, are
+    /// rigid, ≥ 0; none where there is no entry: read [`Frame::rigid_zone`] \[m\].
+    pub rigid_zones: BTreeMap<FramePlace, [f64; 2]>,
 }
 
 /// Cross-section of a member.

@@ -1,7 +1,7 @@
 //! Peaks of braces, struts, walls and coupling beams of frames, and of the ground under foundations that lift off.
 
-use super::summarise::springs_of;
-use super::summary::{PartSummary, SpringSummary};
+use super::summarise::{Run, springs_of};
+use super::summary::{BuildingSummary, PartSummary, SpringSummary};
 use crate::history::{Kind, Owner};
 use crate::hysteresis::{HysteresisRule, Stage};
 use crate::stepping::Outcome;
@@ -11,11 +11,8 @@ use crate::structure::{
 use crate::system::BuildingSystem;
 
 /// Braces, struts, walls and coupling beams of a building, each in the order of the model, then what it lifts off.
-pub(super) fn parts_of(
-    index: usize,
-    building: &BuildingSystem,
-    outcome: &Outcome,
-) -> Vec<PartSummary> {
+pub(super) fn parts_of(index: usize, building: &BuildingSystem, run: &Run) -> Vec<PartSummary> {
+    let outcome = run.outcome;
     let diagonals = &building.discretization.diagonals;
     if diagonals.is_empty()
         && building.discretization.walls.is_empty()
@@ -59,6 +56,9 @@ pub(super) fn parts_of(
             deformation_min: deformed[1].max(0.0),
             dissipated_j,
             buckled_s,
+            out_of_plane_ratio: own
+                .across
+                .map(|panel| panel.ratio(acceleration_across(index, building, own, run))),
             ..PartSummary::default()
         }
     };
@@ -73,6 +73,55 @@ pub(super) fn parts_of(
         .chain(beams.map(|beam| of_coupling_beam(building, &springs, beam, range)))
         .chain(footings_of(building, &springs, outcome))
         .collect()
+}
+
+/// Greatest total acceleration across the plane of a panel, of the floors below and above it. In one plane it is that along the row: the
+/// building is taken to move as much the other way. Below the lowest storey it is the ground of the model, in one plane \[m/s²\].
+fn acceleration_across(
+    index: usize,
+    building: &BuildingSystem,
+    own: &FrameDiagonal,
+    run: &Run,
+) -> f64 {
+    let in_plan = !building.discretization.centres.is_empty();
+    let joint = building.discretization.stick_model.nodes[own.ends[1]];
+    // Shares of motions along x and across in that across the frame.
+    let shares = match in_plan {
+        true => [
+            joint.influence[0].across.abs(),
+            joint.influence[0].along.abs(),
+        ],
+        false => [1.0, 0.0],
+    };
+    let of_floor = |floor: usize| {
+        let peaks = run.outcome.peaks.floor(index, floor);
+        let across = match shares[1] > 0.0 {
+            true => peaks.across().total_acceleration(),
+            false => 0.0,
+        };
+        shares[0] * peaks.total_acceleration() + shares[1] * across
+    };
+    let below = match own.place.storey {
+        1 if in_plan => 0.0,
+        1 => run.motion.peak(),
+        storey => of_floor(storey - 1),
+    };
+    below.max(of_floor(own.place.storey))
+}
+
+/// Panels that bear less across their plane than their inertia asks.
+pub(super) fn panel_warnings(buildings: &[BuildingSummary]) -> Vec<String> {
+    let warning = |building: &BuildingSummary| {
+        let ratio = |own: &PartSummary| own.out_of_plane_ratio.filter(|ratio| *ratio > 1.0);
+        let parts = building.parts.iter();
+        let beyond = parts.filter_map(|own| Some((ratio(own)?, &own.name)));
+        let worst = beyond.max_by(|a, b| a.0.total_cmp(&b.0))?;
+        Some(format!(
+            "infill panels of \"{}\" can fall out of their plane: {} needs {:.2} times what it bears; the model keeps its struts all the same",
+            building.name, worst.1, worst.0
+        ))
+    };
+    buildings.iter().filter_map(warning).collect()
 }
 
 /// Peaks at the foot of a wall; `range`: greatest and least value of a form.

@@ -18,7 +18,7 @@ use crate::results::friction::friction_warnings;
 use crate::results::ground::{closing_of_grounds, ground_summary};
 use crate::results::isolation::{isolation_summary, mat_summary, wall_summaries};
 use crate::results::members::members_of;
-use crate::results::parts::{degree_of_coupling, parts_of};
+use crate::results::parts::{degree_of_coupling, panel_warnings, parts_of};
 use crate::results::response::{
     Amplification, BuildingResponse, FloorResponse, building_response, floor_responses,
 };
@@ -99,9 +99,11 @@ impl Summary {
             outcome,
             ..
         } = *run;
-        let buildings = (0..system.structures().len())
+        let buildings: Vec<BuildingSummary> = (0..system.structures().len())
             .map(|index| building_summary(index, run))
             .collect();
+        let mut warnings = warnings(run);
+        warnings.extend(panel_warnings(&buildings));
         let gaps: Vec<GapSummary> = model
             .gaps
             .iter()
@@ -143,7 +145,7 @@ impl Summary {
                 )),
                 RunEnd::Failed(error) => Some(error.to_string()),
             },
-            warnings: warnings(run),
+            warnings,
             notes: notes(run),
         }
     }
@@ -181,7 +183,7 @@ fn building_summary(index: usize, run: &Run) -> BuildingSummary {
         capacity: capacity::of_building(index, &members, &joints, run),
         joints,
         members,
-        parts: parts_of(index, building, run.outcome),
+        parts: parts_of(index, building, run),
         sections: sections_of(index, building, run.outcome),
         degree_of_coupling: degree_of_coupling(index, building, run.outcome),
         shear_failures: shear_failures(index, run),

@@ -4,7 +4,7 @@ use super::{PathError, Settled, settle};
 use crate::hysteresis::Hysteresis;
 use crate::linear::{NotPositive, StepMatrix};
 use crate::model::{Gravity, STANDARD_GRAVITY};
-use crate::structure::element::{self, ElementStiffness, Part, Y};
+use crate::structure::element::{self, Element, ElementStiffness, Part, THETA, Y, over_nodes};
 use crate::structure::stick_elements;
 use crate::structure::{
     AssembledBuilding, Discretization, MemberEnd, SpringPlace, StepEquations, StickModel,
@@ -140,6 +140,13 @@ fn with_p_delta(building: &AssembledBuilding) -> Result<AssembledBuilding, Colla
     for (member, compression) in stick_model.members.iter_mut().zip(carried) {
         member.compression = compression;
     }
+    // The rigid end of a column leans as a whole by the rotation of its joint.
+    let leaning = stick_model.rigid_ends.iter().map(|end| Element::Spring {
+        part: Part::Undamped,
+        stiffness: -stick_model.members[end.member].compression * end.length,
+        row: over_nodes([((end.joint, THETA), 1.0)]),
+    });
+    stick_model.elements.extend(leaning.collect::<Vec<_>>());
     let nodes = &stick_model.nodes;
     for spring in &mut stick_model.springs {
         let [a, b] = spring.ends.map(|end| nodes[end].y);

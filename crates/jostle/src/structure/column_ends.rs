@@ -59,7 +59,7 @@ impl StickModel {
         end: MemberEnd,
     ) -> (usize, FibreSection) {
         let member = MemberPlace::Column { line, storey };
-        let node = self.add_node(self.nodes[joint].x, self.nodes[joint].y);
+        let node = self.add_beside(joint);
         self.hinges.push(Hinge {
             ends: [joint, node],
             rotational_stiffness: Some(0.0),

@@ -6,7 +6,7 @@ use super::spring_place::SpringPlace;
 use super::stick_model::{StickModel, YieldingElement};
 use crate::hysteresis::Hysteresis;
 use crate::linear::Row;
-use crate::model::{Diagonal, DiagonalPlace, ProportionalDamping};
+use crate::model::{Diagonal, DiagonalPlace, PanelAcross, ProportionalDamping};
 
 /// A brace or a strut of a frame, as it stands in the stick model.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,6 +23,8 @@ pub struct FrameDiagonal {
     pub stiffness: f64,
     /// Its force, if it is that of a spring that remembers.
     pub spring: Option<Hysteresis>,
+    /// What its panel bears across its plane, if that is compared.
+    pub across: Option<PanelAcross>,
 }
 
 impl Discretization {
@@ -62,6 +64,7 @@ impl Discretization {
                 elongation,
                 stiffness: own.stiffness,
                 spring: own.hysteresis,
+                across: own.across,
             });
         }
     }

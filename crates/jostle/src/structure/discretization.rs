@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::column_ends::FibreSection;
+use super::cuts::{cut_at, equal_cuts};
 use super::diagonals::FrameDiagonal;
 use super::element::{Element, Part, Place, THETA, X, Y, index_of};
 use super::frame_walls::InFrame;
@@ -10,7 +11,7 @@ use super::member_forces::{FrameMember, MemberPlace};
 use super::space_frame::CondensedFrame;
 use super::space_joints::JointedFrame;
 use super::spring_place::{BaseMotion, MemberEnd, SpringPlace};
-use super::stick_model::{Hinge, Influence, Member, Node, Spring, StickModel, Support};
+use super::stick_model::{Hinge, Influence, Member, Node, RigidEnd, Spring, StickModel, Support};
 use super::tiers::discretize_tiers;
 use crate::hysteresis::{Hysteresis, Side};
 use crate::model::{
@@ -370,7 +371,7 @@ impl StickModel {
         end: MemberEnd,
     ) -> usize {
         let node = if node == joint {
-            let node = self.add_node(self.nodes[joint].x, self.nodes[joint].y);
+            let node = self.add_beside(joint);
             self.hinges.push(Hinge {
                 ends: [joint, node],
                 rotational_stiffness: None,
@@ -383,6 +384,7 @@ impl StickModel {
         } else {
             node
         };
+        self.ties.remove(&index_of((node, X)));
         // The spring is parallel to the hinge, which then has no stiffness sideways.
         if let Some(hinge) = self.hinges.last_mut() {
             hinge.translational_stiffness[0] = Some(0.0);
@@ -492,7 +494,13 @@ pub(super) fn discretize_frame(
                 continue;
             };
             let is_outer = [0, 1].map(|side| outer.is_some_and(|outer| outer[side] == line));
-            let mut ends = [from, to];
+            // Inside their joints columns are rigid.
+            let rigid = frame.rigid_ends_of_column([storey, line]);
+            let faces = [
+                stick_model.end_of_column(from, rigid[0]),
+                stick_model.end_of_column(to, -rigid[1]),
+            ];
+            let mut ends = faces;
             let wall = frame.wall([storey, line]);
             let grid = wall.is_none().then_some(hinges);
             let fibres = grid.and_then(|own| own.fibres.get(&[storey, line]));
@@ -517,7 +525,7 @@ pub(super) fn discretize_frame(
                     });
                 }
             }
-            for (joint, end) in [(from, MemberEnd::First), (to, MemberEnd::Last)] {
+            for (joint, end) in [(faces[0], MemberEnd::First), (faces[1], MemberEnd::Last)] {
                 let node = &mut ends[end as usize];
                 if let Some(own) = fibres.filter(|own| own.at_ends[end as usize]) {
                     let place = [storey + 1, line + 1];
@@ -545,12 +553,13 @@ pub(super) fn discretize_frame(
                     });
                 }
             }
+            let clear_height = storey_height - rigid[0] - rigid[1];
             let mut cuts = equal_cuts(frame.column_segments);
             let ports = is_outer.into_iter().zip(points);
             for point in ports.filter(|(is_face, _)| *is_face).flat_map(|(_, p)| p) {
                 cut_at(
                     &mut cuts,
-                    (point - height + storey_height) / storey_height,
+                    (point - height + storey_height - rigid[0]) / clear_height,
                     0.25 / frame.column_segments as f64,
                 );
             }
@@ -563,6 +572,18 @@ pub(super) fn discretize_frame(
                 &column,
                 frame.axial.columns_flexible,
             );
+            let elements = [first, stick_model.members.len() - 1];
+            for (at, joint) in [from, to].into_iter().enumerate() {
+                if rigid[at] > 0.0 {
+                    let between = rigid[at] * column.line_mass;
+                    stick_model.carry_on_axis(joint, ends[at], between);
+                    stick_model.rigid_ends.push(RigidEnd {
+                        joint,
+                        length: rigid[at],
+                        member: elements[at],
+                    });
+                }
+            }
             discretization.members.push(FrameMember {
                 frame: None,
                 place: MemberPlace::Column {
@@ -662,31 +683,6 @@ pub(super) fn discretize_frame(
         discretization.let_feet_lift(&all_joints[0], stiffness);
     }
     discretization
-}
-
-/// Division points of a line into equal segments, as fractions of its length.
-fn equal_cuts(segments: usize) -> Vec<f64> {
-    (1..segments).map(|k| k as f64 / segments as f64).collect()
-}
-
-/// Adds a division point at a fraction of the length, by moving a point that is near enough, if the fraction lies
-/// inside the line.
-fn cut_at(cuts: &mut Vec<f64>, share: f64, reach: f64) {
-    /// Fractions closer than this coincide.
-    const SAME: f64 = 1e-6;
-    if !(share > SAME && share < 1.0 - SAME) || cuts.iter().any(|c| (c - share).abs() <= SAME) {
-        return;
-    }
-    let segments = (0.25 / reach).round();
-    let is_equal = |cut: f64| (cut * segments - (cut * segments).round()).abs() < SAME;
-    match cuts
-        .iter_mut()
-        .find(|cut| is_equal(**cut) && (**cut - share).abs() <= reach)
-    {
-        Some(near) => *near = share,
-        None => cuts.push(share),
-    }
-    cuts.sort_by(f64::total_cmp);
 }
 
 /// Springs between displacements, and from each to the ground, make any symmetric matrix: off the diagonal stands −k of the

@@ -37,8 +37,10 @@ impl StickModel {
         if let Some(turn) = self.turns.get(&node).copied() {
             self.turns.insert(new, turn);
         }
-        if let Some(tie) = self.ties.get(&index_of((node, Y))).cloned() {
-            self.ties.insert(index_of((new, Y)), tie);
+        for component in [X, Y] {
+            if let Some(tie) = self.ties.get(&index_of((node, component))).cloned() {
+                self.ties.insert(index_of((new, component)), tie);
+            }
         }
         new
     }
@@ -46,9 +48,7 @@ impl StickModel {
     /// The same, which moves with the other except along one component.
     fn add_following(&mut self, node: usize, free: usize) -> usize {
         let new = self.add_beside(node);
-        if free == Y {
-            self.ties.remove(&index_of((new, Y)));
-        }
+        self.ties.remove(&index_of((new, free)));
         let mut translational_stiffness = [None; 2];
         translational_stiffness[free] = Some(0.0);
         self.hinges.push(Hinge {
@@ -76,7 +76,22 @@ impl StickModel {
         face
     }
 
-    /// Lets the axis of a wall carry the mass at the end of a beam beside its face, and that of the beam between both \[kg\].
+    /// Where a column begins to bend, so far above the joint whose rotation moves it sideways: u_e = u − a θ. The joint itself without a
+    /// rigid end.
+    pub(super) fn end_of_column(&mut self, joint: usize, rise: f64) -> usize {
+        if rise == 0.0 {
+            return joint;
+        }
+        let end = self.add_following(joint, X);
+        self.nodes[end].y += rise;
+        let moved = over_nodes([((joint, X), 1.0), ((joint, THETA), -rise)]);
+        self.ties.insert(index_of((end, X)), moved);
+        // It stands on the floor of the joint.
+        self.turns.insert(end, self.turn(joint));
+        end
+    }
+
+    /// Lets the axis of a wall, or a joint, carry the mass at the end of a member beside it, and that of the member between both \[kg\].
     pub(super) fn carry_on_axis(&mut self, joint: usize, end: usize, between: f64) {
         let own = &mut self.nodes[end];
         let mass = own.mass;

@@ -687,17 +687,21 @@ impl<'a> Cuts<'a> {
     fn passed_through_beam(&self, cut: &Element) -> LinearForm {
         let discretization = &self.building.discretization;
         let stick_model = &discretization.stick_model;
-        let left = stick_model.nodes[cut.ends[0]];
+        // Ends of beams and columns stand at their joints.
+        let left = stick_model.turn(cut.ends[0]);
         let equations = &self.building.equations;
         let floors = discretization.floors.iter();
         let mut form = LinearForm {
             left_face: floors
                 .map(|node| stick_model.nodes[*node].y)
-                .position(|height| (height - left.y).abs() <= SAME_LINE),
+                .position(|height| (height - left.height).abs() <= SAME_LINE),
             ..LinearForm::default()
         };
         for (index, node) in stick_model.nodes.iter().enumerate() {
-            if (node.y - left.y).abs() > SAME_LINE || node.x > left.x + SAME_LINE {
+            let own = stick_model.turn(index);
+            if (own.height - left.height).abs() > SAME_LINE
+                || own.position > left.position + SAME_LINE
+            {
                 continue;
             }
             for (part, dof, value) in &self.rows[index][X] {

@@ -2,6 +2,7 @@
 
 mod assembled_building;
 mod column_ends;
+mod cuts;
 mod diagonals;
 mod discretization;
 pub(crate) mod element;
@@ -50,8 +51,8 @@ pub use space_joints::{JointNodes, JointedFrame, JointedMember};
 pub use spring_place::{BaseMotion, MemberEnd, SpringPlace};
 pub use step_equations::{StepEquations, solve_once};
 pub use stick_model::{
-    Hinge, Influence, Member, Node, PlanMat, RigidFoundation, Spring, StickModel, Support,
-    YieldingElement,
+    Hinge, Influence, Member, Node, PlanMat, RigidEnd, RigidFoundation, Spring, StickModel,
+    Support, YieldingElement,
 };
 pub use storey_forces::{StoreyForce, StoreyForces};
 pub(crate) use tiers::motion_at;

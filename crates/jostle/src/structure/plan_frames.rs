@@ -8,7 +8,8 @@ use super::element::{THETA, X, Y, index_of, over_nodes};
 use super::member_forces::FrameMember;
 use super::order::Turn;
 use super::spring_place::SpringPlace;
-use super::stick_model::{Influence, Node, StickModel, Support};
+use super::stick_model::{Influence, Node, RigidEnd, StickModel, Support};
+use crate::linear::Row;
 use crate::model::{
     Frame, LEVEL_TOLERANCE, LumpedFloor, PlanFrame, PlanPoint, SharedColumn, Tiers,
 };
@@ -159,11 +160,21 @@ impl StickModel {
         let positions: Vec<f64> = (0..frame.nodes.len())
             .map(|node| frame.turn(node).position)
             .collect();
+        let heights: Vec<f64> = (0..frame.nodes.len())
+            .map(|node| frame.turn(node).height)
+            .collect();
         // Rows count displacements of nodes.
         let before = index_of((nodes, X));
         let faces = frame.ties.iter();
         let faces = faces.map(|(index, row)| (before + index, row.moved_up(before)));
-        self.ties.extend(faces);
+        let faces: Vec<(usize, Row)> = faces.collect();
+        self.ties.extend(faces.iter().cloned());
+        self.rigid_ends
+            .extend(frame.rigid_ends.iter().map(|own| RigidEnd {
+                joint: nodes + own.joint,
+                member: members + own.member,
+                ..*own
+            }));
         for (index, node) in frame.nodes.into_iter().enumerate() {
             let (node, floor) = self.node_in_plan(index, &node, place);
             if let Some(floor) = floor {
@@ -174,12 +185,17 @@ impl StickModel {
             }
             let turn = Turn {
                 stage: None,
-                height: node.y,
+                height: heights[index],
                 elevation: place.elevation,
                 position: positions[index],
             };
             self.turns.insert(self.nodes.len(), turn);
             self.nodes.push(node);
+        }
+        // Ends of columns follow joints, which now follow floors.
+        for (index, row) in faces {
+            let carried = self.carried_row(&row);
+            self.ties.insert(index, carried);
         }
         let moved = |ends: [usize; 2]| ends.map(|end| nodes + end);
         self.members

@@ -33,10 +33,23 @@ pub struct StickModel {
     /// Displacements that move with others, 3 × node + component, as rows over those: joints of frames with rigid floors along their
     /// lines, and nodes that rise and sink with the rotation of a foundation.
     pub ties: BTreeMap<usize, Row>,
+    /// Rigid ends of columns at joints.
+    pub rigid_ends: Vec<RigidEnd>,
     /// Nodes that are not eliminated in the order of their coordinates.
     pub turns: BTreeMap<usize, Turn>,
     /// Rigid foundation on springs and dashpots, if it stands on one.
     pub foundation: Option<RigidFoundation>,
+}
+
+/// The end of a column inside a joint, which turns with it as a rigid body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RigidEnd {
+    /// Node of the joint.
+    pub joint: usize,
+    /// Its length, > 0 \[m\].
+    pub length: f64,
+    /// The member of the stick model that goes on from it.
+    pub member: usize,
 }
 
 /// A rigid body at the foot of a building, on springs and dashpots: it moves sideways and turns. It rises if it can lift off.

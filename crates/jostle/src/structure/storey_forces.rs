@@ -146,7 +146,11 @@ impl StoreyForces {
             for (index, spring) in stick_model.single_springs().enumerate() {
                 for (place, share) in element::places(&spring.row) {
                     let force = share * acts(place);
-                    let at = own.arm(tops, stick_model.nodes[place.0].y);
+                    // Ends of columns act at the joints that move them.
+                    let carried = stick_model.carried(place);
+                    let mut carried = element::places(&carried);
+                    let node = carried.next().map_or(place.0, |((node, _), _)| node);
+                    let at = own.arm(tops, stick_model.nodes[node].y);
                     if let (true, Some((storey, arm))) = (force != 0.0, at) {
                         storey.of_springs.push((index, [force, arm * force]));
                     }

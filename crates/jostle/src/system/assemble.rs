@@ -543,7 +543,12 @@ fn ports(
             .iter()
             .copied()
             .find(|&node| (nodes[node].y + discretization.elevation - height).abs() <= 2.0 * SAME)
-            .ok_or_else(|| format!("no point to hit at {height:.3} m"))?;
+            .ok_or_else(|| match discretization.stick_model.rigid_ends.is_empty() {
+                true => format!("no point to hit at {height:.3} m"),
+                false => format!(
+                    "no point to hit at {height:.3} m: the end of the column is rigid there; leave rigid_ends out, or make them shorter"
+                ),
+            })?;
         ports[side] = Some(system.port(building, node)?);
     }
     Ok(PortPair(ports))

@@ -34,6 +34,11 @@ pub enum NotAFrame {
         "its beams meet walls at their faces; this form of the method is for beams between the axes of columns"
     )]
     Walls,
+    /// Its members are rigid inside their joints.
+    #[error(
+        "its members are rigid inside their joints; this form of the method is for members that bend from axis to axis"
+    )]
+    RigidEnds,
     /// A node is on no column line and no beam.
     #[error("node {node} lies on no column line and on no beam")]
     LooseNode {
@@ -127,6 +132,9 @@ impl Layout {
         }
         if !building.discretization.walls.is_empty() {
             return Err(NotAFrame::Walls);
+        }
+        if !building.discretization.stick_model.ties.is_empty() {
+            return Err(NotAFrame::RigidEnds);
         }
         let elements = elements(stick_model);
         let mut around = vec![Vec::new(); stick_model.nodes.len()];

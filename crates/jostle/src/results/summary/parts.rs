@@ -41,6 +41,10 @@ pub struct PartSummary {
     /// When a brace first buckled; 0 if weight alone causes it. Absent in those that do not buckle, and in other parts \[s\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub buckled_s: Option<f64>,
+    /// Of a panel whose strength across its plane is given: greatest inertia force of the panel, by the total accelerations of the floors
+    /// below and above, over that strength. Absent in others \[–\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub out_of_plane_ratio: Option<f64>,
     /// Of a footing: share of the run in which a contact spring bears nothing, the greatest of all springs, 0…1 \[–\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lifted_share: Option<f64>,
@@ -66,6 +70,7 @@ impl PartSummary {
         Quantity::<Self>::optional("rotation_min_rad", Unit::RAD, "the same in the other sense, as a magnitude", |p| p.rotation_min_rad),
         Quantity::<Self>::real("dissipated_j", Unit::J, "energy dissipated", |p| p.dissipated_j),
         Quantity::<Self>::optional("buckled_s", Unit::S, "when a brace first buckled; absent if it does not", |p| p.buckled_s),
+        Quantity::<Self>::optional("out_of_plane_ratio", Unit::NONE, "of a panel: greatest inertia force across its plane, by the accelerations of the floors below and above, over what it bears", |p| p.out_of_plane_ratio),
         Quantity::<Self>::optional("lifted_share", Unit::NONE, "of a footing: share of the run in which a contact spring bears nothing, the greatest of all", |p| p.lifted_share),
         Quantity::<Self>::optional("pressure_max_pa", Unit::PA, "of a foundation: greatest force of a contact spring over the area of its strip", |p| p.pressure_max_pa),
         Quantity::<Self>::optional("settlement_m", Unit::M, "of a footing: settlement of the ground at the end of the run, the greatest of all contact springs", |p| p.settlement_m),

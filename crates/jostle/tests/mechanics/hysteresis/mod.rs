@@ -5,4 +5,5 @@ mod lowered_strength;
 mod oscillator;
 mod properties;
 mod published_paths;
+mod steel;
 mod support;

@@ -1,5 +1,6 @@
 //! Braces and struts of frames: closed forms, equilibrium, and the same frame by another way.
 
+use jostle::history::{Column, Kind, Owner};
 use jostle::hysteresis::{
     Backbone, BucklingBrace, Corners, Hysteresis, HysteresisMemory, HysteresisRule, Pinching, Side,
 };
@@ -8,15 +9,15 @@ use jostle::statics::{STANDARD_GRAVITY, compressions, settle};
 use jostle::structure::{SpringPlace, solve_once};
 use jostle::{
     Base, Building, Damping, Diagonal, DiagonalKind, DiagonalPlace, Foundation, Frame, FrameHinges,
-    HalfSpace, Isolation, Isolator, MemberRequest, Model, Outcome, PlanFrame, RiccatiSweep, Rise,
-    Section, Soil, SoilCoupling, Solver, Structure, System, Tier, Tiers,
+    HalfSpace, Isolation, Isolator, MemberRequest, Model, Outcome, PanelAcross, PlanFrame,
+    RiccatiSweep, Rise, Section, Soil, SoilCoupling, Solver, Structure, System, Tier, Tiers,
 };
 use jostle_testkit::compare::close;
 use jostle_testkit::models::{concrete, rectangle};
 use jostle_testkit::motions::fading;
 use jostle_testkit::runs;
 
-use crate::verification::support::{assembled, frame, framed, run, steps};
+use crate::verification::support::{assembled, column, frame, framed, run, steps};
 
 fn diagonal(kind: DiagonalKind, storey: usize, bay: usize, rise: Rise) -> Diagonal {
     let place = DiagonalPlace {
@@ -38,6 +39,7 @@ fn diagonal(kind: DiagonalKind, storey: usize, bay: usize, rise: Rise) -> Diagon
         place,
         stiffness,
         hysteresis: Some(hysteresis),
+        across: None,
     }
 }
 
@@ -492,4 +494,65 @@ fn cracking_panels_push_alone() {
         }
     }
     assert!(cracked >= 2, "{cracked} struts cracked");
+}
+
+/// The ratio of a panel is its mass times the greatest acceleration of the histories of its floors, over its strength; it changes no motion,
+/// and a panel that bears too little is a warning.
+#[test]
+fn panels_are_compared_with_the_accelerations_of_their_floors() {
+    let motion = fading("along", 9.0, [2.5, 3.0], 500);
+    let model = |strength: Option<f64>| {
+        let mut own = braced(false);
+        for part in &mut own.diagonals {
+            part.across = strength.map(|strength| PanelAcross {
+                strength,
+                surface_mass: 280.0,
+            });
+        }
+        alone(framed("A", own))
+    };
+    let (_, bare, _) = runs::run_and_summary(&model(None), &motion);
+    let (_, outcome, summary) = runs::run_and_summary(&model(Some(1e4)), &motion);
+    assert_eq!(bare.state, outcome.state);
+    let most = |floor: usize| {
+        let of = Column::along(Owner::Floor { building: 0, floor }, Kind::Acceleration);
+        let history = column(&outcome, of);
+        history
+            .iter()
+            .fold(0.0_f64, |most, own| most.max(own.abs()))
+    };
+    let floors = [motion.peak(), most(1), most(2), most(3)];
+    let panels = summary.buildings[0]
+        .parts
+        .iter()
+        .filter(|own| own.kind == "infill");
+    let mut count = 0;
+    for own in panels {
+        let storey: usize = own
+            .name
+            .split('.')
+            .nth(2)
+            .expect("a storey")
+            .parse()
+            .expect("a number");
+        let due = 280.0 * floors[storey - 1].max(floors[storey]) / 1e4;
+        close(
+            own.out_of_plane_ratio.expect("it is compared"),
+            due,
+            due,
+            5e-3,
+            &own.name,
+        );
+        count += 1;
+    }
+    assert_eq!(count, 4);
+    let said = |summary: &jostle::Summary| {
+        summary
+            .warnings
+            .iter()
+            .any(|own| own.contains("out of their plane"))
+    };
+    assert!(!said(&summary), "{:?}", summary.warnings);
+    let (_, _, weak) = runs::run_and_summary(&model(Some(100.0)), &motion);
+    assert!(said(&weak));
 }

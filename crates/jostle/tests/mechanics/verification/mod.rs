@@ -40,6 +40,7 @@ mod newmark_is_second_order;
 mod no_impact_is_lost_or_counted_twice;
 mod plan_frames;
 mod riccati_equals_direct_stiffness;
+mod rigid_ends;
 mod rows_of_buildings;
 mod same_input_same_bits;
 mod series_stepping;

@@ -1,0 +1,71 @@
+//! `joint`: semi-rigid connections between the ends of beams and columns.
+
+use jostle::{Frame, FrameHinges, Hinges, Joint};
+
+use super::building::or_rigid;
+use super::hinges;
+use crate::keys::Section;
+use crate::quantity::Dimension;
+use crate::reader::{Reader, View};
+
+/// The elastic springs of the connections of a frame.
+pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>) -> Joint {
+    let Some(field) = reader.get(view, "joint") else {
+        return Joint::default();
+    };
+    let Some(view) = reader.open(&field, &[Section::Joint]) else {
+        return Joint::default();
+    };
+    let turning = or_rigid(
+        reader,
+        &view,
+        "rotational_stiffness",
+        Dimension::RotationalStiffness,
+    );
+    Joint {
+        // A spring that yields stands among the hinges.
+        rotational_stiffness: turning.filter(|_| !view.has("hinge")),
+        horizontal_stiffness: or_rigid(reader, &view, "horizontal_stiffness", Dimension::Stiffness),
+        vertical_stiffness: or_rigid(reader, &view, "vertical_stiffness", Dimension::Stiffness),
+    }
+}
+
+/// Hinges of a frame with the connections that yield, which are those of its beams. `view`: the frame.
+pub(super) fn with_hinge(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    frame: &Frame,
+    hinges: Option<Hinges>,
+) -> Option<Hinges> {
+    let table = reader.get(view, "joint");
+    let joint = table.and_then(|field| reader.reopen(&field, &[Section::Joint]));
+    let hinge = joint.and_then(|joint| Some((reader.get(&joint, "hinge")?, joint)));
+    let Some((field, joint)) = hinge else {
+        return hinges;
+    };
+    let stiffness = or_rigid(
+        reader,
+        &joint,
+        "rotational_stiffness",
+        Dimension::RotationalStiffness,
+    );
+    if !joint.has("rotational_stiffness") {
+        *reader.bad(
+            &field,
+            "needs the stiffness of the connection before it yields",
+        ) = Some("add rotational_stiffness = \"40 MN.m/rad\", or remove hinge".into());
+    }
+    let sections = &[Section::BaseRocking];
+    let spring = hinges::read_spring(reader, &field, sections, stiffness, Dimension::Moment);
+    let mut all = match hinges {
+        Some(Hinges::Frame(hinges)) => hinges,
+        _ => FrameHinges::default(),
+    };
+    if !all.beams.is_empty() {
+        *reader.bad(&field, "stands where beams have hinges already") =
+            Some("keep either joint.hinge or the hinges of beams".into());
+        return None;
+    }
+    all.beams = vec![vec![spring?; frame.spans.len()]; frame.storey_heights.len()];
+    Some(Hinges::Frame(all))
+}

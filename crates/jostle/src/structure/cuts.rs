@@ -1,0 +1,26 @@
+//! Where members are divided between their lumped masses.
+
+/// Division points of a line into equal segments, as fractions of its length.
+pub(super) fn equal_cuts(segments: usize) -> Vec<f64> {
+    (1..segments).map(|k| k as f64 / segments as f64).collect()
+}
+
+/// Adds a division point at a fraction of the length, by moving a point that is near enough, if the fraction lies
+/// inside the line.
+pub(super) fn cut_at(cuts: &mut Vec<f64>, share: f64, reach: f64) {
+    /// Fractions closer than this coincide.
+    const SAME: f64 = 1e-6;
+    if !(share > SAME && share < 1.0 - SAME) || cuts.iter().any(|c| (c - share).abs() <= SAME) {
+        return;
+    }
+    let segments = (0.25 / reach).round();
+    let is_equal = |cut: f64| (cut * segments - (cut * segments).round()).abs() < SAME;
+    match cuts
+        .iter_mut()
+        .find(|cut| is_equal(**cut) && (**cut - share).abs() <= reach)
+    {
+        Some(near) => *near = share,
+        None => cuts.push(share),
+    }
+    cuts.sort_by(f64::total_cmp);
+}
