@@ -68,6 +68,51 @@ pub(super) fn respond(
     }
 }
 
+/// Force and slope of the line on which the spring is, where it neither turns back nor comes to a corner: no state is copied.
+#[inline]
+pub(super) fn on_the_line(
+    backbone: &Backbone,
+    exponent: Option<f64>,
+    memory: &HysteresisMemory,
+    deformation: f64,
+) -> Option<[f64; 2]> {
+    let towards = Side::from_change(deformation - memory.deformation);
+    if turns_back(memory, towards) {
+        return None;
+    }
+    let piece = ahead(backbone, exponent, memory, towards);
+    let ends = |(end, _): &(Corner, Next)| towards.sign() * (deformation - end.deformation) >= 0.0;
+    if piece.end.as_ref().is_some_and(ends) {
+        return None;
+    }
+    let force = piece.through.force + piece.slope * (deformation - piece.through.deformation);
+    Some([force, piece.slope])
+}
+
+/// Moves the spring along its line, as [`respond`] does; returns false where it would leave the line.
+#[inline]
+pub(super) fn move_on_the_line(
+    backbone: &Backbone,
+    exponent: Option<f64>,
+    memory: &mut HysteresisMemory,
+    deformation: f64,
+) -> bool {
+    let Some([force, _]) = on_the_line(backbone, exponent, memory, deformation) else {
+        return false;
+    };
+    let towards = Side::from_change(deformation - memory.deformation);
+    if memory.branch == Branch::Backbone {
+        memory.peaks[towards.index()] = towards.sign() * deformation;
+    }
+    memory.stand_at(deformation, force, towards);
+    true
+}
+
+/// Whether motion towards a side leaves the branch in the opposite direction.
+fn turns_back(memory: &HysteresisMemory, towards: Side) -> bool {
+    matches!(memory.branch, Branch::Backbone | Branch::Reloading) && memory.side != towards
+}
+
 /// Leaves a branch in the opposite direction.
 fn turn_back(
     backbone: &Backbone,
@@ -75,8 +120,7 @@ fn turn_back(
     memory: &mut HysteresisMemory,
     towards: Side,
 ) {
-    let leads = matches!(memory.branch, Branch::Backbone | Branch::Reloading);
-    if leads && memory.side != towards {
+    if turns_back(memory, towards) {
         memory.unloading = unloading_stiffness(backbone, exponent, memory);
         memory.left = memory.branch;
         memory.turn = memory.point();
@@ -247,16 +291,22 @@ pub(super) fn next_corner(
     memory: &HysteresisMemory,
     towards: Side,
 ) -> f64 {
-    let mut memory = *memory;
     let sign = towards.sign();
     let here = memory.point();
+    let lies_ahead = |end: Corner| sign * (end.deformation - here.deformation) > 0.0;
+    if !turns_back(memory, towards) {
+        match ahead(backbone, exponent, memory, towards).end {
+            None => return sign * f64::INFINITY,
+            Some((end, _)) if lies_ahead(end) => return end.deformation,
+            Some(_) => {}
+        }
+    }
+    let mut memory = *memory;
     turn_back(backbone, exponent, &mut memory, towards);
     loop {
         match ahead(backbone, exponent, &memory, towards).end {
             None => return sign * f64::INFINITY,
-            Some((end, _)) if sign * (end.deformation - here.deformation) > 0.0 => {
-                return end.deformation;
-            }
+            Some((end, _)) if lies_ahead(end) => return end.deformation,
             // The corner is here.
             Some((end, next)) => enter(&mut memory, next, end, towards),
         }

@@ -92,6 +92,14 @@ impl HysteresisRule {
         Self::Elastic,
     ];
 
+    /// Exponent of the unloading stiffness of Takeda's rule.
+    const fn exponent(self) -> Option<f64> {
+        match self {
+            Self::Takeda { exponent } => Some(exponent),
+            _ => None,
+        }
+    }
+
     /// The rule of a name, with parameters at their defaults.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
@@ -443,11 +451,8 @@ impl Hysteresis {
             HysteresisRule::Bilinear | HysteresisRule::Normal => {
                 sliders::respond(&self.backbone, memory, deformation)
             }
-            HysteresisRule::PeakOriented => {
-                oriented::respond(&self.backbone, None, memory, deformation)
-            }
-            HysteresisRule::Takeda { exponent } => {
-                oriented::respond(&self.backbone, Some(exponent), memory, deformation)
+            HysteresisRule::PeakOriented | HysteresisRule::Takeda { .. } => {
+                oriented::respond(&self.backbone, self.rule.exponent(), memory, deformation)
             }
             HysteresisRule::DegradingTrilinear => {
                 degrading::respond(&self.backbone, memory, deformation)
@@ -530,6 +535,17 @@ impl Hysteresis {
                 let answer = sliders::answer(&self.backbone, memory, deformation);
                 [answer.force, answer.tangent]
             }
+            HysteresisRule::PeakOriented | HysteresisRule::Takeda { .. }
+                if deformation != memory.deformation =>
+            {
+                let exponent = self.rule.exponent();
+                oriented::on_the_line(&self.backbone, exponent, memory, deformation).unwrap_or_else(
+                    || {
+                        let response = self.respond(memory, deformation);
+                        [response.force, response.tangent]
+                    },
+                )
+            }
             HysteresisRule::Concrete(fall) if deformation != memory.deformation => {
                 concrete::answer(&self.backbone, &fall, memory, deformation)
             }
@@ -576,9 +592,14 @@ impl Hysteresis {
                     memory.stand_at(deformation, answer.force, Side::from_change(change));
                 }
             }
+            HysteresisRule::PeakOriented | HysteresisRule::Takeda { .. } => {
+                let exponent = self.rule.exponent();
+                let (curve, moves) = (&self.backbone, deformation != memory.deformation);
+                if moves && !oriented::move_on_the_line(curve, exponent, memory, deformation) {
+                    *memory = self.respond(memory, deformation).memory;
+                }
+            }
             HysteresisRule::Elastic
-            | HysteresisRule::PeakOriented
-            | HysteresisRule::Takeda { .. }
             | HysteresisRule::DegradingTrilinear
             | HysteresisRule::Stop { .. }
             | HysteresisRule::Pinched(_)
@@ -666,11 +687,8 @@ impl Hysteresis {
             HysteresisRule::Bilinear | HysteresisRule::Normal => {
                 sliders::next_corner(&self.backbone, memory, towards)
             }
-            HysteresisRule::PeakOriented => {
-                oriented::next_corner(&self.backbone, None, memory, towards)
-            }
-            HysteresisRule::Takeda { exponent } => {
-                oriented::next_corner(&self.backbone, Some(exponent), memory, towards)
+            HysteresisRule::PeakOriented | HysteresisRule::Takeda { .. } => {
+                oriented::next_corner(&self.backbone, self.rule.exponent(), memory, towards)
             }
             HysteresisRule::DegradingTrilinear => {
                 degrading::next_corner(&self.backbone, memory, towards)
