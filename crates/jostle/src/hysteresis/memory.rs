@@ -65,12 +65,39 @@ impl HysteresisMemory {
         *extreme = extreme.max(side.sign() * deformation);
     }
 
+    /// Moves the spring on along its line; on the backbone its peak moves along.
+    pub(super) fn move_on_the_line(&mut self, deformation: f64, force: f64) {
+        let side = Side::from_change(deformation - self.deformation);
+        if self.branch == Branch::Backbone {
+            self.peaks[side.index()] = side.sign() * deformation;
+        }
+        self.stand_at(deformation, force, side);
+    }
+
     pub(super) fn point(&self) -> Corner {
         Corner {
             deformation: self.deformation,
             force: self.force,
         }
     }
+}
+
+/// Force and slope of a line through a point at a deformation before its end, towards a side by its sign; `None` where the corner
+/// is reached.
+#[inline]
+pub(super) fn before_corner(
+    through: Corner,
+    slope: f64,
+    end: Option<Corner>,
+    [sign, deformation]: [f64; 2],
+) -> Option<[f64; 2]> {
+    if end.is_some_and(|end| sign * (deformation - end.deformation) >= 0.0) {
+        return None;
+    }
+    Some([
+        through.force + slope * (deformation - through.deformation),
+        slope,
+    ])
 }
 
 /// The straight line a spring is on.

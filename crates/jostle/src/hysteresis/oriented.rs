@@ -6,7 +6,7 @@
 //! cracking force of that side and then turns towards its yield point.
 
 use super::backbone::{Backbone, Corner, Side};
-use super::memory::{Branch, HysteresisMemory, Response};
+use super::memory::{Branch, HysteresisMemory, Response, before_corner};
 
 /// Straight line on which the spring moves in one direction, with its end and the next branch.
 struct Piece {
@@ -80,32 +80,17 @@ pub(super) fn on_the_line(
     if turns_back(memory, towards) {
         return None;
     }
-    let piece = ahead(backbone, exponent, memory, towards);
-    let ends = |(end, _): &(Corner, Next)| towards.sign() * (deformation - end.deformation) >= 0.0;
-    if piece.end.as_ref().is_some_and(ends) {
-        return None;
-    }
-    let force = piece.through.force + piece.slope * (deformation - piece.through.deformation);
-    Some([force, piece.slope])
-}
-
-/// Moves the spring along its line, as [`respond`] does; returns false where it would leave the line.
-#[inline]
-pub(super) fn move_on_the_line(
-    backbone: &Backbone,
-    exponent: Option<f64>,
-    memory: &mut HysteresisMemory,
-    deformation: f64,
-) -> bool {
-    let Some([force, _]) = on_the_line(backbone, exponent, memory, deformation) else {
-        return false;
-    };
-    let towards = Side::from_change(deformation - memory.deformation);
-    if memory.branch == Branch::Backbone {
-        memory.peaks[towards.index()] = towards.sign() * deformation;
-    }
-    memory.stand_at(deformation, force, towards);
-    true
+    let Piece {
+        through,
+        slope,
+        end,
+    } = ahead(backbone, exponent, memory, towards);
+    before_corner(
+        through,
+        slope,
+        end.map(|(end, _)| end),
+        [towards.sign(), deformation],
+    )
 }
 
 /// Whether motion towards a side leaves the branch in the opposite direction.

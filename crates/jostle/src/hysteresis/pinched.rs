@@ -19,7 +19,7 @@
 //! yield.
 
 use super::backbone::{Backbone, BackboneSide, Corner, Side};
-use super::memory::{Branch, HysteresisMemory, Response};
+use super::memory::{Branch, HysteresisMemory, Response, before_corner};
 
 /// Damage moves no peak further than this, in yield deformations \[–\].
 const FURTHEST: f64 = 1e6;
@@ -169,6 +169,36 @@ pub(super) fn respond(
     }
 }
 
+/// Force and slope of the line on which the spring is, where it neither turns back nor comes to a corner: no state is copied.
+#[inline]
+pub(super) fn on_the_line(
+    backbone: &Backbone,
+    memory: &HysteresisMemory,
+    deformation: f64,
+) -> Option<[f64; 2]> {
+    let towards = Side::from_change(deformation - memory.deformation);
+    if turns_back(backbone, memory, towards) {
+        return None;
+    }
+    let Line {
+        through,
+        slope,
+        end,
+    } = ahead(backbone, memory, towards);
+    before_corner(
+        through,
+        slope,
+        end.map(|(end, _)| end),
+        [towards.sign(), deformation],
+    )
+}
+
+/// Whether motion towards a side leaves the branch in the opposite direction.
+fn turns_back(backbone: &Backbone, memory: &HysteresisMemory, towards: Side) -> bool {
+    let leads = matches!(memory.branch, Branch::Backbone | Branch::Reloading);
+    leads && memory.side != towards && open_from(backbone, memory).is_none()
+}
+
 /// Work along a straight line.
 fn area(from: Corner, to: Corner) -> f64 {
     0.5 * (to.force + from.force) * (to.deformation - from.deformation)
@@ -187,8 +217,7 @@ fn turn_back(
     memory: &mut HysteresisMemory,
     towards: Side,
 ) {
-    let leads = matches!(memory.branch, Branch::Backbone | Branch::Reloading);
-    if leads && memory.side != towards && open_from(backbone, memory).is_none() {
+    if turns_back(backbone, memory, towards) {
         memory.unloading = unloading_stiffness(backbone, pinching, memory);
         memory.left = memory.branch;
         memory.turn = memory.point();
@@ -423,16 +452,22 @@ pub(super) fn next_corner(
     memory: &HysteresisMemory,
     towards: Side,
 ) -> f64 {
-    let mut memory = *memory;
     let sign = towards.sign();
     let here = memory.point();
+    let lies_ahead = |end: Corner| sign * (end.deformation - here.deformation) > 0.0;
+    if !turns_back(backbone, memory, towards) {
+        match ahead(backbone, memory, towards).end {
+            None => return sign * f64::INFINITY,
+            Some((end, _)) if lies_ahead(end) => return end.deformation,
+            Some(_) => {}
+        }
+    }
+    let mut memory = *memory;
     turn_back(backbone, pinching, &mut memory, towards);
     loop {
         match ahead(backbone, &memory, towards).end {
             None => return sign * f64::INFINITY,
-            Some((end, _)) if sign * (end.deformation - here.deformation) > 0.0 => {
-                return end.deformation;
-            }
+            Some((end, _)) if lies_ahead(end) => return end.deformation,
             // The corner is here.
             Some((end, next)) => enter(backbone, pinching, &mut memory, next, end, towards),
         }

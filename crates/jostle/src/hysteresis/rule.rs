@@ -535,17 +535,6 @@ impl Hysteresis {
                 let answer = sliders::answer(&self.backbone, memory, deformation);
                 [answer.force, answer.tangent]
             }
-            HysteresisRule::PeakOriented | HysteresisRule::Takeda { .. }
-                if deformation != memory.deformation =>
-            {
-                let exponent = self.rule.exponent();
-                oriented::on_the_line(&self.backbone, exponent, memory, deformation).unwrap_or_else(
-                    || {
-                        let response = self.respond(memory, deformation);
-                        [response.force, response.tangent]
-                    },
-                )
-            }
             HysteresisRule::Concrete(fall) if deformation != memory.deformation => {
                 concrete::answer(&self.backbone, &fall, memory, deformation)
             }
@@ -568,9 +557,30 @@ impl Hysteresis {
             | HysteresisRule::MenegottoPinto(_)
             | HysteresisRule::Pendulums(_)
             | HysteresisRule::InPlan { .. } => {
-                let response = self.respond(memory, deformation);
-                [response.force, response.tangent]
+                self.on_the_line(memory, deformation).unwrap_or_else(|| {
+                    let response = self.respond(memory, deformation);
+                    [response.force, response.tangent]
+                })
             }
+        }
+    }
+
+    /// Force and tangent on the line of the spring, where the rule knows it and the spring neither rests, turns back nor comes
+    /// to a corner: no state is copied.
+    #[inline]
+    fn on_the_line(&self, memory: &HysteresisMemory, deformation: f64) -> Option<[f64; 2]> {
+        if deformation == memory.deformation {
+            return None;
+        }
+        match self.rule {
+            HysteresisRule::PeakOriented | HysteresisRule::Takeda { .. } => {
+                let exponent = self.rule.exponent();
+                oriented::on_the_line(&self.backbone, exponent, memory, deformation)
+            }
+            HysteresisRule::Pinched(_) | HysteresisRule::Ground => {
+                pinched::on_the_line(&self.backbone, memory, deformation)
+            }
+            _ => None,
         }
     }
 
@@ -592,18 +602,16 @@ impl Hysteresis {
                     memory.stand_at(deformation, answer.force, Side::from_change(change));
                 }
             }
-            HysteresisRule::PeakOriented | HysteresisRule::Takeda { .. } => {
-                let exponent = self.rule.exponent();
-                let (curve, moves) = (&self.backbone, deformation != memory.deformation);
-                if moves && !oriented::move_on_the_line(curve, exponent, memory, deformation) {
-                    *memory = self.respond(memory, deformation).memory;
-                }
-            }
+            HysteresisRule::PeakOriented
+            | HysteresisRule::Takeda { .. }
+            | HysteresisRule::Pinched(_)
+            | HysteresisRule::Ground => match self.on_the_line(memory, deformation) {
+                Some([force, _]) => memory.move_on_the_line(deformation, force),
+                None => *memory = self.respond(memory, deformation).memory,
+            },
             HysteresisRule::Elastic
             | HysteresisRule::DegradingTrilinear
             | HysteresisRule::Stop { .. }
-            | HysteresisRule::Pinched(_)
-            | HysteresisRule::Ground
             | HysteresisRule::MenegottoPinto(_)
             | HysteresisRule::Pendulums(_)
             | HysteresisRule::Failing(_)
