@@ -152,7 +152,7 @@ fn members(summary: &Summary) -> Option<Tile> {
     Some(tile(message::members_beyond_capacity(), value, note))
 }
 
-/// Places that yielded, and the greatest ductility.
+/// Hinges that yielded, and the greatest ductility.
 fn yielding(summary: &Summary) -> Vec<Tile> {
     let all = summary.buildings.iter();
     let own: Vec<&BuildingSummary> = all.filter(|own| own.hinges.total > 0).collect();
@@ -161,10 +161,7 @@ fn yielding(summary: &Summary) -> Vec<Tile> {
         let ductility = own
             .iter()
             .fold(0.0_f64, |most, own| most.max(own.hinges.ductility));
-        let value = match sum(|own| own.hinges.yielded) {
-            0 => message::no_place().into(),
-            yielded => message::one_of_all(yielded, sum(|own| own.hinges.total)),
-        };
+        let value = message::one_of_all(sum(|own| own.hinges.yielded), sum(|own| own.hinges.total));
         let cracked = sum(|own| own.hinges.cracked);
         let note = message::cracked_ductility(cracked, format::significant(ductility, 2));
         tile(name, value, note)
@@ -174,10 +171,10 @@ fn yielding(summary: &Summary) -> Vec<Tile> {
     } else if own.len() <= MOST_EACH {
         let each = own
             .iter()
-            .map(|own| one(message::name_yields_at(&own.name), &[*own]));
+            .map(|own| one(message::hinges_yielded_of(&own.name), &[*own]));
         each.collect()
     } else {
-        vec![one(message::yield_at().to_owned(), &own)]
+        vec![one(message::hinges_yielded().to_owned(), &own)]
     }
 }
 

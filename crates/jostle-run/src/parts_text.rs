@@ -35,7 +35,7 @@ pub(crate) fn write_parts(text: &mut String, buildings: &[BuildingSummary]) -> s
             if let Some((ratio, name)) = across.max_by(|a, b| a.0.total_cmp(&b.0)) {
                 writeln!(
                     text,
-                    "Across their plane, panels of {} need up to {ratio:.2} of what they bear, in {name}",
+                    "Across their plane, panels of {} reach up to {ratio:.2} of their strength, in {name}",
                     building.name
                 )?;
             }

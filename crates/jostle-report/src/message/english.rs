@@ -509,12 +509,11 @@ messages! {
     storey_of(name, storey) = "{name}, storey {storey}";
     members_beyond_capacity = "Members beyond capacity";
     worst_member(member, kind, ratio) = "{member} in {kind}: {ratio} times its capacity";
-    yield_at = "Yield at";
+    hinges_yielded = "Hinges yielded";
     peak_ground_acceleration = "Peak ground acceleration";
     under_the_motion(name, peak, percent, imbalance) = "Under {name}, peak {peak} ({percent} % g). Energy imbalance {imbalance}.";
     roof_of(name) = "Roof of {name}";
-    name_yields_at(name) = "{name} yields at";
-    no_place = "no place";
+    hinges_yielded_of(name) = "Hinges yielded, {name}";
     one_of_all(one, all) = "{one} of {all}";
     cracked_ductility(cracked, ductility) = "{cracked} cracked; ductility {ductility}";
     accuracy = "Accuracy:";
