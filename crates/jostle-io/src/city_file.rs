@@ -128,8 +128,7 @@ fn read_root(
     let title = reader.get(&view, "title");
     let title = title.and_then(|field| reader.text(&field));
     let inventory = inventory(reader, &view, folder);
-    let buildings = table(
-        reader,
+    let buildings = reader.table(
         &view,
         "buildings",
         &[Section::CityBuildings, Section::TypesTable],
@@ -143,7 +142,7 @@ fn read_root(
         ("damping_scatter", 0.1),
     ]
     .map(|(key, usual)| number(reader, buildings.as_ref(), key, usual, [0.0, 2.0]));
-    let gap = table(reader, &view, "gap", &[Section::CityGap]);
+    let gap = reader.table(&view, "gap", &[Section::CityGap]);
     let median = gap.as_ref().and_then(|view| reader.get(view, "median"));
     let gap_is_given = median.is_some();
     let gap_median = median.map_or(Some(0.025), |field| {
@@ -151,7 +150,7 @@ fn read_root(
     });
     let gap_scatter = number(reader, gap.as_ref(), "scatter", 0.8, [0.0, 3.0]);
     let party_wall = number(reader, gap.as_ref(), "party_wall", 0.0, [0.0, 1.0]);
-    let contact = table(reader, &view, "contact", &[Section::CityContact]);
+    let contact = reader.table(&view, "contact", &[Section::CityContact]);
     let stiffness = contact
         .as_ref()
         .and_then(|view| reader.get(view, "stiffness"));
@@ -171,7 +170,7 @@ fn read_root(
             None
         }
     };
-    let run = table(reader, &view, "run", &[Section::CityRun]);
+    let run = reader.table(&view, "run", &[Section::CityRun]);
     let draws = count(reader, run.as_ref(), "draws", 25, [1, 1 << 16]);
     let tolerance = number(reader, run.as_ref(), "tolerance", 1e-2, [1e-3, 1e-1]);
     let sample = count(reader, run.as_ref(), "sample", 20, [0, 100_000]);
@@ -236,7 +235,7 @@ fn level(reader: &mut Reader<'_>, buildings: Option<&View<'_>>) -> Option<CityLe
 type Inventory = (PathBuf, bool, Vec<(&'static str, String)>, f64);
 
 fn inventory(reader: &mut Reader<'_>, view: &View<'_>, folder: &Path) -> Option<Inventory> {
-    let Some(view) = table(reader, view, "inventory", &[Section::CityInventory]) else {
+    let Some(view) = reader.table(view, "inventory", &[Section::CityInventory]) else {
         if !view.has("inventory") {
             reader.missing(
                 view,
@@ -257,7 +256,7 @@ fn inventory(reader: &mut Reader<'_>, view: &View<'_>, folder: &Path) -> Option<
     let metres = metres
         .and_then(|field| reader.flag(&field))
         .unwrap_or(false);
-    let named = table(reader, &view, "columns", &[Section::CityColumns]);
+    let named = reader.table(&view, "columns", &[Section::CityColumns]);
     let mut columns = Vec::new();
     for own in COLUMNS {
         if let Some(name) = text(reader, named.as_ref(), own) {
@@ -269,16 +268,6 @@ fn inventory(reader: &mut Reader<'_>, view: &View<'_>, folder: &Path) -> Option<
         reader.positive(&field, Dimension::Length)
     });
     Some((folder.join(file?), metres, columns, reach?))
-}
-
-pub(crate) fn table<'n>(
-    reader: &mut Reader<'_>,
-    view: &View<'n>,
-    key: &'static str,
-    sections: &'static [Section],
-) -> Option<View<'n>> {
-    let field = reader.get(view, key)?;
-    reader.open(&field, sections)
 }
 
 fn text(reader: &mut Reader<'_>, view: Option<&View<'_>>, key: &'static str) -> Option<String> {

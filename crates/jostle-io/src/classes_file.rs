@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::city_file::{count, number, table};
+use crate::city_file::{count, number};
 use crate::fault::InputError;
 use crate::files::Files;
 use crate::keys::{ALIGNMENTS, MEASURES, POSITIONS, Section};
@@ -163,7 +163,7 @@ fn read_root(
         || Some("Classes of buildings".to_owned()),
         |field| reader.text(&field),
     );
-    let buildings = table(reader, &view, "buildings", &[Section::TypesTable]);
+    let buildings = reader.table(&view, "buildings", &[Section::TypesTable]);
     let types = types_tables::read(reader, &view, buildings.as_ref(), folder);
     if !view.has("class") {
         reader.missing(
@@ -178,7 +178,7 @@ fn read_root(
     } else {
         class.clone()
     };
-    let pair = table(reader, &view, "pair", &[Section::ClassesPair]);
+    let pair = reader.table(&view, "pair", &[Section::ClassesPair]);
     let gaps = rising(
         reader,
         pair.as_ref(),
@@ -201,7 +201,7 @@ fn read_root(
         &POSITIONS[..1],
     );
     let area = positive(reader, pair.as_ref(), "area", Dimension::Area, 200.0);
-    let contact = table(reader, &view, "contact", &[Section::CityContact]);
+    let contact = reader.table(&view, "contact", &[Section::CityContact]);
     let stiffness = positive(
         reader,
         contact.as_ref(),
@@ -222,7 +222,7 @@ fn read_root(
             None
         }
     };
-    let intensity = table(reader, &view, "intensity", &[Section::ClassesIntensity]);
+    let intensity = reader.table(&view, "intensity", &[Section::ClassesIntensity]);
     let measure = intensity
         .as_ref()
         .and_then(|view| reader.get(view, "measure"));
@@ -236,7 +236,7 @@ fn read_root(
         Dimension::Acceleration,
         &[],
     );
-    let run = table(reader, &view, "run", &[Section::ClassesRun]);
+    let run = reader.table(&view, "run", &[Section::ClassesRun]);
     let draws = count(reader, run.as_ref(), "draws", 10, [1, 1 << 16]);
     let scatter = [
         ("stiffness_scatter", 0.1),
@@ -277,7 +277,7 @@ fn read_root(
 
 /// `[class]` or `[neighbour]`.
 fn side(reader: &mut Reader<'_>, view: &View<'_>, key: &'static str) -> Option<ClassesSide> {
-    let own = table(reader, view, key, &[Section::ClassesSide])?;
+    let own = reader.table(view, key, &[Section::ClassesSide])?;
     let types = match reader.get(&own, "types") {
         None => {
             reader.missing(&own, "types", "add types = [\"C1\"]");

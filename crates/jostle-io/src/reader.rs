@@ -261,6 +261,17 @@ impl<'s> Reader<'s> {
         })
     }
 
+    /// Opens the table of a key, where it is present.
+    pub(crate) fn table<'n>(
+        &mut self,
+        view: &View<'n>,
+        key: &'static str,
+        sections: &'static [Section],
+    ) -> Option<View<'n>> {
+        let field = self.get(view, key)?;
+        self.open(&field, sections)
+    }
+
     /// A quantity: text with a unit, or a bare number in SI.
     pub(crate) fn quantity(&mut self, field: &Field<'_>, dimension: Dimension) -> Option<f64> {
         let parsed = match &field.node.value {

@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::city_file::table;
 use crate::keys::Section;
 use crate::quantity::Dimension;
 use crate::reader::{Reader, View};
@@ -35,7 +34,7 @@ pub(crate) fn read(
     buildings: Option<&View<'_>>,
     folder: &Path,
 ) -> Option<TypesTables> {
-    let damage = table(reader, root, "damage", &[Section::TypesDamage]);
+    let damage = reader.table(root, "damage", &[Section::TypesDamage]);
     let mut path = |view: Option<&View<'_>>| -> Option<Option<PathBuf>> {
         let Some(field) = view.and_then(|view| reader.get(view, "table")) else {
             return Some(None);

@@ -225,7 +225,7 @@ fn peaks_of_every_floor_are_in_numbers_with_and_without_contact() {
         ]
     );
     let alone = render(&alone().page());
-    assert!(alone.contains("Peaks of Solo") && !alone.contains(">without<"));
+    assert!(alone.contains("Solo: table of peaks") && !alone.contains(">without<"));
 }
 
 #[test]
@@ -235,7 +235,7 @@ fn accuracy_stands_on_the_page() {
     run.summary.promise.met = Some(true);
     let text = render(&run.page());
     let line = text.split("id=\"accuracy\"").nth(1).unwrap();
-    assert!(line.split("</p>").next().unwrap().contains("4.2e-4"));
+    assert!(line.split("</p>").next().unwrap().contains("0.042 %"));
 }
 
 #[test]
