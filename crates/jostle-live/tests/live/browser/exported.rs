@@ -60,7 +60,7 @@ fn exported_page_has_the_numbers_of_the_program_and_its_knobs_work() {
         );
     }
     page.wait("document.querySelector('.curve-line')?.getAttribute('d').split('L').length > 100");
-    page.wait("document.getElementById('curve-note').textContent.includes('Smallest gap')");
+    page.wait("document.getElementById('curve-note').textContent.includes('Gap needed')");
     page.glance("exported");
     // A fault, and back.
     page.type_into("gap[0].width", "3 kg");

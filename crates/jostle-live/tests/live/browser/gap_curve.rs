@@ -87,7 +87,7 @@ fn the_gap_without_pounding_is_in_sight_after_one_change() {
     page.wait("document.getElementById('curve-note').textContent.includes('Gap needed under this motion')");
     page.wait("document.querySelector('.code-marks .needed') !== null");
     let said = page.text(
-        "/pounding: ([\\d.]+) mm/.exec(document.getElementById('curve-note').textContent)[1]",
+        "/motion: ([\\d.]+) mm/.exec(document.getElementById('curve-note').textContent)[1]",
     );
     let tile = page.text("[...document.querySelectorAll('.tile')].find((t) => t.textContent.includes('Gap needed')).querySelector('.tile-value').textContent");
     assert_eq!(tile.replace('\u{a0}', " "), format!("{said} mm"));
@@ -125,7 +125,7 @@ fn sensitive_results_are_found_after_the_frame() {
     // A gap that the buildings just graze, as `jostle gap` finds it.
     let note = "document.getElementById('curve-note').textContent";
     page.wait(&format!("{note}.includes('Gap needed under this motion')"));
-    let needed = page.text(&format!("/pounding: ([\\d.]+) mm/.exec({note})[1]"));
+    let needed = page.text(&format!("/motion: ([\\d.]+) mm/.exec({note})[1]"));
     let width = format!("{needed} mm");
     let [before, found] = accuracy_of(&width);
     assert_ne!(before, found, "the graze makes no difference");

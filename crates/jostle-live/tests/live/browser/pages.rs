@@ -176,7 +176,7 @@ fn a_row_of_shear_buildings_and_a_list_of_records() {
         page.text("document.getElementById('over').value"),
         "gap[*].width"
     );
-    page.wait("document.getElementById('curve-note').textContent.includes('Smallest gap')");
+    page.wait("document.getElementById('curve-note').textContent.includes('Gap needed')");
     let first = page.headline();
     page.value("{ const s = document.getElementById('several'); s.value = '1'; s.dispatchEvent(new Event('change')); }");
     page.settled();
