@@ -86,9 +86,8 @@ fn the_gap_without_pounding_is_in_sight_after_one_change() {
     );
     page.wait("document.getElementById('curve-note').textContent.includes('Gap needed under this motion')");
     page.wait("document.querySelector('.code-marks .needed') !== null");
-    let said = page.text(
-        "/motion: ([\\d.]+) mm/.exec(document.getElementById('curve-note').textContent)[1]",
-    );
+    let said = page
+        .text("/motion: ([\\d.]+) mm/.exec(document.getElementById('curve-note').textContent)[1]");
     let tile = page.text("[...document.querySelectorAll('.tile')].find((t) => t.textContent.includes('Gap needed')).querySelector('.tile-value').textContent");
     assert_eq!(tile.replace('\u{a0}', " "), format!("{said} mm"));
     let seen = "['#curve-note', '.code-marks .needed', '#headline'].every((s) => { const r = document.querySelector(s).getBoundingClientRect(); return r.top >= 0 && r.bottom <= innerHeight; })";
