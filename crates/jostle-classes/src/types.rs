@@ -264,21 +264,7 @@ impl Types {
             for (class, level) in class.into_iter().flat_map(|(class, levels)| {
                 levels.into_iter().map(move |level| (class.clone(), level))
             }) {
-                let same = |own: &&Class| {
-                    own.name.eq_ignore_ascii_case(&class.name)
-                        && own.level == level
-                        && own.storeys.start() <= class.storeys.end()
-                        && class.storeys.start() <= own.storeys.end()
-                };
-                if classes.iter().any(|own| same(&own)) {
-                    table.fault(
-                        &row,
-                        "type",
-                        &format!(
-                            "a row above is for the same type, design level ({}) and storeys",
-                            level.name()
-                        ),
-                    );
+                if !table.is_first(&row, &class.name, level, &class.storeys) {
                     break;
                 }
                 classes.push(Class { level, ..class });
@@ -370,21 +356,7 @@ fn damage_of(name: &str, text: &str) -> Result<Vec<Damage>, String> {
             continue;
         };
         for level in levels {
-            let same = |own: &Damage| {
-                own.kind.eq_ignore_ascii_case(&kind)
-                    && own.level == level
-                    && own.storeys.start() <= storeys.end()
-                    && storeys.start() <= own.storeys.end()
-            };
-            if all.iter().any(same) {
-                table.fault(
-                    &row,
-                    "type",
-                    &format!(
-                        "a row above is for the same type, design level ({}) and storeys",
-                        level.name()
-                    ),
-                );
+            if !table.is_first(&row, &kind, level, &storeys) {
                 break;
             }
             all.push(Damage {
@@ -408,6 +380,8 @@ struct Table {
     /// Metres of the unit of each column.
     units: Vec<f64>,
     rows: Vec<StringRecord>,
+    /// Types, levels and storeys of the rows so far.
+    known: Vec<(String, Level, RangeInclusive<usize>)>,
     faults: Vec<String>,
 }
 
@@ -481,6 +455,7 @@ impl Table {
             stated: header.iter().map(str::to_owned).collect(),
             units,
             rows,
+            known: Vec::new(),
             faults: Vec::new(),
         })
     }
@@ -549,6 +524,32 @@ impl Table {
         let unit = self.at(column).map_or(1.0, |at| self.units[at]);
         let stated = range.start() / unit..=range.end() / unit;
         Some(self.number(row, column, None, stated)? * unit)
+    }
+
+    /// Whether no row above is for the same type, level and storeys; a fault otherwise.
+    fn is_first(
+        &mut self,
+        row: &StringRecord,
+        kind: &str,
+        level: Level,
+        storeys: &RangeInclusive<usize>,
+    ) -> bool {
+        let same = |(other, at, range): &(String, Level, RangeInclusive<usize>)| {
+            other.eq_ignore_ascii_case(kind)
+                && *at == level
+                && range.start() <= storeys.end()
+                && storeys.start() <= range.end()
+        };
+        if self.known.iter().any(same) {
+            let problem = format!(
+                "a row above is for the same type, design level ({}) and storeys",
+                level.name()
+            );
+            self.fault(row, "type", &problem);
+            return false;
+        }
+        self.known.push((kind.to_owned(), level, storeys.clone()));
+        true
     }
 
     fn kind(&mut self, row: &StringRecord) -> Option<String> {
