@@ -55,7 +55,7 @@ impl Hysteresis {
         compression: f64,
         fall: ConcreteFall,
     ) -> Result<Self, Vec<SpringFault>> {
-        // Two chords stand for the parabola: through the point at half of the strength, with the initial slope.
+        // Two chords replace the parabola: through the point at half of the strength, with the initial slope.
         let corners = Corners {
             cracking: 0.5 * strength,
             yielding: strength,
