@@ -91,6 +91,7 @@ enum WayName {
     Modes,
     Stiffness,
     Frame,
+    Members,
 }
 
 pub(crate) fn import(command: &ImportCommand) -> Result<(), Failure> {
@@ -150,6 +151,7 @@ impl TableArgs {
                 WayName::Modes => Way::Modes,
                 WayName::Stiffness => Way::Stiffness,
                 WayName::Frame => Way::Frame,
+                WayName::Members => Way::Members,
             }),
             case: self.case.clone(),
             diaphragm: self.diaphragm.clone(),

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use jostle_io::InputError;
 
 use crate::facts::{Facts, Story, fault, key};
-use crate::member::{Member, TextModel};
+use crate::member::{Member, Support, TextModel};
 use crate::text::number;
 use crate::units::{LENGTH, PRESSURE, Units};
 
@@ -37,6 +37,12 @@ const HARMLESS: &[&str] = &[
     "DEVELOPED ELEVATIONS",
     "PIER/SPANDREL NAMES",
 ];
+
+/// Keys of the six numbers of a section, and of the factors on them.
+const NUMBERS: [&str; 6] = ["AREA", "AS2", "AS3", "TORSION", "I22", "I33"];
+const FACTORS: [&str; 6] = ["AMOD", "A2MOD", "A3MOD", "JMOD", "I2MOD", "I3MOD"];
+/// What a support may hold.
+const HELD: [&str; 6] = ["UX", "UY", "UZ", "RX", "RY", "RZ"];
 
 /// A word of a line, and whether it stood in quotes.
 struct Word<'a> {
@@ -162,14 +168,20 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
         if let Some(shape) = record.value("SHAPE") {
             own.shape = shape.to_owned();
             own.material = record.value("MATERIAL").unwrap_or("").to_owned();
-            own.size = ["D", "B"].map(|name| record.number(name).map(|size| size * length));
+            let size = |name: &str| record.number(name).map(|size| size * length);
+            own.size = ["D", "B"].map(size);
+            own.plates = ["TF", "TW"].map(size);
         }
-        for (factor, name) in own.factors.iter_mut().zip(["I3MOD", "I2MOD", "JMOD"]) {
+        for (index, (stated, name)) in own.stated.iter_mut().zip(NUMBERS).enumerate() {
+            let power = if index < 3 { 2 } else { 4 };
+            *stated = record
+                .number(name)
+                .map(|number| number * length.powi(power))
+                .or(*stated);
+        }
+        for (factor, name) in own.factors.iter_mut().zip(FACTORS) {
             *factor = record.number(name).unwrap_or(*factor);
         }
-        own.others |= ["AMOD", "A2MOD", "A3MOD"]
-            .iter()
-            .any(|name| record.number(name).is_some_and(|own| own != 1.0));
     }
     let mut points: BTreeMap<&str, [f64; 3]> = BTreeMap::new();
     for record in of("POINT COORDINATES") {
@@ -227,30 +239,39 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
         let kind = line.at(2).to_lowercase();
         let own = members
             .entry((record.at(1).to_owned(), level))
-            .or_insert_with(|| Member {
-                shown: format!("{kind} \"{}\" of storey \"{}\"", record.at(1), record.at(2)),
-                ends,
-                section: String::new(),
-                angle: 0.0,
-                released: false,
-                offset: false,
+            .or_insert_with(|| {
+                let shown = format!("{kind} \"{}\" of storey \"{}\"", record.at(1), record.at(2));
+                Member::new(shown, ends)
             });
         // Further lines of one member add keys.
         if let Some(section) = record.value("SECTION") {
             section.clone_into(&mut own.section);
         }
         own.angle = record.number("ANG").unwrap_or(own.angle);
-        own.released |= record.value("RELEASE").is_some();
-        own.offset |= [
-            "LENGTHOFFI",
-            "LENGTHOFFJ",
-            "OFFSETXI",
-            "OFFSETYI",
-            "OFFSETXJ",
-            "OFFSETYJ",
-        ]
-        .iter()
-        .any(|name| record.number(name).is_some_and(|own| own != 0.0));
+        for word in record.value("RELEASE").unwrap_or("").split_whitespace() {
+            let (what, end) = word.split_at(word.len() - 1);
+            let place = Member::RELEASES.iter().position(|own| *own == what);
+            let (Some(place), Some(end)) = (place, ["I", "J"].iter().position(|own| *own == end))
+            else {
+                return Err(fault(
+                    file,
+                    own.shown.clone(),
+                    format!("has the release \"{word}\", which is not known"),
+                    "releases are PI, V2I, V3I, TI, M2I, M3I, and the same with J",
+                ));
+            };
+            own.releases[end][place] = true;
+        }
+        // The part of the end lengths that does not bend; none unless it is stated.
+        let rigid = record.number("RIGIDZONE").unwrap_or(0.0);
+        for (end, name) in own.stiff_ends.iter_mut().zip(["LENGTHOFFI", "LENGTHOFFJ"]) {
+            *end = record
+                .number(name)
+                .map_or(*end, |offset| offset * length * rigid);
+        }
+        own.moved |= ["OFFSETXI", "OFFSETYI", "OFFSETXJ", "OFFSETYJ"]
+            .iter()
+            .any(|name| record.number(name).is_some_and(|own| own != 0.0));
     }
     let areas: BTreeMap<&str, &Record<'_>> = of("AREA CONNECTIVITIES")
         .map(|record| (record.at(1), record))
@@ -304,15 +325,18 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
                 .push([x, y]);
         }
     }
-    let base = levels.first().map_or("", |level| level.0.as_str());
-    for record in of("POINT ASSIGNS").filter(|record| key(record.at(2)) == key(base)) {
-        let held = record
-            .value("RESTRAINT")
-            .map_or(0, |text| text.split_whitespace().count());
-        if record.value("SPRINGPROP").is_some() || (held > 0 && held < 6) {
-            model
-                .loose_feet
-                .push(format!("point \"{}\" of storey \"{base}\"", record.at(1)));
+    for record in of("POINT ASSIGNS") {
+        let shown = format!("point \"{}\" of storey \"{}\"", record.at(1), record.at(2));
+        let at = level_of(record.at(2)).and_then(|level| place(record.at(1), level));
+        if record.value("SPRINGPROP").is_some() {
+            model.on_springs.push(shown.clone());
+        }
+        if record.value("DIAPH") == Some("DISCONNECTED") {
+            model.disconnected.extend(at);
+        }
+        if let (Some(held), Some(at)) = (record.value("RESTRAINT"), at) {
+            let held = HELD.map(|own| held.split_whitespace().any(|word| word == own));
+            model.supports.push(Support { shown, at, held });
         }
     }
     facts.read.push(format!(

@@ -1,13 +1,17 @@
-//! Buildings by flexibility, by modes, or by storey stiffness.
+//! Buildings by flexibility, of tables or of the members of a text model, by modes, or by storey stiffness.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::PI;
 use std::fmt::Write;
 
 use jostle_io::InputError;
 
+use crate::assembled::assemble;
 use crate::facts::{Facts, Floor, Point, key};
 use crate::matrix::{positive_definite, symmetrise};
+use crate::member::TextModel;
 use crate::options::{Direction, ImportOptions, Way};
+use crate::space_frame::softer;
 use crate::text::plain;
 
 /// Largest matrices that stand in the model file itself.
@@ -114,6 +118,32 @@ pub(crate) fn plans(facts: &Facts, floors: &[Floor]) -> Option<(String, Point)> 
     Some((text, origin))
 }
 
+/// Makes a building of the members of a text model, in space or, with a direction, in one plane.
+///
+/// # Errors
+/// What the model lacks, or masses do.
+pub(crate) fn assembled(
+    facts: &mut Facts,
+    model: &TextModel,
+    axis: Option<usize>,
+) -> Result<Built, InputError> {
+    let floors = facts.floors()?;
+    if let Some(lacks) = floors.iter().find_map(|floor| floor_lacks(facts, floor)) {
+        return Err(facts.fault("", lacks.0, lacks.1));
+    }
+    let found = assemble(facts, model, &floors)?;
+    softer(facts, model);
+    Ok(match axis {
+        None => in_space(facts, &floors, &found.flexibility, found.remarks)?,
+        Some(axis) => {
+            let own = |matrix: &[f64]| matrix.iter().skip(axis).step_by(3).copied().collect();
+            let rows = found.flexibility.iter().skip(axis).step_by(3);
+            let matrix: Vec<Vec<f64>> = rows.map(|row| own(row)).collect();
+            in_plane(facts, &floors, &matrix, axis, found.remarks)
+        }
+    })
+}
+
 /// Makes a building of the facts.
 ///
 /// # Errors
@@ -121,11 +151,33 @@ pub(crate) fn plans(facts: &Facts, floors: &[Floor]) -> Option<(String, Point)> 
 pub(crate) fn build(facts: &mut Facts, options: &ImportOptions) -> Result<Built, InputError> {
     let floors = facts.floors()?;
     let cases = unit_cases(facts, options)?;
-    if options.way.is_none_or(|way| way == Way::Flexibility)
-        && options.direction.is_none_or(|own| own == Direction::Both)
-    {
+    let in_both = options.direction.is_none_or(|own| own == Direction::Both);
+    let has_modes = facts.displacements.iter().any(|own| own.step.is_some());
+    let by_modes_alone = options.way.is_none() && cases.is_empty() && has_modes;
+    if in_both && (options.way == Some(Way::Modes) || by_modes_alone) {
+        if let Some(lacks) = floors.iter().find_map(|floor| floor_lacks(facts, floor)) {
+            return Err(facts.fault(
+                "",
+                lacks.0,
+                format!(
+                    "{}; or add --direction x or --direction y for a model in one plane",
+                    lacks.1
+                ),
+            ));
+        }
+        let mut remarks = Vec::new();
+        return match by_modes_in_space(facts, &floors, &mut remarks)? {
+            Some(matrix) => in_space(facts, &floors, &matrix, remarks),
+            None => Err(facts.fault("", "has no shapes of modes", "select the modal case for output and export Diaphragm Center Of Mass Displacements and Modal Periods And Frequencies")),
+        };
+    }
+    if options.way.is_none_or(|way| way == Way::Flexibility) && in_both {
         match space_lacks(facts, &floors, &cases) {
-            None => return in_space(facts, &floors, &cases),
+            None => {
+                let mut remarks = Vec::new();
+                let matrix = flexibility(facts, &floors, &cases, &[0, 1, 2], &mut remarks)?;
+                return in_space(facts, &floors, &matrix, remarks);
+            }
             Some(lacks) if options.direction == Some(Direction::Both) => {
                 return Err(facts.fault(
                     "--direction both",
@@ -162,7 +214,9 @@ pub(crate) fn build(facts: &mut Facts, options: &ImportOptions) -> Result<Built,
         .all(|floor| cases.contains_key(&(key(&floor.name), axis)));
     let wants = |way: Way| options.way.is_none_or(|own| own == way);
     if wants(Way::Flexibility) && complete {
-        return in_plane(facts, &floors, &cases, axis);
+        let mut remarks = Vec::new();
+        let matrix = flexibility(facts, &floors, &cases, &[axis], &mut remarks)?;
+        return Ok(in_plane(facts, &floors, &matrix, axis, remarks));
     }
     if wants(Way::Modes)
         && let Some(built) = by_modes(facts, &floors, &cases, axis)?
@@ -248,8 +302,9 @@ fn response(facts: &Facts, case: &str, story: &str) -> Option<[f64; 3]> {
 /// What a model in space lacks, and what helps.
 fn space_lacks(facts: &Facts, floors: &[Floor], cases: &Cases) -> Option<(String, String)> {
     for floor in floors {
-        if floor.inertia.is_none() || floor.centre.is_none() {
-            return Some((format!("storey \"{}\" has no mass moment of inertia or centre of mass", floor.name), "export Mass Summary by Diaphragm with all of its columns, or name the .OUT file of the analysis".into()));
+        let lacks = floor_lacks(facts, floor);
+        if lacks.is_some() {
+            return lacks;
         }
         if let Some(component) =
             (0..3).find(|component| !cases.contains_key(&(key(&floor.name), *component)))
@@ -265,11 +320,18 @@ fn space_lacks(facts: &Facts, floors: &[Floor], cases: &Cases) -> Option<(String
                 ),
             ));
         }
-        if facts.outline(&floor.name).is_none() {
-            return Some(("there is no outline of the floors".into(), "name the .e2k or $et file of the model beside the workbook, or export the table Objects and Elements - Joints (Point Object Connectivity)".into()));
-        }
     }
     None
+}
+
+/// What a floor in space lacks, and what helps.
+fn floor_lacks(facts: &Facts, floor: &Floor) -> Option<(String, String)> {
+    if floor.inertia.is_none() || floor.centre.is_none() {
+        return Some((format!("storey \"{}\" has no mass moment of inertia or centre of mass", floor.name), "export Mass Summary by Diaphragm with all of its columns, or name the .OUT file of the analysis".into()));
+    }
+    facts.outline(&floor.name).is_none().then(|| {
+        ("there is no outline of the floors".into(), "name the .e2k or $et file of the model beside the workbook, or export the table Objects and Elements - Joints (Point Object Connectivity)".into())
+    })
 }
 
 /// Flexibility over these components of every floor, symmetric.
@@ -354,9 +416,13 @@ fn matrices(
     None
 }
 
-fn in_space(facts: &Facts, floors: &[Floor], cases: &Cases) -> Result<Built, InputError> {
-    let mut remarks = Vec::new();
-    let matrix = flexibility(facts, floors, cases, &[0, 1, 2], &mut remarks)?;
+/// A building in space by displacements along X and Y and turns of all floors under unit loads at their centres of mass.
+fn in_space(
+    facts: &Facts,
+    floors: &[Floor],
+    matrix: &[Vec<f64>],
+    mut remarks: Vec<String>,
+) -> Result<Built, InputError> {
     let mut block = head(facts, "given");
     let Some((plan, origin)) = plans(facts, floors) else {
         return Err(facts.fault(
@@ -389,7 +455,7 @@ fn in_space(facts: &Facts, floors: &[Floor], cases: &Cases) -> Result<Built, Inp
             floor.name
         ));
     }
-    let arrays = matrices(&mut block, &matrix, &mass, ports);
+    let arrays = matrices(&mut block, matrix, &mass, ports);
     Ok(Built {
         block,
         arrays,
@@ -399,14 +465,15 @@ fn in_space(facts: &Facts, floors: &[Floor], cases: &Cases) -> Result<Built, Inp
     })
 }
 
+/// A building in one plane by displacements of all floors under unit forces along it.
 fn in_plane(
     facts: &Facts,
     floors: &[Floor],
-    cases: &Cases,
+    matrix: &[Vec<f64>],
     axis: usize,
-) -> Result<Built, InputError> {
-    let mut remarks = vec![PLANE.to_owned()];
-    let matrix = flexibility(facts, floors, cases, &[axis], &mut remarks)?;
+    mut remarks: Vec<String>,
+) -> Built {
+    remarks.insert(0, PLANE.to_owned());
     let mut block = head(facts, "given");
     let mass: Vec<f64> = floors.iter().map(|floor| floor.mass[axis]).collect();
     let ports = floors.iter().enumerate().map(|(index, floor)| {
@@ -417,14 +484,14 @@ fn in_plane(
             floor.name
         )
     });
-    let arrays = matrices(&mut block, &matrix, &mass, ports.collect());
-    Ok(Built {
+    let arrays = matrices(&mut block, matrix, &mass, ports.collect());
+    Built {
         block,
         arrays,
         remarks,
         in_space: false,
         axis,
-    })
+    }
 }
 
 const PLANE: &str = "in one plane: floors do not turn, and what moves across is left out";
@@ -450,6 +517,156 @@ fn floors_of(block: &mut String, floors: &[Floor], axis: usize) {
     );
 }
 
+/// A mode of the source with its shape.
+struct Shape {
+    mode: usize,
+    /// > 0 \[s\]
+    period: f64,
+    /// Of every floor along X and Y, and its turn.
+    shape: Vec<[f64; 3]>,
+    /// Twice the kinetic energy at a unit frequency, of these three.
+    energies: [f64; 3],
+}
+
+/// Modes whose shape is known at every floor, longest period first.
+fn shapes(facts: &Facts, floors: &[Floor]) -> Vec<Shape> {
+    let mut found: Vec<Shape> = Vec::new();
+    for own in facts.periods.iter().filter(|own| own.period > 0.0) {
+        let of_floor = |floor: &Floor| {
+            let is = |row: &&crate::facts::Displacement| {
+                row.step == Some(own.mode)
+                    && key(&row.story) == key(&floor.name)
+                    && (own.case.is_empty() || key(&row.case) == key(&own.case))
+            };
+            facts.displacements.iter().find(is).map(|row| row.by)
+        };
+        let Some(shape) = floors.iter().map(of_floor).collect::<Option<Vec<_>>>() else {
+            continue;
+        };
+        let energies = [0, 1, 2].map(|component| {
+            let energy = |(by, floor): (&[f64; 3], &Floor)| {
+                by[component].powi(2) * mass_of(floor)[component]
+            };
+            shape.iter().zip(floors).map(energy).sum()
+        });
+        found.push(Shape {
+            mode: own.mode,
+            period: own.period,
+            shape,
+            energies,
+        });
+    }
+    found.sort_by(|a, b| b.period.total_cmp(&a.period));
+    found
+}
+
+/// Masses along X and Y and moment of inertia of a floor \[kg, kg·m²\].
+fn mass_of(floor: &Floor) -> [f64; 3] {
+    [floor.mass[0], floor.mass[1], floor.inertia.unwrap_or(0.0)]
+}
+
+/// Flexibility in space of modes, Σ φφᵀ/ω² with φᵀMφ = 1, and of what they leave out, (M⁻¹ − Σ φφᵀ)/ω_r²; `None` without modes.
+///
+/// ω_r is that of the modes that a uniform shear building would have left; the modes keep their periods and shapes whatever it is.
+fn by_modes_in_space(
+    facts: &Facts,
+    floors: &[Floor],
+    remarks: &mut Vec<String>,
+) -> Result<Option<Vec<Vec<f64>>>, InputError> {
+    let mut modes = shapes(facts, floors);
+    modes.retain(|own| own.energies.iter().sum::<f64>() > 0.0);
+    modes.truncate(3 * floors.len());
+    let table = "Diaphragm Center Of Mass Displacements of modes";
+    let more = "let the modal case find more modes, three for every floor if it can, and select it for output";
+    if modes.is_empty() {
+        return Ok(None);
+    }
+    let mass: Vec<f64> = floors.iter().flat_map(mass_of).collect();
+    let mut shapes: Vec<Vec<f64>> = Vec::new();
+    for own in &modes {
+        let size = own.energies.iter().sum::<f64>().sqrt();
+        let shape: Vec<f64> = own
+            .shape
+            .as_flattened()
+            .iter()
+            .map(|by| by / size)
+            .collect();
+        for (other, before) in shapes.iter().zip(&modes) {
+            let shared: f64 = (0..mass.len()).map(|i| shape[i] * mass[i] * other[i]).sum();
+            if shared.abs() > ORTHOGONAL {
+                return Err(facts.fault(table, format!("modes {} and {} are not orthogonal with the floor masses (their product is {shared:.3}): storeys without mass or semi-rigid floors carry mass that the floors do not have", before.mode, own.mode), "model it by unit loads: export displacements under a unit force along X, along Y and a unit moment on every diaphragm"));
+            }
+        }
+        shapes.push(shape);
+    }
+    let count = floors.len();
+    let mut left = Vec::new();
+    for component in 0..3 {
+        let is_most = |own: &&Shape| {
+            own.energies
+                .iter()
+                .all(|other| *other <= own.energies[component])
+        };
+        let own: Vec<&Shape> = modes.iter().filter(is_most).collect();
+        let Some(last) = own.last() else {
+            return Err(facts.fault(
+                table,
+                format!(
+                    "no mode is one of {}",
+                    ["sway along X", "sway along Y", "torsion"][component]
+                ),
+                more,
+            ));
+        };
+        if own.len() < count {
+            left.push(remainder_period(last.period, own.len(), count));
+        }
+    }
+    let square = left.iter().map(|own| own * own).sum::<f64>() / left.len().max(1) as f64;
+    let flexible = |period_squared: f64| period_squared / (4.0 * PI * PI);
+    let n = mass.len();
+    let matrix = (0..n).map(|i| {
+        (0..n)
+            .map(|j| {
+                let of_modes = |weight: &dyn Fn(&Shape) -> f64| -> f64 {
+                    modes
+                        .iter()
+                        .zip(&shapes)
+                        .map(|(own, shape)| weight(own) * shape[i] * shape[j])
+                        .sum()
+                };
+                let rest = match i == j {
+                    true => 1.0 / mass[i],
+                    false => 0.0,
+                } - of_modes(&|_| 1.0);
+                let rest = if modes.len() < n {
+                    rest * flexible(square)
+                } else {
+                    0.0
+                };
+                of_modes(&|own| flexible(own.period * own.period)) + rest
+            })
+            .collect()
+    });
+    remarks.push(format!("{} modes of {n} in space", modes.len()));
+    if modes.len() < n {
+        remarks.push("what the modes leave out: as of a uniform building, which sets the stiffness of floors that are struck; more modes, or unit loads, make it better".into());
+    }
+    Ok(Some(matrix.collect()))
+}
+
+/// Period of what `known` modes of a uniform shear building of so many floors leave out, by that of the last one \[s\].
+fn remainder_period(last: f64, known: usize, floors: usize) -> f64 {
+    let sine = |mode: usize| {
+        let angle = (2 * mode - 1) as f64 * PI / (4 * floors + 2) as f64;
+        angle.sin()
+    };
+    let rest = (known + 1..=floors).map(|mode| sine(mode).powi(-2));
+    let mean = rest.clone().sum::<f64>() / rest.count() as f64;
+    // Real buildings are a little stiffer in their higher modes, as for `given` by modes.
+    0.85 * last * sine(known) * mean.sqrt()
+}
+
 /// By the modes of one direction; `None` where there are none.
 fn by_modes(
     facts: &Facts,
@@ -460,43 +677,17 @@ fn by_modes(
     let mut remarks = vec![PLANE.to_owned()];
     let mut found: Vec<(usize, f64, Vec<f64>)> = Vec::new();
     let mut least_share = 1.0_f64;
-    for own in &facts.periods {
-        let shape: Option<Vec<[f64; 3]>> = floors
-            .iter()
-            .map(|floor| {
-                let is = |row: &&crate::facts::Displacement| {
-                    row.step == Some(own.mode)
-                        && key(&row.story) == key(&floor.name)
-                        && (own.case.is_empty() || key(&row.case) == key(&own.case))
-                };
-                facts.displacements.iter().find(is).map(|row| row.by)
-            })
-            .collect();
-        let Some(shape) = shape else { continue };
-        // Share of kinetic energy in the direction.
-        let energy = |component: usize| -> f64 {
-            shape
-                .iter()
-                .zip(floors)
-                .map(|(by, floor)| {
-                    by[component].powi(2)
-                        * match component {
-                            2 => floor.inertia.unwrap_or(0.0),
-                            _ => floor.mass[component],
-                        }
-                })
-                .sum()
-        };
-        let all = energy(0) + energy(1) + energy(2);
-        let share = energy(axis) / all;
-        if !(all > 0.0 && share > 0.5) || own.period <= 0.0 {
+    for own in shapes(facts, floors) {
+        let all: f64 = own.energies.iter().sum();
+        let share = own.energies[axis] / all;
+        if !(all > 0.0 && share > 0.5) {
             continue;
         }
         least_share = least_share.min(share);
         found.push((
             own.mode,
             own.period,
-            shape.iter().map(|by| by[axis]).collect(),
+            own.shape.iter().map(|by| by[axis]).collect(),
         ));
     }
     if found.is_empty() {

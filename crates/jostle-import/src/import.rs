@@ -302,24 +302,55 @@ fn refine_periods(facts: &mut Facts) {
     }
 }
 
-/// By tables where they have stiffness, else the frame of the text model.
+/// By tables where they have stiffness, else by the members of the text model: a space frame where it is one.
 fn build(facts: &mut Facts, options: &ImportOptions) -> Result<Built, InputError> {
     let has_tables = !(facts.displacements.is_empty() && facts.stiffness.is_empty());
-    let by_frame = options.way == Some(Way::Frame) || (options.way.is_none() && !has_tables);
-    match facts.text.clone().filter(|_| by_frame) {
-        Some(_) if matches!(options.direction, Some(Direction::X | Direction::Y)) => Err(facts
-            .fault(
-                "--direction",
-                "is for tables; the frame of a text model is one in space",
-                "leave it out, or name a workbook of tables as well",
+    let by_text = match options.way {
+        None => !has_tables,
+        Some(way) => matches!(way, Way::Frame | Way::Members),
+    };
+    let Some(model) = facts.text.clone().filter(|_| by_text) else {
+        return match by_text && options.way.is_some() {
+            true => Err(facts.fault(
+                "--by frame and --by members",
+                "there is no text model",
+                "name the .e2k, $et, .s2k or $2k file of the building as well",
             )),
-        Some(model) => space_frame::build(facts, &model),
-        None if options.way == Some(Way::Frame) => Err(facts.fault(
-            "--by frame",
-            "there is no text model",
-            "name the .e2k, $et, .s2k or $2k file of the building as well",
+            false => given::build(facts, options),
+        };
+    };
+    let axis = match options.direction {
+        Some(Direction::X) => Some(0),
+        Some(Direction::Y) => Some(1),
+        Some(Direction::Both) | None => None,
+    };
+    match (options.way, axis) {
+        (Some(Way::Frame), Some(_)) => Err(facts.fault(
+            "--direction",
+            "is for matrices; the space frame of a text model moves both ways",
+            "leave it out, or take --by members",
         )),
-        None => given::build(facts, options),
+        (Some(Way::Frame), None) => space_frame::build(facts, &model),
+        (Some(Way::Members), _) | (_, Some(_)) => given::assembled(facts, &model, axis),
+        (_, None) => {
+            let before = facts.left_out.len();
+            let irregular = match space_frame::build(facts, &model) {
+                Ok(built) => return Ok(built),
+                Err(error) => error,
+            };
+            facts.left_out.truncate(before);
+            let mut built = given::assembled(facts, &model, None)?;
+            for fault in &irregular.faults {
+                built.remarks.insert(
+                    0,
+                    format!(
+                        "no space frame, which could yield: {} {}",
+                        fault.path, fault.problem
+                    ),
+                );
+            }
+            Ok(built)
+        }
     }
 }
 

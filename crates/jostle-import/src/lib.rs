@@ -1,10 +1,12 @@
 //! Models of ETABS and SAP2000 as model files of jostle.
 //!
 //! Input is the bytes of files, output is text; nothing is opened, run or printed. What a file says is gathered in
-//! one list of facts, whatever its format; one of three ways makes a building of it, by flexibility, by modes or by storey
-//! stiffness, or the frame of a text model. Nothing is guessed without being listed in [`Imported::remarks`], and what
+//! one list of facts, whatever its format; one of these ways makes a building of it: flexibility, modes or storey
+//! stiffness of tables, or the members of a text model, as a space frame or as matrices. Nothing is guessed without being listed in [`Imported::remarks`], and what
 //! is not carried over is listed in [`Imported::left_out`] with what it means.
 
+mod assembled;
+mod beam;
 mod e2k;
 mod facts;
 mod given;
@@ -15,6 +17,7 @@ mod matrix;
 mod member;
 mod options;
 mod s2k;
+mod section;
 mod space_frame;
 mod tables;
 mod text;

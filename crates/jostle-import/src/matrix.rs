@@ -1,23 +1,85 @@
-//! Symmetric matrices of a few hundred rows.
+//! Symmetric matrices: Cholesky's factors inside an envelope, and symmetry.
 
-/// Whether a symmetric matrix is positive definite, by Cholesky's factors.
-pub(crate) fn positive_definite(matrix: &[Vec<f64>]) -> bool {
-    let n = matrix.len();
-    let mut l = vec![vec![0.0_f64; n]; n];
-    for i in 0..n {
-        for j in 0..=i {
-            let below: f64 = l[i][..j].iter().zip(&l[j]).map(|(a, b)| a * b).sum();
-            let rest = matrix[i][j] - below;
-            if i > j {
-                l[i][j] = rest / l[j][j];
-            } else if rest > 0.0 && rest.is_finite() {
-                l[i][i] = rest.sqrt();
-            } else {
-                return false;
+/// A symmetric matrix of which each row begins at its first entry: its lower triangle.
+pub(crate) struct Envelope {
+    firsts: Vec<usize>,
+    rows: Vec<Vec<f64>>,
+}
+
+impl Envelope {
+    /// Zeros from these columns to the diagonal.
+    pub(crate) fn new(firsts: Vec<usize>) -> Self {
+        let rows = firsts.iter().enumerate();
+        let rows = rows
+            .map(|(row, first)| vec![0.0; row + 1 - first])
+            .collect();
+        Self { firsts, rows }
+    }
+
+    /// Adds to an entry of the lower triangle, which must lie in the envelope.
+    pub(crate) fn add(&mut self, row: usize, column: usize, value: f64) {
+        self.rows[row][column - self.firsts[row]] += value;
+    }
+
+    pub(crate) fn diagonal(&self, row: usize) -> f64 {
+        self.rows[row].last().copied().unwrap_or_default()
+    }
+
+    /// Replaces the matrix by its factor; the first row whose pivot is at most `least` of its diagonal is the error.
+    ///
+    /// # Errors
+    /// A row that the others leave without stiffness.
+    pub(crate) fn factorize(&mut self, least: f64) -> Result<(), usize> {
+        for row in 0..self.rows.len() {
+            let first = self.firsts[row];
+            let (done, own) = self.rows.split_at_mut(row);
+            let own = &mut own[0];
+            let diagonal = own[row - first];
+            for column in first..row {
+                let shared = first.max(self.firsts[column]);
+                let above = &done[column][shared - self.firsts[column]..];
+                let (pivot, above) = above.split_last().unwrap_or((&1.0, &[]));
+                let below = &own[shared - first..column - first];
+                let sum: f64 = below.iter().zip(above).map(|(a, b)| a * b).sum();
+                own[column - first] = (own[column - first] - sum) / pivot;
             }
+            let rest = diagonal - own[..row - first].iter().map(|own| own * own).sum::<f64>();
+            if !(rest > least * diagonal && rest.is_finite()) {
+                return Err(row);
+            }
+            own[row - first] = rest.sqrt();
+        }
+        Ok(())
+    }
+
+    /// Solves with the factor, in place.
+    pub(crate) fn solve(&self, values: &mut [f64]) {
+        for (row, (own, first)) in self.rows.iter().zip(&self.firsts).enumerate() {
+            let sum: f64 = own
+                .iter()
+                .zip(&values[*first..row])
+                .map(|(a, b)| a * b)
+                .sum();
+            values[row] = (values[row] - sum) / own[row - first];
+        }
+        for (row, (own, first)) in self.rows.iter().zip(&self.firsts).enumerate().rev() {
+            values[row] /= own[row - first];
+            let value = values[row];
+            values[*first..row]
+                .iter_mut()
+                .zip(own)
+                .for_each(|(other, own)| *other -= own * value);
         }
     }
-    true
+}
+
+/// Whether a symmetric matrix is positive definite.
+pub(crate) fn positive_definite(matrix: &[Vec<f64>]) -> bool {
+    let mut envelope = Envelope::new(vec![0; matrix.len()]);
+    for (row, own) in matrix.iter().enumerate() {
+        (0..=row).for_each(|column| envelope.add(row, column, own[column]));
+    }
+    envelope.factorize(0.0).is_ok()
 }
 
 /// Makes a matrix symmetric and returns the greatest difference of two entries, in parts of √(F_ii F_jj).

@@ -1,8 +1,9 @@
-//! What a text model says of columns, beams and floors, in SI.
+//! What a text model says of columns, beams, braces, floors and supports, in SI.
 
 use std::collections::BTreeMap;
 
-/// A column or beam from its lower or first end to the other.
+/// A column, beam or brace. Axis 1 runs from its first to its other end; axis 2 stands upright, or along X in a vertical member, turned
+/// by `angle`.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Member {
     /// For messages: `column "C1" of storey "Story2"`.
@@ -12,31 +13,72 @@ pub(crate) struct Member {
     pub(crate) section: String,
     /// Turn of its local axes \[degrees\].
     pub(crate) angle: f64,
-    pub(crate) released: bool,
-    /// Offsets or insertion points that shorten or move it.
-    pub(crate) offset: bool,
+    /// What each end does not pass on: along the axes 1, 2, 3, and about them.
+    pub(crate) releases: [[bool; 6]; 2],
+    /// Stiff lengths at both ends, which do not bend \[m\].
+    pub(crate) stiff_ends: [f64; 2],
+    /// Whether it is moved aside of its joints.
+    pub(crate) moved: bool,
 }
 
-/// A section.
-#[derive(Clone, Debug, Default, PartialEq)]
+impl Member {
+    /// Names of what an end may not pass on, in the order of `releases`.
+    pub(crate) const RELEASES: [&'static str; 6] = ["P", "V2", "V3", "T", "M2", "M3"];
+
+    pub(crate) fn new(shown: String, ends: [[f64; 3]; 2]) -> Self {
+        Self {
+            shown,
+            ends,
+            section: String::new(),
+            angle: 0.0,
+            releases: [[false; 6]; 2],
+            stiff_ends: [0.0; 2],
+            moved: false,
+        }
+    }
+
+    pub(crate) fn is_released(&self) -> bool {
+        self.releases.as_flattened().contains(&true)
+    }
+}
+
+/// A section. Six numbers are area, shear areas along 2 and 3, torsion constant, second moments of area about 2 and 3.
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct SectionFacts {
     pub(crate) shape: String,
     pub(crate) material: String,
-    /// Depth and width of a rectangle \[m\].
+    /// Depth along axis 2 and width along axis 3 \[m\].
     pub(crate) size: [Option<f64>; 2],
-    /// Factors on I33, I22 and torsion.
-    pub(crate) factors: [f64; 3],
-    /// Factors on area and shear areas that are not 1.
-    pub(crate) others: bool,
+    /// Thickness of flanges and of webs \[m\].
+    pub(crate) plates: [Option<f64>; 2],
+    /// The six numbers that the file states \[m², m⁴\].
+    pub(crate) stated: [Option<f64>; 6],
+    /// Factors on them.
+    pub(crate) factors: [f64; 6],
 }
 
-impl SectionFacts {
-    pub(crate) fn new() -> Self {
+impl Default for SectionFacts {
+    /// Without numbers, and with factors of 1.
+    fn default() -> Self {
         Self {
-            factors: [1.0; 3],
-            ..Self::default()
+            shape: String::new(),
+            material: String::new(),
+            size: [None; 2],
+            plates: [None; 2],
+            stated: [None; 6],
+            factors: [1.0; 6],
         }
     }
+}
+
+/// A joint that the ground holds.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Support {
+    /// For messages: `point "4" of storey "Base"`.
+    pub(crate) shown: String,
+    pub(crate) at: [f64; 3],
+    /// Along X, Y, Z, and about them.
+    pub(crate) held: [bool; 6],
 }
 
 /// A text model.
@@ -53,6 +95,9 @@ pub(crate) struct TextModel {
     pub(crate) bending_slabs: Vec<String>,
     /// Diaphragms that are not rigid.
     pub(crate) semirigid: Vec<String>,
-    /// Supported joints that are not fixed in every direction, or stand on springs.
-    pub(crate) loose_feet: Vec<String>,
+    pub(crate) supports: Vec<Support>,
+    /// Joints on springs, for messages.
+    pub(crate) on_springs: Vec<String>,
+    /// Joints that do not move with their floor.
+    pub(crate) disconnected: Vec<[f64; 3]>,
 }

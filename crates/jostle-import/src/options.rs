@@ -20,8 +20,10 @@ pub enum Way {
     Modes,
     /// Storey stiffnesses.
     Stiffness,
-    /// Columns and beams of a text model.
+    /// Columns and beams of a text model, as a space frame.
     Frame,
+    /// All members of a text model, as the stiffness of its floors.
+    Members,
 }
 
 /// What the user states beside the files.

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use jostle_io::InputError;
 
 use crate::facts::{Facts, FloorMass, Story, fault, key};
-use crate::member::{Member, SectionFacts, TextModel};
+use crate::member::{Member, SectionFacts, Support, TextModel};
 use crate::text::number;
 use crate::units::{INERTIA, LENGTH, MASS, PRESSURE, Units};
 
@@ -45,6 +45,10 @@ const HARMLESS: &[&str] = &[
     "ACTIVE DEGREES",
     "OVERWRITES",
 ];
+
+/// Columns of the six numbers of a section, and of the factors on them.
+const NUMBERS: [&str; 6] = ["Area", "AS2", "AS3", "TorsConst", "I22", "I33"];
+const FACTORS: [&str; 6] = ["AMod", "A2Mod", "A3Mod", "JMod", "I2Mod", "I3Mod"];
 
 type Row<'a> = BTreeMap<&'a str, &'a str>;
 
@@ -143,25 +147,21 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
         &joints,
         facts,
     );
-    // Feet that are not fixed.
     for row in of("JOINT RESTRAINT ASSIGNMENTS") {
-        if ["U1", "U2", "U3", "R1", "R2", "R3"]
-            .iter()
-            .any(|name| row.get(name) != Some(&"Yes"))
-        {
-            model
-                .loose_feet
-                .push(format!("joint {}", get(row, "Joint")));
+        if let Some(at) = joints.get(&get(row, "Joint")) {
+            model.supports.push(Support {
+                shown: format!("joint {}", get(row, "Joint")),
+                at: *at,
+                held: ["U1", "U2", "U3", "R1", "R2", "R3"]
+                    .map(|name| row.get(name) == Some(&"Yes")),
+            });
         }
     }
-    model.loose_feet.extend(
+    model.on_springs.extend(
         of("JOINT SPRING ASSIGNMENTS 1 - UNCOUPLED")
             .map(|row| format!("joint {}", get(row, "Joint"))),
     );
-    let supported: Vec<f64> = of("JOINT RESTRAINT ASSIGNMENTS")
-        .filter_map(|row| joints.get(*row.get("Joint")?))
-        .map(|at| at[2])
-        .collect();
+    let supported: Vec<f64> = model.supports.iter().map(|own| own.at[2]).collect();
     let lowest = |heights: &mut dyn Iterator<Item = f64>| heights.fold(f64::INFINITY, f64::min);
     let base = match supported.is_empty() {
         true => lowest(&mut joints.values().map(|at| at[2])),
@@ -177,17 +177,19 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
         }
     }
     for row in of("FRAME SECTION PROPERTIES 01 - GENERAL") {
-        let factor = |name: &str| value(row, name).unwrap_or(1.0);
+        let size = |name: &str| value(row, name).map(|size| size * length);
         model.sections.insert(
             get(row, "SectionName"),
             SectionFacts {
                 shape: get(row, "Shape"),
                 material: get(row, "Material"),
-                size: ["t3", "t2"].map(|name| value(row, name).map(|size| size * length)),
-                factors: ["I3Mod", "I2Mod", "JMod"].map(factor),
-                others: ["AMod", "A2Mod", "A3Mod"]
-                    .iter()
-                    .any(|name| factor(name) != 1.0),
+                size: ["t3", "t2"].map(size),
+                plates: ["tf", "tw"].map(size),
+                stated: std::array::from_fn(|index| {
+                    let power = if index < 3 { 2 } else { 4 };
+                    value(row, NUMBERS[index]).map(|number| number * length.powi(power))
+                }),
+                factors: FACTORS.map(|name| value(row, name).unwrap_or(1.0)),
             },
         );
     }
@@ -210,21 +212,36 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
             ));
         };
         let own = assigned.get(&frame);
-        model.members.push(Member {
-            shown: format!("frame {frame}"),
-            ends: if a[2] <= b[2] { [a, b] } else { [b, a] },
-            section: own.map(|row| get(row, "AnalSect")).unwrap_or_default(),
-            angle: turned
-                .get(&frame)
-                .and_then(|row| value(row, "Angle"))
-                .unwrap_or(0.0),
-            released: released.contains_key(&frame),
-            // Without a rigid factor, SAP2000 moves nothing but the places of output.
-            offset: offset
-                .get(&frame)
-                .and_then(|row| value(row, "RigidFactor"))
-                .is_some_and(|own| own != 0.0),
-        });
+        let mut member = Member::new(format!("frame {frame}"), [a, b]);
+        member.section = own.map(|row| get(row, "AnalSect")).unwrap_or_default();
+        member.angle = turned
+            .get(&frame)
+            .and_then(|row| value(row, "Angle"))
+            .unwrap_or(0.0);
+        if let Some(row) = released.get(&frame) {
+            member.releases = ["I", "J"].map(|end| {
+                Member::RELEASES
+                    .map(|what| row.get(format!("{what}{end}").as_str()) == Some(&"Yes"))
+            });
+            if row.get("PartialFix") == Some(&"Yes") {
+                return Err(fault(
+                    file,
+                    member.shown,
+                    "has partly fixed ends, whose stiffness is not read",
+                    "release or fix its ends in the source and export again",
+                ));
+            }
+        }
+        if let Some(row) = offset.get(&frame) {
+            let rigid = value(row, "RigidFactor").unwrap_or(0.0);
+            let lengths = ["LengthI", "LengthJ"].map(|name| value(row, name));
+            match lengths {
+                // Found from the sizes of members that meet: not in the file.
+                _ if row.get("Type") == Some(&"Automatic") => member.moved = rigid != 0.0,
+                _ => member.stiff_ends = lengths.map(|own| own.unwrap_or(0.0) * length * rigid),
+            }
+        }
+        model.members.push(member);
     }
     let mut floors = 0;
     for row in of("CONNECTIVITY - AREA") {

@@ -49,7 +49,8 @@ pub(crate) fn build(facts: &mut Facts, model: &TextModel) -> Result<Built, Input
             ),
         );
     }
-    if let Some(foot) = model.loose_feet.first() {
+    let loose = model.supports.iter().find(|own| own.held != [true; 6]);
+    if let Some(foot) = loose.map(|own| &own.shown).or(model.on_springs.first()) {
         return refuse(foot, "is not fixed; columns of a space frame are".into());
     }
     if model.members.is_empty() {
@@ -95,9 +96,12 @@ pub(crate) fn build(facts: &mut Facts, model: &TextModel) -> Result<Built, Input
     let mut seen = Sections::default();
     let mut ties = 0;
     for member in &model.members {
-        let [a, b] = member.ends;
+        let [mut a, mut b] = member.ends;
+        if a[2] > b[2] {
+            std::mem::swap(&mut a, &mut b);
+        }
         let shown = member.shown.as_str();
-        if member.released {
+        if member.is_released() {
             return refuse(
                 shown,
                 "has releases at its ends; joints of a space frame are stiff".into(),
@@ -148,12 +152,14 @@ pub(crate) fn build(facts: &mut Facts, model: &TextModel) -> Result<Built, Input
             model.file
         ));
     }
-    if model.members.iter().any(|member| member.offset) {
-        facts.left_out.push(format!("{}: end offsets of members: jostle's run from joint to joint, so that periods are longer", model.file));
+    let lengths = model
+        .members
+        .iter()
+        .any(|own| own.stiff_ends.iter().any(|end| *end != 0.0));
+    if lengths {
+        facts.left_out.push(format!("{}: stiff end lengths of members: those of a space frame bend from joint to joint, so that periods are longer; --by members takes them", model.file));
     }
-    if let Some(slab) = model.bending_slabs.first() {
-        facts.left_out.push(format!("{}: {} floor areas bend, such as those of slab \"{slab}\": their stiffness is missing, so that periods are longer, by 10 % and more where beams are shallow", model.file, model.bending_slabs.len()));
-    }
+    softer(facts, model);
     if places[0].is_empty() {
         return refuse("", "has no columns".into());
     }
@@ -243,6 +249,16 @@ pub(crate) fn build(facts: &mut Facts, model: &TextModel) -> Result<Built, Input
         in_space: true,
         axis: 0,
     })
+}
+
+/// What stiffens the source and is in no building of its members.
+pub(crate) fn softer(facts: &mut Facts, model: &TextModel) {
+    if model.members.iter().any(|member| member.moved) {
+        facts.left_out.push(format!("{}: members aside of their joints, or end offsets that the source finds by itself: jostle's run from joint to joint, so that periods are longer", model.file));
+    }
+    if let Some(slab) = model.bending_slabs.first() {
+        facts.left_out.push(format!("{}: {} floor areas bend, such as those of slab \"{slab}\": their stiffness is missing, so that periods are longer, by 10 % and more where beams are shallow", model.file, model.bending_slabs.len()));
+    }
 }
 
 /// 0 for a column, 1 for a beam along x, 2 for a beam along y.
@@ -337,7 +353,7 @@ impl Sections {
                 BY_TABLES,
             ))
         };
-        let none = SectionFacts::new();
+        let none = SectionFacts::default();
         let section = model.sections.get(&member.section).unwrap_or(&none);
         let material = model
             .materials
@@ -349,7 +365,7 @@ impl Sections {
                 section.material
             ));
         };
-        let [strong, weak, torsion] = section.factors;
+        let [area, shear_2, shear_3, torsion, weak, strong] = section.factors;
         let of_kind = usize::from(kind > 0);
         if kind == 0 && strong != weak {
             return refuse(format!(
@@ -364,7 +380,7 @@ impl Sections {
             ));
         }
         self.other_torsion |= *self.torsion.get_or_insert(torsion) != torsion;
-        self.other_areas |= section.others;
+        self.other_areas |= [area, shear_2, shear_3] != [1.0; 3];
         let first = *self.material.get_or_insert([modulus, poisson]);
         self.other_poisson |= first[1] != poisson;
         let mut text = match kind {

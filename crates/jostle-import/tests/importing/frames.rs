@@ -14,7 +14,7 @@ const LEVELS: [f64; 2] = [4.0, 7.2];
 const MASSES: [[f64; 4]; 2] = [[95.0, 1300.0, 5.2, 4.3], [80.0, 1100.0, 5.1, 4.4]];
 
 /// The frame: a corner is missing, a column is deeper across, and beams across the first line are another concrete.
-const EXPECTED: &str = r#"
+pub(crate) const EXPECTED: &str = r#"
 [[building]]
 name = "A"
 kind = "space-frame"

@@ -3,6 +3,7 @@
 mod book;
 mod examples;
 mod frames;
+mod irregular;
 mod refused;
 mod tables;
 mod workbooks;

@@ -2,7 +2,7 @@
 
 use std::io::{Cursor, Write};
 
-use jostle_import::{Direction, ImportOptions, Program, SourceFile, import};
+use jostle_import::{Direction, ImportOptions, Program, SourceFile, Way, import};
 use jostle_testkit::scan::{Dice, scanned};
 
 use crate::book::{Layout, Sheet, book, row, tried};
@@ -24,9 +24,88 @@ fn text_model(replace: [&str; 2]) -> String {
     text.replacen(replace[0], replace[1], 1)
 }
 
+/// What not even matrices can be made of.
+#[test]
+fn members_without_stiffness_are_refused_with_what_helps() {
+    let rectangle = "SHAPE \"Concrete Rectangular\"  D 500 B 500";
+    let cases: [([&str; 2], &[&str]); 9] = [
+        (
+            [rectangle, "SHAPE \"CoreBRB_1.5_BoltedLug\""],
+            &["column \"L0\"", "CoreBRB_1.5_BoltedLug", "unit loads"],
+        ),
+        (
+            [rectangle, "SHAPE \"Auto Select List\""],
+            &["auto-select", "assign the chosen sections"],
+        ),
+        (
+            ["MATERIAL \"M30\"  SHAPE", "MATERIAL \"M99\"  SHAPE"],
+            &["M99", "modulus"],
+        ),
+        (["DIAPH  \"D1\"", "DIAPH  \"D9\""], &["D9", "semi-rigid"]),
+        (["FLOOR  4", "PANEL  4"], &["wall \"F1\"", "unit loads"]),
+        (
+            ["RESTRAINT \"UX UY UZ RX RY RZ\"", "SPRINGPROP \"S1\""],
+            &["point \"1-1\" of storey \"Base\"", "springs"],
+        ),
+        (
+            ["CARDINALPT 5", "RELEASE \"TJ M9I\"CARDINALPT 5"],
+            &["column \"L0\"", "M9I", "M3I"],
+        ),
+        (
+            [
+                "CARDINALPT 5",
+                "LENGTHOFFI 2000 LENGTHOFFJ 2000 RIGIDZONE 1 CARDINALPT 5",
+            ],
+            &["column \"L0\"", "nothing between them", "shorten"],
+        ),
+        (
+            [
+                "LINE  \"L1\"  BEAM  \"1-1\"  \"2-1\"",
+                "LINE  \"L1\"  BEAM  \"1-1\"  \"1-1\"",
+            ],
+            &["beam \"L1\"", "no length"],
+        ),
+    ];
+    for (replace, words) in cases {
+        let (text, out, log) = (text_model(replace), out(), log());
+        let files = [
+            ("A.e2k", text.as_bytes()),
+            ("A.OUT", out.as_bytes()),
+            ("A.LOG", log.as_bytes()),
+        ];
+        let options = ImportOptions {
+            way: Some(Way::Members),
+            ..ImportOptions::default()
+        };
+        refused(Program::Etabs, &files, &options, words);
+    }
+    // All feet pinned, and all columns of the lower storey hinged at their heads: they fall over.
+    let text = e2k()
+        .replace("\"UX UY UZ RX RY RZ\"", "\"UX UY UZ\"")
+        .replace(
+            "\"1\"  SECTION \"C",
+            "\"1\"  RELEASE \"M2J M3J\" SECTION \"C",
+        );
+    let (out, log) = (out(), log());
+    let files = [
+        ("A.e2k", text.as_bytes()),
+        ("A.OUT", out.as_bytes()),
+        ("A.LOG", log.as_bytes()),
+    ];
+    refused(
+        Program::Etabs,
+        &files,
+        &ImportOptions::default(),
+        &["can move without resistance", "mechanism"],
+    );
+}
+
 #[test]
 fn text_models_that_are_not_regular_are_refused_with_what_helps() {
-    let options = ImportOptions::default();
+    let options = ImportOptions {
+        way: Some(Way::Frame),
+        ..ImportOptions::default()
+    };
     let cases: [([&str; 2], &[&str]); 12] = [
         (
             ["CARDINALPT 5", "RELEASE \"TJ M2I\"CARDINALPT 5"],

@@ -2,12 +2,13 @@
 
 use jostle::System;
 use jostle::eigen;
-use jostle_import::{Direction, ImportOptions, Program};
+use jostle_import::{Direction, ImportOptions, Program, Way};
+use jostle_io::Input;
 use jostle_testkit::files::sound;
 use jostle_testkit::runs::run_and_summary;
 
 use crate::book::{Layout, Sheet, book, difference, imported, model, periods, row};
-use crate::workbooks::{DISPLACEMENTS, MASSES, rounded, tables_of};
+use crate::workbooks::{DISPLACEMENTS, MASSES, column, dof, rounded, tables_of};
 
 const FLOORS: usize = 10;
 /// Of a building of ten storeys \[N/m\].
@@ -301,6 +302,84 @@ fn unit_loads_are_the_building_in_space() {
             found.toml
         );
     }
+}
+
+/// The tables of a building in space with so many of its modes in place of unit loads.
+fn modes_in_space(input: &Input, count: usize) -> Vec<u8> {
+    let mut sheets = tables_of(input, 12);
+    let system = System::assemble(&input.model).expect("sound");
+    let own = &system.buildings[0];
+    let (mut rows, mut table) = (Vec::new(), Vec::new());
+    for (index, mode) in eigen::modes(own.alone(), count)
+        .expect("modes")
+        .iter()
+        .enumerate()
+    {
+        let step = (index + 1).to_string();
+        table.push(row(
+            &["Modal"],
+            &[index as f64 + 1.0, rounded(mode.period(), 12)],
+        ));
+        for floor in 0..own.floors.len() {
+            // mm, mm, rad.
+            let by = [1e3, 1e3, 1.0].iter().enumerate();
+            let by: Vec<f64> = by
+                .map(|(component, unit)| {
+                    rounded(unit * mode.shape[dof(own, 3 * floor + component)], 12)
+                })
+                .collect();
+            let name = format!("Story{}", floor + 1);
+            rows.push(row(
+                &[&name, "D1", "Modal", "LinModEigen", "Mode", &step],
+                &by,
+            ));
+        }
+    }
+    sheets.truncate(3);
+    sheets.push(Sheet::new(
+        "Diaphragm Center of Mass Displacements",
+        &DISPLACEMENTS,
+        rows,
+    ));
+    let columns = [("Case", ""), ("Mode", ""), ("Period", "sec")];
+    sheets.push(Sheet::new("Modal Periods And Frequencies", &columns, table));
+    book(&sheets, Layout::Titled, false)
+}
+
+/// All modes of an eccentric frame are the frame; some of them keep their periods, and give way under a force about as it does.
+#[test]
+fn modes_that_turn_are_the_building_in_space() {
+    let input = sound(&format!("{MOTION}{FRAME}"));
+    let way = ImportOptions {
+        way: Some(Way::Modes),
+        ..ImportOptions::default()
+    };
+    for (count, options) in [
+        (9, &ImportOptions::default()),
+        (9, &way),
+        (6, &way),
+        (4, &way),
+    ] {
+        let bytes = modes_in_space(&input, count);
+        let found = imported(Program::Etabs, &[("A.xlsx", &bytes)], options);
+        let off = difference(&periods(&model(&found), count), &periods(&input, count));
+        assert!(off < 1e-8, "{count} modes: {off:.1e}");
+        let [own, all] = [&model(&found), &input].map(|input| {
+            let system = System::assemble(&input.model).expect("sound");
+            let own = &system.buildings[0];
+            [0, 3, 6].map(|place| column(own, place)[place])
+        });
+        let off = difference(&own, &all);
+        let allowed = if count == 9 { 1e-7 } else { 0.01 };
+        assert!(count < 6 || off < allowed, "{count} modes: {off:.1e}");
+    }
+    let bytes = modes_in_space(&input, 2);
+    let error =
+        crate::book::tried(Program::Etabs, &[("A.xlsx", &bytes)], &way).expect_err("no torsion");
+    assert!(
+        error.contains("no mode is one of torsion") && error.contains("more modes"),
+        "{error}"
+    );
 }
 
 /// Two workbooks are a pair with a gap, which runs.

@@ -7,12 +7,12 @@ use jostle_io::Input;
 use crate::book::{Sheet, row};
 
 /// Displacement of a floor in the equations: along x and across and rotation of the floors.
-fn dof(own: &BuildingSystem, place: usize) -> usize {
+pub(crate) fn dof(own: &BuildingSystem, place: usize) -> usize {
     own.tracks[(place % 3) * own.floors.len() + place / 3].dof
 }
 
 /// Solves K u = unit force by Gauss' elimination.
-fn column(own: &BuildingSystem, load: usize) -> Vec<f64> {
+pub(crate) fn column(own: &BuildingSystem, load: usize) -> Vec<f64> {
     let n = 3 * own.floors.len();
     let mut rows: Vec<Vec<f64>> = vec![vec![0.0; n + 1]; n];
     for place in 0..n {

@@ -1,0 +1,458 @@
+//! The members of a text model as one elastic structure, and how its floors move under unit loads.
+//!
+//! Members of any direction between any points, with released ends and stiff lengths. Joints of a floor move with it in plan; all
+//! others are free. Unit loads on the floors give their flexibility, as unit loads in the source would.
+
+use std::collections::BTreeMap;
+
+use jostle_io::InputError;
+
+use crate::beam::Beam;
+use crate::facts::{Facts, Floor, fault};
+use crate::matrix::{Envelope, symmetrise};
+use crate::member::TextModel;
+use crate::section::rigidity;
+
+/// Points nearer than this are one joint \[m\].
+const ONE_JOINT: f64 = 0.002;
+/// A displacement whose pivot is less than this part of its stiffness has none: rounding leaves less than 1e-13.
+const LEAST_PIVOT: f64 = 1e-11;
+/// Most numbers of the factor: one gigabyte.
+const MOST_NUMBERS: usize = 125_000_000;
+/// Names of displacements of a joint.
+const MOVES: [&str; 6] = [
+    "move along X",
+    "move along Y",
+    "move along Z",
+    "turn about X",
+    "turn about Y",
+    "turn about Z",
+];
+
+/// Joints by cells a little larger than what is one joint.
+#[derive(Default)]
+struct Joints {
+    at: Vec<[f64; 3]>,
+    cells: BTreeMap<[i64; 3], Vec<usize>>,
+}
+
+impl Joints {
+    fn cell(at: [f64; 3]) -> [i64; 3] {
+        at.map(|own| (own / (2.0 * ONE_JOINT)).floor() as i64)
+    }
+
+    fn find(&self, at: [f64; 3]) -> Option<usize> {
+        let [x, y, z] = Self::cell(at);
+        let beside = |own: i64| own.saturating_sub(1)..=own.saturating_add(1);
+        let cells =
+            beside(x).flat_map(|x| beside(y).flat_map(move |y| beside(z).map(move |z| [x, y, z])));
+        let near = |joint: &&usize| distance(self.at[**joint], at) < ONE_JOINT;
+        cells
+            .filter_map(|cell| self.cells.get(&cell))
+            .flatten()
+            .find(near)
+            .copied()
+    }
+
+    fn add(&mut self, at: [f64; 3]) -> usize {
+        self.find(at).unwrap_or_else(|| {
+            self.at.push(at);
+            let joint = self.at.len() - 1;
+            self.cells.entry(Self::cell(at)).or_default().push(joint);
+            joint
+        })
+    }
+}
+
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3)
+        .map(|axis| (a[axis] - b[axis]).powi(2))
+        .sum::<f64>()
+        .sqrt()
+}
+
+/// What a displacement of a joint is: shares of free displacements of the structure.
+type Shares = Vec<(usize, f64)>;
+
+/// What was made of the members.
+pub(crate) struct Assembled {
+    /// Displacements along X and Y of the centres of mass and turns of all floors, from the ground up, under unit loads there \[m/N\].
+    pub(crate) flexibility: Vec<Vec<f64>>,
+    /// What it has, for messages.
+    pub(crate) remarks: Vec<String>,
+}
+
+/// Assembles a text model and loads its floors.
+///
+/// # Errors
+/// What has no stiffness in the file, what is not elastic between joints, and joints that nothing holds.
+pub(crate) fn assemble(
+    facts: &Facts,
+    model: &TextModel,
+    floors: &[Floor],
+) -> Result<Assembled, InputError> {
+    let refuse = |object: &str, problem: String, remedy: &str| {
+        Err(fault(&model.file, object, problem, remedy))
+    };
+    let by_results = "take the stiffness from results instead: unit loads on every diaphragm";
+    if let Some(name) = model.semirigid.first() {
+        return refuse(
+            &format!("diaphragm \"{name}\""),
+            "is semi-rigid: floors are rigid in their plane".into(),
+            by_results,
+        );
+    }
+    if let Some(wall) = model.walls.first() {
+        let problem = format!(
+            "is one of {} walls, whose stiffness a text model does not have in numbers",
+            model.walls.len()
+        );
+        return refuse(wall, problem, by_results);
+    }
+    if let Some(spring) = model.on_springs.first() {
+        return refuse(
+            spring,
+            "stands on springs, which are not read".into(),
+            by_results,
+        );
+    }
+    if model.members.is_empty() {
+        return refuse(
+            "",
+            "has no columns or beams".into(),
+            "export the whole model again",
+        );
+    }
+    let mut joints = Joints::default();
+    for member in &model.members {
+        member.ends.iter().for_each(|end| {
+            joints.add(*end);
+        });
+    }
+    let pieces = pieces(model, &joints)?;
+    // Floors: joints at their height, but for those that the source leaves free.
+    let mut floor_of = vec![None; joints.at.len()];
+    for (joint, at) in joints.at.iter().enumerate() {
+        let height = at[2] - facts.base_height();
+        floor_of[joint] = floors
+            .iter()
+            .position(|floor| (floor.height - height).abs() < ONE_JOINT);
+    }
+    for at in &model.disconnected {
+        if let Some(joint) = joints.find(*at) {
+            floor_of[joint] = None;
+        }
+    }
+    let mut held = vec![[false; 6]; joints.at.len()];
+    for support in &model.supports {
+        let Some(joint) = joints.find(support.at) else {
+            continue;
+        };
+        if floor_of[joint].is_some() && [0, 1, 5].iter().any(|own| support.held[*own]) {
+            return refuse(
+                &support.shown,
+                "is held in plan, and its floor has mass: the floor would not move".into(),
+                "give the storeys that the ground holds no diaphragm, and export the masses again",
+            );
+        }
+        (0..6).for_each(|own| held[joint][own] |= support.held[own]);
+    }
+    if !held.iter().flatten().any(|held| *held) {
+        return refuse(
+            "",
+            "has no supported joints".into(),
+            "restrain the feet of the columns in the source and export again",
+        );
+    }
+    let (shares, owners, masters) = numbered(&joints, &floor_of, &held, floors);
+    let mut stiffness = envelope(model, &joints, &pieces, &shares, owners.len())?;
+    // What no member resists, such as the turn of a joint of hinged members, does not move.
+    for row in 0..owners.len() {
+        if stiffness.diagonal(row) == 0.0 {
+            stiffness.add(row, row, 1.0);
+        }
+    }
+    if let Err(row) = stiffness.factorize(LEAST_PIVOT) {
+        let object = match owners[row] {
+            Owner::Joint(joint, _) => {
+                let [x, y, z] = joints.at[joint].map(|own| format!("{own:.3}"));
+                format!("the joint at {x}, {y}, {z} m")
+            }
+            Owner::Floor(floor) => format!("storey \"{}\"", floors[floor].name),
+        };
+        let way = match owners[row] {
+            Owner::Joint(_, way) => MOVES[way],
+            Owner::Floor(_) => "move",
+        };
+        return refuse(
+            &object,
+            format!("can {way} without resistance: hinges make a mechanism there"),
+            "remove releases at that joint, or support it, in the source",
+        );
+    }
+    let mut flexibility = Vec::new();
+    for load in masters.as_flattened() {
+        let mut values = vec![0.0; owners.len()];
+        values[*load] = 1.0;
+        stiffness.solve(&mut values);
+        flexibility.push(
+            masters
+                .as_flattened()
+                .iter()
+                .map(|own| values[*own])
+                .collect(),
+        );
+    }
+    symmetrise(&mut flexibility);
+    Ok(Assembled {
+        flexibility,
+        remarks: remarks(model, &joints, &pieces, owners.len()),
+    })
+}
+
+/// A part of a member between two joints.
+struct Piece {
+    member: usize,
+    joints: [usize; 2],
+    /// Whether its ends are those of the member.
+    outer: [bool; 2],
+}
+
+/// Members in pieces between the joints that lie on them.
+fn pieces(model: &TextModel, joints: &Joints) -> Result<Vec<Piece>, InputError> {
+    let mut by_height: Vec<usize> = (0..joints.at.len()).collect();
+    by_height.sort_by(|a, b| joints.at[*a][2].total_cmp(&joints.at[*b][2]));
+    let heights: Vec<f64> = by_height.iter().map(|joint| joints.at[*joint][2]).collect();
+    let mut found = Vec::new();
+    for (index, member) in model.members.iter().enumerate() {
+        let [a, b] = member.ends;
+        let length = distance(a, b);
+        let ends = member.ends.map(|end| joints.find(end).unwrap_or(0));
+        if ends[0] == ends[1] {
+            return Err(fault(
+                &model.file,
+                member.shown.clone(),
+                "has no length",
+                "remove it in the source",
+            ));
+        }
+        let (low, high) = (a[2].min(b[2]) - ONE_JOINT, a[2].max(b[2]) + ONE_JOINT);
+        let range = heights.partition_point(|z| *z < low)..heights.partition_point(|z| *z <= high);
+        let mut inside: Vec<(f64, usize)> = by_height[range]
+            .iter()
+            .filter(|joint| !ends.contains(joint))
+            .filter_map(|joint| {
+                let at = joints.at[*joint];
+                let share = (0..3)
+                    .map(|axis| (at[axis] - a[axis]) * (b[axis] - a[axis]))
+                    .sum::<f64>()
+                    / (length * length);
+                let foot = [0, 1, 2].map(|axis| a[axis] + share * (b[axis] - a[axis]));
+                (share > 0.0 && share < 1.0 && distance(at, foot) < ONE_JOINT)
+                    .then_some((share, *joint))
+            })
+            .collect();
+        inside.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let all: Vec<usize> = std::iter::once(ends[0])
+            .chain(inside.into_iter().map(|own| own.1))
+            .chain(std::iter::once(ends[1]))
+            .collect();
+        for (part, pair) in all.windows(2).enumerate() {
+            found.push(Piece {
+                member: index,
+                joints: [pair[0], pair[1]],
+                outer: [part == 0, part + 2 == all.len()],
+            });
+        }
+    }
+    Ok(found)
+}
+
+/// Whose a free displacement is.
+#[derive(Clone, Copy)]
+enum Owner {
+    Joint(usize, usize),
+    Floor(usize),
+}
+
+/// Numbers free displacements from the ground up, those of a floor behind its joints.
+fn numbered(
+    joints: &Joints,
+    floor_of: &[Option<usize>],
+    held: &[[bool; 6]],
+    floors: &[Floor],
+) -> (Vec<[Shares; 6]>, Vec<Owner>, Vec<[usize; 3]>) {
+    let mut order: Vec<usize> = (0..joints.at.len()).collect();
+    // Along the longer side of the plan, so that neighbours are near in number.
+    let extent = [0, 1].map(|axis| {
+        let all = joints.at.iter().map(|at| at[axis]);
+        all.clone().fold(f64::MIN, f64::max) - all.fold(f64::MAX, f64::min)
+    });
+    let longer = usize::from(extent[1] > extent[0]);
+    order.sort_by(|a, b| {
+        let [a, b] = [joints.at[*a], joints.at[*b]];
+        let level = |at: [f64; 3]| (at[2] / (2.0 * ONE_JOINT)).round();
+        level(a)
+            .total_cmp(&level(b))
+            .then(a[longer].total_cmp(&b[longer]))
+            .then(a[1 - longer].total_cmp(&b[1 - longer]))
+    });
+    let mut owners = Vec::new();
+    let mut shares: Vec<[Shares; 6]> = vec![Default::default(); joints.at.len()];
+    let mut masters = vec![[0; 3]; floors.len()];
+    let mut left: Vec<usize> = floors
+        .iter()
+        .enumerate()
+        .map(|(floor, _)| floor_of.iter().filter(|own| **own == Some(floor)).count())
+        .collect();
+    let mut number_floor = |floor: usize, owners: &mut Vec<Owner>| {
+        masters[floor] = [0, 1, 2].map(|own| owners.len() + own);
+        owners.extend([Owner::Floor(floor); 3]);
+    };
+    for joint in &order {
+        for way in 0..6 {
+            let moves_with_floor = floor_of[*joint].is_some() && [0, 1, 5].contains(&way);
+            if !held[*joint][way] && !moves_with_floor {
+                shares[*joint][way] = vec![(owners.len(), 1.0)];
+                owners.push(Owner::Joint(*joint, way));
+            }
+        }
+        if let Some(floor) = floor_of[*joint] {
+            left[floor] -= 1;
+            if left[floor] == 0 {
+                number_floor(floor, &mut owners);
+            }
+        }
+    }
+    // Floors without joints.
+    for (floor, own) in floors.iter().enumerate() {
+        let _ = own;
+        if floor_of.iter().all(|other| *other != Some(floor)) {
+            number_floor(floor, &mut owners);
+        }
+    }
+    for (joint, floor) in floor_of.iter().enumerate() {
+        let Some(floor) = *floor else { continue };
+        let [x, y] = floors[floor].centre.unwrap_or_default();
+        let [along, across, turn] = masters[floor];
+        let [px, py, _] = joints.at[joint];
+        shares[joint][0] = vec![(along, 1.0), (turn, y - py)];
+        shares[joint][1] = vec![(across, 1.0), (turn, px - x)];
+        shares[joint][5] = vec![(turn, 1.0)];
+    }
+    (shares, owners, masters)
+}
+
+/// Adds up the stiffness of all pieces.
+fn envelope(
+    model: &TextModel,
+    joints: &Joints,
+    pieces: &[Piece],
+    shares: &[[Shares; 6]],
+    order: usize,
+) -> Result<Envelope, InputError> {
+    let rows = |piece: &Piece| {
+        piece
+            .joints
+            .iter()
+            .flat_map(|joint| &shares[*joint])
+            .flatten()
+            .map(|own| own.0)
+            .collect::<Vec<_>>()
+    };
+    let mut firsts: Vec<usize> = (0..order).collect();
+    for piece in pieces {
+        let rows = rows(piece);
+        let first = rows.iter().copied().min().unwrap_or(0);
+        for row in rows {
+            firsts[row] = firsts[row].min(first);
+        }
+    }
+    let numbers: usize = firsts
+        .iter()
+        .enumerate()
+        .map(|(row, first)| row + 1 - first)
+        .sum();
+    if numbers > MOST_NUMBERS {
+        return Err(fault(
+            &model.file,
+            "",
+            format!(
+                "has {} joints: its stiffness matrix is too large",
+                joints.at.len()
+            ),
+            "take the stiffness from results instead: unit loads on every diaphragm",
+        ));
+    }
+    let mut matrix = Envelope::new(firsts);
+    let mut of_member = usize::MAX;
+    let mut own = [0.0; 6];
+    for piece in pieces {
+        let member = &model.members[piece.member];
+        if of_member != piece.member {
+            own = rigidity(member, model).map_err(|(problem, remedy)| {
+                fault(&model.file, member.shown.clone(), problem, remedy)
+            })?;
+            of_member = piece.member;
+        }
+        let mut beam = Beam {
+            ends: piece.joints.map(|joint| joints.at[joint]),
+            angle: member.angle,
+            rigidity: own,
+            releases: member.releases,
+            stiff_ends: member.stiff_ends,
+        };
+        for end in 0..2 {
+            if !piece.outer[end] {
+                beam.releases[end] = [false; 6];
+                beam.stiff_ends[end] = 0.0;
+            }
+        }
+        let Some(stiffness) = beam.stiffness() else {
+            return Err(fault(
+                &model.file,
+                member.shown.clone(),
+                "has stiff end lengths that leave nothing between them, or reach beyond a joint on it",
+                "shorten its end offsets in the source",
+            ));
+        };
+        let of_row = |row: usize| &shares[piece.joints[row / 6]][row % 6];
+        for row in 0..12 {
+            for column in 0..12 {
+                for (i, a) in of_row(row) {
+                    for (j, b) in of_row(column).iter().filter(|own| own.0 <= *i) {
+                        matrix.add(*i, *j, a * b * stiffness[row][column]);
+                    }
+                }
+            }
+        }
+    }
+    Ok(matrix)
+}
+
+/// What the structure has, and what it leaves out.
+fn remarks(model: &TextModel, joints: &Joints, pieces: &[Piece], order: usize) -> Vec<String> {
+    let count = |what: &dyn Fn(&crate::member::Member) -> bool| {
+        model.members.iter().filter(|own| what(own)).count()
+    };
+    let mut found = vec![format!(
+        "elastic, assembled from {} members between {} joints with {order} displacements, of which the floors' are kept",
+        model.members.len(),
+        joints.at.len()
+    )];
+    let split = pieces.len() - model.members.len();
+    if split > 0 {
+        found.push(format!(
+            "{split} times a member is connected to the end of another that lies on it"
+        ));
+    }
+    let released = count(&|own| own.is_released());
+    if released > 0 {
+        found.push(format!("{released} members with released ends"));
+    }
+    let stiff = count(&|own| own.stiff_ends.iter().any(|end| *end > 0.0));
+    if stiff > 0 {
+        found.push(format!("{stiff} members with stiff end lengths"));
+    }
+    found
+}
