@@ -63,7 +63,7 @@ def import_etabs(
             one building have one name, as ``A.xlsx`` and ``A.OUT``.
         to: model file to write.
         direction: ``"x"``, ``"y"`` or ``"both"``; in space by default where the files suffice.
-        by: ``"flexibility"``, ``"modes"``, ``"stiffness"`` or ``"frame"``; the first that there is by default.
+        by: ``"flexibility"``, ``"modes"``, ``"stiffness"``, ``"frame"`` or ``"members"``; the first that there is by default.
         gap: width of the gaps between neighbours.
         case: load case of Story Stiffness.
         diaphragm: diaphragm of this building, where storeys have several.

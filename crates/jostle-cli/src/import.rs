@@ -51,8 +51,8 @@ pub(crate) struct TableArgs {
     /// Model in one plane along x or y, or in space [default: in space where the files suffice]
     #[arg(long, value_enum)]
     direction: Option<DirectionName>,
-    /// Stiffness from displacements under unit loads, from modes, from storey stiffnesses, or from the columns and beams
-    /// of a text model [default: the first that there is]
+    /// Stiffness from displacements under unit loads, from modes, from storey stiffnesses, or from a text model: its columns and
+    /// beams as a space frame, or all its members as matrices [default: the first that there is]
     #[arg(long, value_enum, value_name = "WAY")]
     by: Option<WayName>,
     /// Width of the gaps between neighbours
