@@ -7,11 +7,12 @@ use std::collections::BTreeMap;
 
 use jostle_io::InputError;
 
-use crate::beam::Beam;
+use crate::beam::{Beam, Stiffness};
 use crate::facts::{Facts, Floor, fault};
 use crate::matrix::{Envelope, symmetrise};
 use crate::member::TextModel;
 use crate::section::rigidity;
+use crate::wall_panel::{edges, panels};
 
 /// Points nearer than this are one joint \[m\].
 const ONE_JOINT: f64 = 0.002;
@@ -31,8 +32,8 @@ const MOVES: [&str; 6] = [
 
 /// Joints by cells a little larger than what is one joint.
 #[derive(Default)]
-struct Joints {
-    at: Vec<[f64; 3]>,
+pub(crate) struct Joints {
+    pub(crate) at: Vec<[f64; 3]>,
     cells: BTreeMap<[i64; 3], Vec<usize>>,
 }
 
@@ -54,13 +55,41 @@ impl Joints {
             .copied()
     }
 
-    fn add(&mut self, at: [f64; 3]) -> usize {
+    pub(crate) fn add(&mut self, at: [f64; 3]) -> usize {
         self.find(at).unwrap_or_else(|| {
             self.at.push(at);
             let joint = self.at.len() - 1;
             self.cells.entry(Self::cell(at)).or_default().push(joint);
             joint
         })
+    }
+}
+
+impl Joints {
+    /// Where a joint lies inside a line from `a` to `b`, as a share of its length.
+    fn share(&self, joint: usize, [a, b]: [[f64; 3]; 2]) -> Option<f64> {
+        let at = self.at[joint];
+        let line = [0, 1, 2].map(|axis| b[axis] - a[axis]);
+        let square: f64 = line.iter().map(|own| own * own).sum();
+        let along: f64 = (0..3).map(|axis| (at[axis] - a[axis]) * line[axis]).sum();
+        let share = along / square;
+        let foot = [0, 1, 2].map(|axis| a[axis] + share * line[axis]);
+        let ends = [a, b].iter().any(|end| distance(at, *end) < ONE_JOINT);
+        let inside = share > 0.0 && share < 1.0 && !ends;
+        (inside && distance(at, foot) < ONE_JOINT).then_some(share)
+    }
+
+    /// Where the first of the joints inside a line between two of them lies.
+    pub(crate) fn inside(&self, [a, b]: [usize; 2]) -> Option<f64> {
+        let line = [self.at[a], self.at[b]];
+        let shares = (0..self.at.len()).filter_map(|joint| self.share(joint, line));
+        shares.min_by(f64::total_cmp)
+    }
+
+    /// The joint at a share of a line between two joints.
+    pub(crate) fn between(&mut self, [a, b]: [usize; 2], share: f64) -> usize {
+        let [a, b] = [self.at[a], self.at[b]];
+        self.add([0, 1, 2].map(|axis| a[axis] + share * (b[axis] - a[axis])))
     }
 }
 
@@ -72,7 +101,7 @@ fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 /// What a displacement of a joint is: shares of free displacements of the structure.
-type Shares = Vec<(usize, f64)>;
+pub(crate) type Shares = Vec<(usize, f64)>;
 
 /// What was made of the members.
 pub(crate) struct Assembled {
@@ -102,13 +131,6 @@ pub(crate) fn assemble(
             by_results,
         );
     }
-    if let Some(wall) = model.walls.first() {
-        let problem = format!(
-            "is one of {} walls, whose stiffness a text model does not have in numbers",
-            model.walls.len()
-        );
-        return refuse(wall, problem, by_results);
-    }
     if let Some(spring) = model.on_springs.first() {
         return refuse(
             spring,
@@ -116,10 +138,10 @@ pub(crate) fn assemble(
             by_results,
         );
     }
-    if model.members.is_empty() {
+    if model.members.is_empty() && model.walls.is_empty() {
         return refuse(
             "",
-            "has no columns or beams".into(),
+            "has no columns, beams or walls".into(),
             "export the whole model again",
         );
     }
@@ -129,6 +151,7 @@ pub(crate) fn assemble(
             joints.add(*end);
         });
     }
+    let panels = panels(model, &mut joints)?;
     let pieces = pieces(model, &joints)?;
     // Floors: joints at their height, but for those that the source leaves free.
     let mut floor_of = vec![None; joints.at.len()];
@@ -157,6 +180,18 @@ pub(crate) fn assemble(
         }
         (0..6).for_each(|own| held[joint][own] |= support.held[own]);
     }
+    // What stands on the foot of a wall between two supports is supported as they are.
+    for [foot, _] in model.walls.iter().filter_map(edges) {
+        let [Some(a), Some(b)] = foot.map(|at| joints.find(at)) else {
+            continue;
+        };
+        let both: [bool; 6] = std::array::from_fn(|own| held[a][own] && held[b][own]);
+        for joint in 0..joints.at.len() {
+            if joints.share(joint, foot).is_some() {
+                (0..6).for_each(|own| held[joint][own] |= both[own]);
+            }
+        }
+    }
     if !held.iter().flatten().any(|held| *held) {
         return refuse(
             "",
@@ -165,7 +200,11 @@ pub(crate) fn assemble(
         );
     }
     let (shares, owners, masters) = numbered(&joints, &floor_of, &held, floors);
-    let mut stiffness = envelope(model, &joints, &pieces, &shares, owners.len())?;
+    let mut elements = elements(model, &joints, &pieces, &shares)?;
+    for panel in &panels {
+        panel.elements(model, &joints, &shares, &mut elements)?;
+    }
+    let mut stiffness = envelope(model, &elements, joints.at.len(), owners.len())?;
     // What no member resists, such as the turn of a joint of hinged members, does not move.
     for row in 0..owners.len() {
         if stiffness.diagonal(row) == 0.0 {
@@ -206,7 +245,7 @@ pub(crate) fn assemble(
     symmetrise(&mut flexibility);
     Ok(Assembled {
         flexibility,
-        remarks: remarks(model, &joints, &pieces, owners.len()),
+        remarks: remarks(model, &joints, [pieces.len(), panels.len()], owners.len()),
     })
 }
 
@@ -226,7 +265,6 @@ fn pieces(model: &TextModel, joints: &Joints) -> Result<Vec<Piece>, InputError> 
     let mut found = Vec::new();
     for (index, member) in model.members.iter().enumerate() {
         let [a, b] = member.ends;
-        let length = distance(a, b);
         let ends = member.ends.map(|end| joints.find(end).unwrap_or(0));
         if ends[0] == ends[1] {
             return Err(fault(
@@ -241,16 +279,7 @@ fn pieces(model: &TextModel, joints: &Joints) -> Result<Vec<Piece>, InputError> 
         let mut inside: Vec<(f64, usize)> = by_height[range]
             .iter()
             .filter(|joint| !ends.contains(joint))
-            .filter_map(|joint| {
-                let at = joints.at[*joint];
-                let share = (0..3)
-                    .map(|axis| (at[axis] - a[axis]) * (b[axis] - a[axis]))
-                    .sum::<f64>()
-                    / (length * length);
-                let foot = [0, 1, 2].map(|axis| a[axis] + share * (b[axis] - a[axis]));
-                (share > 0.0 && share < 1.0 && distance(at, foot) < ONE_JOINT)
-                    .then_some((share, *joint))
-            })
+            .filter_map(|joint| Some((joints.share(*joint, member.ends)?, *joint)))
             .collect();
         inside.sort_by(|a, b| a.0.total_cmp(&b.0));
         let all: Vec<usize> = std::iter::once(ends[0])
@@ -343,62 +372,63 @@ fn numbered(
     (shares, owners, masters)
 }
 
-/// Adds up the stiffness of all pieces.
-fn envelope(
+/// A stiffness over rows of free displacements: its entries of the lower triangle.
+pub(crate) struct Element(Vec<(usize, usize, f64)>);
+
+impl Element {
+    pub(crate) fn new(rows: [Shares; 12], stiffness: &Stiffness) -> Self {
+        let mut entries = Vec::new();
+        for (row, values) in rows.iter().zip(stiffness) {
+            for (column, value) in rows.iter().zip(values).filter(|own| *own.1 != 0.0) {
+                for (i, a) in row {
+                    let below = column.iter().filter(|own| own.0 <= *i);
+                    entries.extend(below.map(|(j, b)| (*i, *j, a * b * value)));
+                }
+            }
+        }
+        Self(entries)
+    }
+
+    /// A spring against one combination of displacements.
+    pub(crate) fn spring(row: Shares, stiffness: f64) -> Self {
+        let mut entries = Vec::new();
+        for (i, a) in &row {
+            let below = row.iter().filter(|own| own.0 <= *i);
+            entries.extend(below.map(|(j, b)| (*i, *j, a * b * stiffness)));
+        }
+        Self(entries)
+    }
+}
+
+/// The sum of rows times factors, each displacement once.
+pub(crate) fn combined(rows: &[(&Shares, f64)]) -> Shares {
+    let mut sum: BTreeMap<usize, f64> = BTreeMap::new();
+    for (row, factor) in rows {
+        for (place, share) in *row {
+            *sum.entry(*place).or_default() += factor * share;
+        }
+    }
+    sum.into_iter().collect()
+}
+
+/// The elements of all pieces of members.
+fn elements(
     model: &TextModel,
     joints: &Joints,
     pieces: &[Piece],
     shares: &[[Shares; 6]],
-    order: usize,
-) -> Result<Envelope, InputError> {
-    let rows = |piece: &Piece| {
-        piece
-            .joints
-            .iter()
-            .flat_map(|joint| &shares[*joint])
-            .flatten()
-            .map(|own| own.0)
-            .collect::<Vec<_>>()
-    };
-    let mut firsts: Vec<usize> = (0..order).collect();
-    for piece in pieces {
-        let rows = rows(piece);
-        let first = rows.iter().copied().min().unwrap_or(0);
-        for row in rows {
-            firsts[row] = firsts[row].min(first);
-        }
-    }
-    let numbers: usize = firsts
-        .iter()
-        .enumerate()
-        .map(|(row, first)| row + 1 - first)
-        .sum();
-    if numbers > MOST_NUMBERS {
-        return Err(fault(
-            &model.file,
-            "",
-            format!(
-                "has {} joints: its stiffness matrix is too large",
-                joints.at.len()
-            ),
-            "take the stiffness from results instead: unit loads on every diaphragm",
-        ));
-    }
-    let mut matrix = Envelope::new(firsts);
-    let mut of_member = usize::MAX;
-    let mut own = [0.0; 6];
+) -> Result<Vec<Element>, InputError> {
+    let mut found = Vec::new();
     for piece in pieces {
         let member = &model.members[piece.member];
-        if of_member != piece.member {
-            own = rigidity(member, model).map_err(|(problem, remedy)| {
-                fault(&model.file, member.shown.clone(), problem, remedy)
-            })?;
-            of_member = piece.member;
-        }
+        let refuse = |problem: String, remedy: &str| {
+            fault(&model.file, member.shown.clone(), problem, remedy)
+        };
         let mut beam = Beam {
             ends: piece.joints.map(|joint| joints.at[joint]),
             angle: member.angle,
-            rigidity: own,
+            rigidity: rigidity(member, model)
+                .map_err(|(problem, remedy)| refuse(problem, remedy))?,
             releases: member.releases,
             stiff_ends: member.stiff_ends,
         };
@@ -409,29 +439,55 @@ fn envelope(
             }
         }
         let Some(stiffness) = beam.stiffness() else {
-            return Err(fault(
-                &model.file,
-                member.shown.clone(),
-                "has stiff end lengths that leave nothing between them, or reach beyond a joint on it",
+            return Err(refuse(
+                "has stiff end lengths that leave nothing between them, or reach beyond a joint on it".into(),
                 "shorten its end offsets in the source",
             ));
         };
-        let of_row = |row: usize| &shares[piece.joints[row / 6]][row % 6];
-        for row in 0..12 {
-            for column in 0..12 {
-                for (i, a) in of_row(row) {
-                    for (j, b) in of_row(column).iter().filter(|own| own.0 <= *i) {
-                        matrix.add(*i, *j, a * b * stiffness[row][column]);
-                    }
-                }
-            }
-        }
+        let rows = std::array::from_fn(|row| shares[piece.joints[row / 6]][row % 6].clone());
+        found.push(Element::new(rows, &stiffness));
+    }
+    Ok(found)
+}
+
+/// Adds up the stiffness of all elements.
+fn envelope(
+    model: &TextModel,
+    elements: &[Element],
+    joints: usize,
+    order: usize,
+) -> Result<Envelope, InputError> {
+    let mut firsts: Vec<usize> = (0..order).collect();
+    for (row, column, _) in elements.iter().flat_map(|own| &own.0) {
+        firsts[*row] = firsts[*row].min(*column);
+    }
+    let numbers: usize = firsts
+        .iter()
+        .enumerate()
+        .map(|(row, first)| row + 1 - first)
+        .sum();
+    if numbers > MOST_NUMBERS {
+        return Err(fault(
+            &model.file,
+            "",
+            format!("has {joints} joints: its stiffness matrix is too large"),
+            "take the stiffness from results instead: unit loads on every diaphragm",
+        ));
+    }
+    let mut matrix = Envelope::new(firsts);
+    for (row, column, value) in elements.iter().flat_map(|own| &own.0) {
+        matrix.add(*row, *column, *value);
     }
     Ok(matrix)
 }
 
 /// What the structure has, and what it leaves out.
-fn remarks(model: &TextModel, joints: &Joints, pieces: &[Piece], order: usize) -> Vec<String> {
+fn remarks(
+    model: &TextModel,
+    joints: &Joints,
+    [pieces, panels]: [usize; 2],
+    order: usize,
+) -> Vec<String> {
     let count = |what: &dyn Fn(&crate::member::Member) -> bool| {
         model.members.iter().filter(|own| what(own)).count()
     };
@@ -440,7 +496,10 @@ fn remarks(model: &TextModel, joints: &Joints, pieces: &[Piece], order: usize) -
         model.members.len(),
         joints.at.len()
     )];
-    let split = pieces.len() - model.members.len();
+    if panels > 0 {
+        found.push(format!("{} wall areas as wide columns in {panels} panels between the levels of joints: some percent from shells of fine meshes; compare the periods", model.walls.len()));
+    }
+    let split = pieces - model.members.len();
     if split > 0 {
         found.push(format!(
             "{split} times a member is connected to the end of another that lies on it"

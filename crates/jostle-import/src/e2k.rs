@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use jostle_io::InputError;
 
 use crate::facts::{Facts, Story, fault, key};
-use crate::member::{Member, Support, TextModel};
+use crate::member::{Member, Support, TextModel, Wall};
 use crate::text::number;
 use crate::units::{LENGTH, PRESSURE, Units};
 
@@ -24,6 +24,7 @@ const READ: &[&str] = &[
     "AREA ASSIGNS",
     "SLAB PROPERTIES",
     "DECK PROPERTIES",
+    "WALL PROPERTIES",
 ];
 /// Sections without effect on stiffness and geometry.
 const HARMLESS: &[&str] = &[
@@ -273,6 +274,24 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
             .iter()
             .any(|name| record.number(name).is_some_and(|own| own != 0.0));
     }
+    for record in of("WALL PROPERTIES") {
+        let own = model
+            .wall_properties
+            .entry(record.at(1).to_owned())
+            .or_default();
+        if let Some(material) = record.value("MATERIAL") {
+            material.clone_into(&mut own.material);
+        }
+        let thickness = record.number("WALLTHICKNESS").map(|own| own * length);
+        own.thickness = thickness.or(own.thickness);
+        for (factor, name) in own
+            .factors
+            .iter_mut()
+            .zip(["F22MOD", "F12MOD", "M22MOD", "M12MOD"])
+        {
+            *factor = record.number(name).unwrap_or(*factor);
+        }
+    }
     let areas: BTreeMap<&str, &Record<'_>> = of("AREA CONNECTIVITIES")
         .map(|record| (record.at(1), record))
         .collect();
@@ -291,11 +310,23 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
         let level = level_of(record.at(2))
             .ok_or_else(|| lost(record, &format!("the storey \"{}\"", record.at(2))))?;
         if area.at(2) == "PANEL" {
-            model.walls.push(format!(
-                "wall \"{}\" of storey \"{}\"",
-                record.at(1),
-                record.at(2)
-            ));
+            let shown = format!("wall \"{}\" of storey \"{}\"", record.at(1), record.at(2));
+            let count: usize = area.at(3).parse().unwrap_or(0);
+            // Points, and how many storeys below this one each of them lies.
+            let corner = |index: usize| {
+                let below: usize = area.at(4 + count + index).parse().unwrap_or(0);
+                place(area.at(4 + index), level.checked_sub(below)?)
+            };
+            let corners: Option<Vec<[f64; 3]>> =
+                (0..count.min(area.words.len())).map(corner).collect();
+            let corners = corners.ok_or_else(|| lost(area, "points or storeys"))?;
+            let points = facts.points.entry(key(record.at(2))).or_default();
+            points.extend(corners.iter().map(|[x, y, _]| [*x, *y]));
+            model.walls.push(Wall {
+                shown,
+                corners,
+                property: record.value("SECTION").unwrap_or("").to_owned(),
+            });
             continue;
         }
         if let Some(name) = record

@@ -22,6 +22,7 @@ mod space_frame;
 mod tables;
 mod text;
 mod units;
+mod wall_panel;
 mod workbook;
 
 pub use import::{BuildingPeriods, Imported, Program, SourceFile, import};

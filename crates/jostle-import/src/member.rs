@@ -81,6 +81,36 @@ pub(crate) struct Support {
     pub(crate) held: [bool; 6],
 }
 
+/// An upright panel of a wall between two levels.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Wall {
+    /// For messages: `wall "W1" of storey "Story2"`.
+    pub(crate) shown: String,
+    /// In the order of the file \[m\].
+    pub(crate) corners: Vec<[f64; 3]>,
+    pub(crate) property: String,
+}
+
+/// Thickness and material of walls.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct WallFacts {
+    pub(crate) material: String,
+    /// \[m\]
+    pub(crate) thickness: Option<f64>,
+    /// Factors on stiffness along the height, in shear, in bending across the wall and in twisting.
+    pub(crate) factors: [f64; 4],
+}
+
+impl Default for WallFacts {
+    fn default() -> Self {
+        Self {
+            material: String::new(),
+            thickness: None,
+            factors: [1.0; 4],
+        }
+    }
+}
+
 /// A text model.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct TextModel {
@@ -89,8 +119,8 @@ pub(crate) struct TextModel {
     pub(crate) sections: BTreeMap<String, SectionFacts>,
     /// Modulus of elasticity \[Pa\] and Poisson's ratio.
     pub(crate) materials: BTreeMap<String, [f64; 2]>,
-    /// Walls, for messages; braces are members.
-    pub(crate) walls: Vec<String>,
+    pub(crate) walls: Vec<Wall>,
+    pub(crate) wall_properties: BTreeMap<String, WallFacts>,
     /// Floor slabs that bend in the source, for messages.
     pub(crate) bending_slabs: Vec<String>,
     /// Diaphragms that are not rigid.

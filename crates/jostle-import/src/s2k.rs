@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use jostle_io::InputError;
 
 use crate::facts::{Facts, FloorMass, Story, fault, key};
-use crate::member::{Member, SectionFacts, Support, TextModel};
+use crate::member::{Member, SectionFacts, Support, TextModel, Wall, WallFacts};
 use crate::text::number;
 use crate::units::{INERTIA, LENGTH, MASS, PRESSURE, Units};
 
@@ -19,6 +19,8 @@ const READ: &[&str] = &[
     "JOINT RESTRAINT ASSIGNMENTS",
     "CONNECTIVITY - FRAME",
     "CONNECTIVITY - AREA",
+    "AREA SECTION ASSIGNMENTS",
+    "AREA SECTION PROPERTIES",
     "FRAME SECTION ASSIGNMENTS",
     "FRAME SECTION PROPERTIES 01 - GENERAL",
     "FRAME LOCAL AXES ASSIGNMENTS 1 - TYPICAL",
@@ -243,6 +245,18 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
         }
         model.members.push(member);
     }
+    for row in of("AREA SECTION PROPERTIES") {
+        let own = WallFacts {
+            material: get(row, "Material"),
+            thickness: value(row, "Thickness").map(|own| own * length),
+            factors: ["F22Mod", "F12Mod", "M22Mod", "M12Mod"]
+                .map(|name| value(row, name).unwrap_or(1.0)),
+        };
+        model.wall_properties.insert(get(row, "Section"), own);
+    }
+    let of_area: BTreeMap<String, String> = of("AREA SECTION ASSIGNMENTS")
+        .map(|row| (get(row, "Area"), get(row, "Section")))
+        .collect();
     let mut floors = 0;
     for row in of("CONNECTIVITY - AREA") {
         let corners: Vec<[f64; 3]> = ["Joint1", "Joint2", "Joint3", "Joint4"]
@@ -254,7 +268,12 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
             .iter()
             .any(|corner| (corner[2] - z).abs() > ONE_LEVEL)
         {
-            model.walls.push(format!("area {}", get(row, "Area")));
+            let area = get(row, "Area");
+            model.walls.push(Wall {
+                property: of_area.get(&area).cloned().unwrap_or_default(),
+                shown: format!("area {area}"),
+                corners,
+            });
         } else {
             floors += 1;
         }

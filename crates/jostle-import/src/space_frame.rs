@@ -42,7 +42,7 @@ pub(crate) fn build(facts: &mut Facts, model: &TextModel) -> Result<Built, Input
     }
     if let Some(wall) = model.walls.first() {
         return refuse(
-            wall,
+            &wall.shown,
             format!(
                 "is one of {} walls; a space frame has columns and beams alone",
                 model.walls.len()

@@ -6,4 +6,5 @@ mod frames;
 mod irregular;
 mod refused;
 mod tables;
+mod walls;
 mod workbooks;

@@ -42,7 +42,10 @@ fn members_without_stiffness_are_refused_with_what_helps() {
             &["M99", "modulus"],
         ),
         (["DIAPH  \"D1\"", "DIAPH  \"D9\""], &["D9", "semi-rigid"]),
-        (["FLOOR  4", "PANEL  4"], &["wall \"F1\"", "unit loads"]),
+        (
+            ["FLOOR  4", "PANEL  4"],
+            &["wall \"F1\"", "no upright rectangle", "unit loads"],
+        ),
         (
             ["RESTRAINT \"UX UY UZ RX RY RZ\"", "SPRINGPROP \"S1\""],
             &["point \"1-1\" of storey \"Base\"", "springs"],
