@@ -618,6 +618,43 @@ fn results_trip_their_checks_and_others_just_do_not() {
     }
 }
 
+/// Next to no shaking changes no axial force, whether forces contain self weight or not.
+#[test]
+fn hinges_of_a_quiet_frame_keep_their_axial_force() {
+    for gravity in ["", "gravity = true", "p_delta = true", "gravity = true\np_delta = true"] {
+        let text = format!(
+            "[[building]]\nname = \"A\"\nstoreys = 3\nstorey_height = \"3 m\"\nspans = [\"5 m\"]\nconcrete = \"C20\"\nbeam_mass = \"6 t/m\"\ndamping = {{ ratio = 0.05 }}\nhinges = {{ rule = \"takeda\", from = \"section\" }}\ncolumn = {{ width = \"400 mm\", depth = \"400 mm\", steel = \"400 MPa\", bars = \"8 d20\" }}\nbeam = {{ width = \"250 mm\", depth = \"500 mm\", steel = \"400 MPa\", top = \"4 d20\", bottom = \"2 d20\" }}\n{gravity}\n[analysis]\nmembers = true\n"
+        );
+        let (prepared, summary) = run(sound(&text), false);
+        let quiet = |scale: f64| {
+            let mut own = summary.clone();
+            for end in own.buildings[0].members.iter_mut().flat_map(|own| &mut own.ends) {
+                // The force of weight is the middle of this run.
+                let middle = 0.5 * (end.axial_max_n + end.axial_min_n);
+                end.axial_max_n = middle + scale * (end.axial_max_n - middle);
+                end.axial_min_n = middle + scale * (end.axial_min_n - middle);
+            }
+            own
+        };
+        let codes = CodeInputs {
+            shown: vec![Code::En1998],
+            ..prepared.input.codes.clone()
+        };
+        let found = |summary: &Summary| {
+            let found = judge(&Known {
+                model: &prepared.input.model,
+                system: &prepared.system,
+                motion: Some(&prepared.motion),
+                stated: &prepared.input.stated,
+                results: Some((summary, &codes)),
+            });
+            is_found(&found, "hinge-axial-force")
+        };
+        assert!(found(&quiet(30.0)), "{gravity}: large changes");
+        assert!(!found(&quiet(0.01)), "{gravity}: next to none");
+    }
+}
+
 #[test]
 fn findings_are_sorted_and_can_be_silenced() {
     let text = |silence: &str| format!("{TOUCHING}[report]\nsilence = {silence}\n");

@@ -161,7 +161,7 @@ pub(super) fn column_tension(known: &Known<'_>, tally: &mut Tally<'_>) {
         return;
     };
     for (model, own) in known.model.buildings.iter().zip(&summary.buildings) {
-        if !model.gravity.preload {
+        if !model.gravity.is_in_axial_forces() {
             continue;
         }
         let columns = own.members.iter().filter(|m| m.name.contains(".column."));
@@ -206,17 +206,18 @@ pub(super) fn hinge_axial_force(known: &Known<'_>, tally: &mut Tally<'_>) {
             else {
                 continue;
             };
-            // Forces of a run from rest are changes; with gravity they include self weight.
-            let rest = if model.gravity.preload { made_for } else { 0.0 };
+            // Forces without self weight are changes.
+            let contained = model.gravity.is_in_axial_forces();
+            let rest = if contained { made_for } else { 0.0 };
             for end in &member.ends {
                 let [most, least] = [end.axial_max_n, end.axial_min_n].map(|force| force + rest);
                 let change = if -least > most { least } else { most };
                 let ratio = change.abs() * modulus / (axial * strength);
                 tally.add(ratio, || {
                     let text = format!(
-                        "{}: its axial force is {:+.0} kN from the {:.0} kN of compression for which its hinges were made, ν changes by {ratio:.2}: its strength changes too",
+                        "{}: its compression goes to {:.0} kN, its hinges were made for {:.0} kN, ν changes by {ratio:.2}: its strength changes too",
                         member.name,
-                        -1e-3 * change,
+                        1e-3 * (made_for - change),
                         1e-3 * made_for
                     );
                     (member.name.clone(), text)

@@ -199,6 +199,14 @@ pub struct Gravity {
     pub p_delta: bool,
 }
 
+impl Gravity {
+    /// Whether axial forces of members contain self weight: columns bear it where the run starts under it, and where it leans.
+    #[must_use]
+    pub fn is_in_axial_forces(&self) -> bool {
+        self.preload || self.p_delta
+    }
+}
+
 /// Springs of a building that crack and yield.
 ///
 /// ```
