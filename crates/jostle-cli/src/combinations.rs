@@ -197,7 +197,7 @@ fn features() -> Vec<Feature> {
 /// The table in Markdown: every kind of building with every feature, `yes` or what the program says instead.
 pub(crate) fn table() -> String {
     let mut text = String::from(
-        "# What can be combined\n\nTwo buildings of one kind stand side by side, and the model asks for one thing more. A cell has `yes`, or what the program says\ninstead. Written by `jostle schema --combinations`.\n\n|",
+        "# What can be combined\n\nTwo buildings of one kind stand side by side, and the model adds one feature. A cell has `yes`, or what the program says\ninstead. Written by `jostle schema --combinations`.\n\n|",
     );
     for kind in [""].into_iter().chain(KINDS.iter().map(|kind| kind.name)) {
         let _ = write!(text, " {kind} |");

@@ -13,7 +13,7 @@ use crate::failure::Failure;
 use crate::progress::TimeBar;
 use crate::stop::stop_on_interrupt;
 use crate::terminal;
-use jostle_run::{counted, earlier_gap_curves, kn, mm, write_gap_curves};
+use jostle_run::{RuleGap, counted, earlier_gap_curves, kn, mm, write_gap_curves};
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct GapArgs {
@@ -299,20 +299,14 @@ pub(crate) fn describe(title: &str, found: &[CriticalGap]) -> String {
                 100.0 * gap.damping[1]
             );
         }
-        text += "  rule             gap    ÷ smallest   outcome with this gap\n";
+        text +=
+            "  rule             gap    ÷ smallest   outcome with this gap, worse of both signs\n";
         for rule in &gap.rules {
             let ratio = rule
-                .ratio
+                .ratio_of_both_signs
+                .or(rule.ratio)
                 .map_or("–".to_owned(), |ratio| format!("{ratio:.2}"));
-            let led = match (rule.impact_count, rule.peak_force_n, rule.first_impact_s) {
-                (Some(0), ..) => "no impact".to_owned(),
-                (Some(count), Some(force), Some(first)) => format!(
-                    "{}, up to {} kN, from {first:.2} s",
-                    counted(count, "impact"),
-                    kn(force)
-                ),
-                _ => String::new(),
-            };
+            let led = outcome(rule);
             text += &format!(
                 "  {:<14} {:>9}   {ratio:>7}   {led}\n",
                 rule.rule,
@@ -347,6 +341,22 @@ pub(crate) fn describe(title: &str, found: &[CriticalGap]) -> String {
         text += "\nThe choice of records stays yours.";
     }
     text + " Widths of codes are minima. Add construction tolerance, temperature and tilt.\n"
+}
+
+/// What a gap leads to, by the sign of the motion with the greater force.
+fn outcome(rule: &RuleGap) -> String {
+    let Some(worse) = rule.worse_outcome() else {
+        return String::new();
+    };
+    if worse.impact_count == 0 {
+        return "no impact".to_owned();
+    }
+    let when = match worse.is_reversed {
+        true => "with the motion reversed".to_owned(),
+        false => format!("from {:.2} s", rule.first_impact_s.unwrap_or(0.0)),
+    };
+    let impacts = counted(worse.impact_count, "impact");
+    format!("{impacts}, up to {} kN, {when}", kn(worse.peak_force_n))
 }
 
 /// Records below which no code takes a result \[–\].

@@ -1,13 +1,14 @@
 //! `jostle import`: model files from the files of other programs.
 
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+use jostle::results::summary::Grade;
 use jostle_import::{
     BuildingPeriods, Direction, ImportOptions, Imported, Program, SourceFile, Way,
 };
 use jostle_io::{Dimension, Overrides, parse_quantity, read_file};
-use jostle_run::{BOLD, FileKind, LOUD, list_modes, may_write, open, styled};
+use jostle_run::{BOLD, FileKind, LOUD, finding_with_remedy, list_modes, may_write, open, styled};
 
 use crate::failure::Failure;
 use crate::import_opensees::{self, ImportOpenseesArgs};
@@ -168,13 +169,19 @@ impl TableArgs {
 fn write(args: &TableArgs, imported: &Imported) -> Result<String, Failure> {
     let beside = |name: &str| args.to.with_file_name(name);
     may_write(&args.to, Some(MODEL), args.force)?;
+    if !args.force && is_edited(&args.to) {
+        return Err(Failure::Input(format!(
+            "{}: was edited since it was imported\n  help: name another file with --to, or add --force to lose what was edited",
+            args.to.display()
+        )));
+    }
     for (name, _) in &imported.files {
         may_write(&beside(name), Some(ARCHIVE), args.force)?;
     }
     for (name, bytes) in &imported.files {
         jostle_io::write_atomically(&beside(name), bytes)?;
     }
-    jostle_io::write_atomically(&args.to, imported.toml.as_bytes())?;
+    jostle_io::write_atomically(&args.to, marked(&imported.toml).as_bytes())?;
     let mut text = String::new();
     for (title, lines) in [
         ("Read", &imported.read),
@@ -205,9 +212,45 @@ fn write(args: &TableArgs, imported: &Imported) -> Result<String, Failure> {
         let own: Vec<f64> = modes.iter().map(|mode| mode.period()).collect();
         compare(&mut text, &building.name, &own, source);
     }
+    // What is unusual is often a unit.
+    let findings = opened.findings(None);
+    let unusual = findings.iter().filter(|own| own.grade >= Grade::Note);
+    for finding in unusual {
+        let _ = writeln!(text, "{}", finding_with_remedy(finding));
+    }
     let shown = args.to.display();
     let _ = writeln!(text, "{shown} is ready. Next:\n  jostle check {shown}");
     Ok(text)
+}
+
+/// Between the first line of an imported model and the number of its content.
+const CONTENT: &str = " Content ";
+
+/// A model whose first line has the number of the rest, by which later edits are seen.
+fn marked(model: &str) -> String {
+    match model.split_once('\n') {
+        Some((first, rest)) => format!("{first}{CONTENT}{:016x}.\n{rest}", fingerprint(rest)),
+        None => model.to_owned(),
+    }
+}
+
+/// Whether an imported model is no longer what was written; files without a number are not known to be.
+fn is_edited(path: &Path) -> bool {
+    let Ok(text) = jostle_io::read_text_file(path, MOST_BYTES) else {
+        return false;
+    };
+    let number = text.split_once('\n').and_then(|(first, rest)| {
+        let (_, number) = first.trim_end_matches(['.', '\r']).rsplit_once(CONTENT)?;
+        Some((u64::from_str_radix(number, 16).ok()?, rest))
+    });
+    number.is_some_and(|(number, rest)| fingerprint(rest) != number)
+}
+
+/// 64 bits of a text (Fowler, Noll and Vo's FNV-1a), the same on every computer.
+fn fingerprint(text: &str) -> u64 {
+    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    })
 }
 
 /// Periods of the model beside those of the source: of one direction one by one, else the nearest.

@@ -24,9 +24,12 @@ pub(crate) fn modes(args: &ModesArgs) -> Result<(), Failure> {
         // Writing to a string cannot fail.
         let _ = describe(&mut text, building, modes);
     }
+    if listed.iter().any(|own| !own.0.is_in_space()) {
+        text.push_str("T marks lateral modes (≥ 1 % of the mass). ");
+    }
     let _ = writeln!(
         text,
-        "T marks lateral modes (≥ 1 % of the mass). None is missing: frequencies by counting negative pivots of the\n\
+        "None is missing: frequencies by counting negative pivots of the\n\
          Riccati recursion (Wittrick and Williams), shapes by inverse iteration."
     );
     terminal::print(&text)

@@ -127,7 +127,7 @@ pub(crate) fn assemble(
     if let Some(name) = model.semirigid.first() {
         return refuse(
             &format!("diaphragm \"{name}\""),
-            "is semi-rigid: floors are rigid in their plane".into(),
+            "is semi-rigid, but floors of jostle are rigid in their plane".into(),
             by_results,
         );
     }
@@ -225,8 +225,8 @@ pub(crate) fn assemble(
         };
         return refuse(
             &object,
-            format!("can {way} without resistance: hinges make a mechanism there"),
-            "remove releases at that joint, or support it, in the source",
+            format!("can {way} without resistance: hinges make a mechanism there or below"),
+            "remove releases in the source, or hold what they free",
         );
     }
     let mut flexibility = Vec::new();

@@ -42,6 +42,39 @@ const HARMLESS: &[&str] = &[
 /// Keys of the six numbers of a section, and of the factors on them.
 const NUMBERS: [&str; 6] = ["AREA", "AS2", "AS3", "TORSION", "I22", "I33"];
 const FACTORS: [&str; 6] = ["AMOD", "A2MOD", "A3MOD", "JMOD", "I2MOD", "I3MOD"];
+/// Keys of members that are read, or that do not matter.
+const OF_LINES: [&str; 30] = [
+    "SECTION",
+    "ANG",
+    "RELEASE",
+    "LENGTHOFFI",
+    "LENGTHOFFJ",
+    "RIGIDZONE",
+    "OFFSETXI",
+    "OFFSETYI",
+    "OFFSETZI",
+    "OFFSETXJ",
+    "OFFSETYJ",
+    "OFFSETZJ",
+    "OFFSETSYS",
+    "LOCAL",
+    "GLOBAL",
+    "CARDINALPT",
+    "MINNUMSTA",
+    "MAXSTASPC",
+    "MESH",
+    "AUTOMESH",
+    "MESHATINTERSECTIONS",
+    "MESHATJOINTS",
+    "MESHMAXLENGTH",
+    "PIER",
+    "SPANDREL",
+    "DESIGNPROC",
+    "DESIGNTYPE",
+    "COLOR",
+    "GUID",
+    "TRANSSTIFF",
+];
 /// What a support may hold.
 const HELD: [&str; 6] = ["UX", "UY", "UZ", "RX", "RY", "RZ"];
 
@@ -150,6 +183,17 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
         .chain(of("POINT ASSIGNS"))
         .filter_map(|record| record.value("DIAPH"))
         .collect();
+    for record in of("DIAPHRAGM NAMES") {
+        let kind = record.value("TYPE").unwrap_or("");
+        if !["RIGID", "SEMIRIGID"].contains(&kind) {
+            return Err(fault(
+                file,
+                format!("line {}, diaphragm \"{}\"", record.line, record.at(1)),
+                format!("has the type \"{kind}\", which is neither RIGID nor SEMIRIGID"),
+                "export the model again",
+            ));
+        }
+    }
     for record in of("DIAPHRAGM NAMES").filter(|record| record.value("TYPE") == Some("SEMIRIGID")) {
         if used.contains(record.at(1)) {
             model.semirigid.push(record.at(1).to_owned());
@@ -226,6 +270,7 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
         .map(|record| (record.at(1), record))
         .collect();
     let mut members: BTreeMap<(String, usize), Member> = BTreeMap::new();
+    let mut unknown: BTreeMap<&str, usize> = BTreeMap::new();
     for record in of("LINE ASSIGNS") {
         let line = lines
             .get(record.at(1))
@@ -244,6 +289,11 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
                 let shown = format!("{kind} \"{}\" of storey \"{}\"", record.at(1), record.at(2));
                 Member::new(shown, ends)
             });
+        let bare = record.words.iter().skip(3).filter(|word| !word.quoted);
+        let keys = bare.filter(|word| word.text.starts_with(char::is_alphabetic));
+        for word in keys.filter(|word| !OF_LINES.contains(&word.text)) {
+            *unknown.entry(word.text).or_default() += 1;
+        }
         // Further lines of one member add keys.
         if let Some(section) = record.value("SECTION") {
             section.clone_into(&mut own.section);
@@ -369,6 +419,16 @@ pub(crate) fn read(file: &str, text: &str, facts: &mut Facts) -> Result<Units, I
             let held = HELD.map(|own| held.split_whitespace().any(|word| word == own));
             model.supports.push(Support { shown, at, held });
         }
+    }
+    if !unknown.is_empty() {
+        let keys: Vec<String> = unknown
+            .iter()
+            .map(|(key, count)| format!("{key} ({count} times)"))
+            .collect();
+        facts.left_out.push(format!(
+            "{file}: keys of members that are not known: {}; check them for misspelt ones",
+            keys.join(", ")
+        ));
     }
     facts.read.push(format!(
         "{file}: {} storeys, {} columns and beams, {floors} floor areas, {} walls",

@@ -131,6 +131,10 @@ pub(crate) fn fault(
     }
 }
 
+/// Storeys that are neither mistaken units nor missing diaphragms \[m\].
+const LEAST_STOREY: f64 = 1.0;
+const MOST_STOREY: f64 = 100.0;
+
 /// A floor of the building.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Floor {
@@ -257,11 +261,22 @@ impl Facts {
             }
         }
         for name in without {
-            self.left_out.push(format!("storey \"{name}\": has no diaphragm mass, so it is no floor that a neighbour can strike; its height is part of the storey above"));
+            self.left_out.push(format!("warning: storey \"{name}\" has no diaphragm mass: it is no floor that a neighbour can strike, and its height is part of the storey above; check the table of masses"));
         }
         let rising = floors
             .windows(2)
             .all(|pair| pair[0].height < pair[1].height);
+        let mut below = 0.0;
+        for floor in &floors {
+            let storey = floor.height - std::mem::replace(&mut below, floor.height);
+            if !(LEAST_STOREY..MOST_STOREY).contains(&storey) && storey > 0.0 {
+                return Err(self.fault(
+                    format!("storey \"{}\"", floor.name),
+                    format!("is {storey:.3} m high"),
+                    "check the units: of a text model, the line UNITS; of tables, their row of units or --units",
+                ));
+            }
+        }
         if floors.first().is_none_or(|floor| floor.height <= 0.0) || !rising {
             return Err(self.fault(
                 "Story Definitions",

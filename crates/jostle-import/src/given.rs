@@ -71,6 +71,11 @@ pub(crate) fn head(facts: &Facts, kind: &str) -> String {
         "[[building]]\nname = {}\nkind = \"{kind}\"\n",
         quoted(&facts.name)
     );
+    if kind == "given" {
+        block.push_str(
+            "damping = { ratio = 0.05, modes = \"all\" } # as modal damping of the source\n",
+        );
+    }
     if facts.base_height() != 0.0 {
         // Writing to a string cannot fail.
         let _ = writeln!(

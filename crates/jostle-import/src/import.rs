@@ -226,6 +226,9 @@ pub fn import(
             "add --direction x or --direction y for both",
         ));
     }
+    if names.len() > 1 && spaces.contains(&true) {
+        imported.remarks.push("buildings stand side by side along X in the order of the files; coordinates of the sources do not place them: write at in [[building]] where they stand otherwise".into());
+    }
     imported.toml = model_text(program, &imported, &names, &blocks, options.gap);
     Ok(imported)
 }
@@ -344,7 +347,7 @@ fn build(facts: &mut Facts, options: &ImportOptions) -> Result<Built, InputError
                 built.remarks.insert(
                     0,
                     format!(
-                        "no space frame, which could yield: {} {}",
+                        "taken as elastic matrices, not as a space frame, which could yield: {} {}",
                         fault.path, fault.problem
                     ),
                 );
@@ -457,7 +460,7 @@ fn model_text(
     for pair in names.windows(2) {
         let _ = write!(
             text,
-            "\n[[gap]]\nbetween = [{}, {}]\nwidth = \"{} mm\"\n",
+            "\n[[gap]]\nbetween = [{}, {}]\nwidth = \"{} mm\"\n# stiffness = \"2e9 N/m^1.5\"     # of the contact: the default, at the low end of what is known; see jostle contact-advice\n",
             quoted(&pair[0]),
             quoted(&pair[1]),
             given::digits(gap.unwrap_or(0.0) * 1e3)

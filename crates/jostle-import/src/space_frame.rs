@@ -37,7 +37,7 @@ pub(crate) fn build(facts: &mut Facts, model: &TextModel) -> Result<Built, Input
     if let Some(name) = model.semirigid.first() {
         return refuse(
             &format!("diaphragm \"{name}\""),
-            "is semi-rigid: floors of a space frame are rigid in their plane".into(),
+            "is semi-rigid, but floors of jostle are rigid in their plane".into(),
         );
     }
     if let Some(wall) = model.walls.first() {

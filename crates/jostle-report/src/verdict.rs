@@ -114,7 +114,13 @@ fn sentence_of(gap: &GapSummary) -> String {
     if hardest == first {
         message::the_first_impact(&head, &start, force(hardest))
     } else {
-        message::first_at_peak_force(&head, &start, at(hardest), &hardest_place, force(hardest))
+        message::first_at_peak_force(
+            &head,
+            &start,
+            format::instant(hardest.peak_force_at_s),
+            &hardest_place,
+            force(hardest),
+        )
     }
 }
 

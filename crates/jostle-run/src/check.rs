@@ -659,9 +659,14 @@ fn describe_building(
             let modes: Vec<String> = named.iter().map(usize::to_string).collect();
             let plural = if modes.len() == 1 { "" } else { "s" };
             format!(
-                "Rayleigh damping {} % in lateral mode{plural} {}{}:",
+                "Rayleigh damping {} % in lateral mode{plural} {}{}{}:",
                 percent(*ratio),
                 modes.join(" and "),
+                if building.is_in_space() {
+                    " of those along x"
+                } else {
+                    ""
+                },
                 if is_isolated {
                     " of the building fixed on its mat"
                 } else {

@@ -96,12 +96,50 @@ pub struct RuleGap {
     pub peak_force_n: Option<f64>,
     /// First impact at this gap \[s\].
     pub first_impact_s: Option<f64>,
+    /// Over the smallest gap without pounding of both signs of the motion; `null` when that is zero \[–\].
+    pub ratio_of_both_signs: Option<f64>,
+    /// Impacts at this gap with the motion reversed; `null` when that was not asked for.
+    pub reversed_impact_count: Option<usize>,
+    /// Greatest force at this gap with the motion reversed \[N\].
+    pub reversed_peak_force_n: Option<f64>,
     /// Name of the code in the model file; `null` for general rules.
     pub code: Option<&'static str>,
     /// Inputs that the rule used, with defaults marked.
     pub inputs: Vec<String>,
     /// Distances of the left and the right building from the property line between them, of rules for such lines \[m\].
     pub setbacks_m: Option<[f64; 2]>,
+}
+
+/// What a gap leads to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GapOutcome {
+    /// Impacts.
+    pub impact_count: usize,
+    /// Greatest force \[N\].
+    pub peak_force_n: f64,
+    /// Whether it is that of the motion reversed.
+    pub is_reversed: bool,
+}
+
+impl RuleGap {
+    /// The outcome with the greater force of both signs of the motion; `None` where outcomes were not asked for.
+    #[must_use]
+    pub fn worse_outcome(&self) -> Option<GapOutcome> {
+        let own = GapOutcome {
+            impact_count: self.impact_count?,
+            peak_force_n: self.peak_force_n?,
+            is_reversed: false,
+        };
+        let other = self.reversed_impact_count.zip(self.reversed_peak_force_n);
+        let worse = other.filter(|(_, force)| *force > own.peak_force_n);
+        Some(
+            worse.map_or(own, |(impact_count, peak_force_n)| GapOutcome {
+                impact_count,
+                peak_force_n,
+                is_reversed: true,
+            }),
+        )
+    }
 }
 
 /// How far a search has come.
@@ -172,7 +210,8 @@ pub fn critical_gaps(
                 runs: GapRuns::new(model, &other, stop)?,
                 ..search
             };
-            Some(search.run(&widths, Pounding::Excluded, first)?)
+            let apart = search.run(&widths, Pounding::Excluded, first)?;
+            Some((search, apart))
         }
         false => None,
     };
@@ -219,7 +258,17 @@ struct OneGap<'a> {
     known: Vec<GapPoint>,
 }
 
-impl OneGap<'_> {
+impl<'a> OneGap<'a> {
+    fn new(search: &'a Search<'a>, gap: usize, between: &[String; 2], closing: f64) -> Self {
+        Self {
+            search,
+            gap,
+            between: between.clone(),
+            closing,
+            known: Vec::new(),
+        }
+    }
+
     /// Runs made, the one without contact included.
     fn runs(&self) -> usize {
         self.known.len() + 1
@@ -367,20 +416,18 @@ impl Search<'_> {
         &self,
         gap: usize,
         apart: &Tried,
-        reversed: Option<&Tried>,
+        reversed: Option<&(Search<'_>, Tried)>,
         settings: &GapSettings,
     ) -> Result<CriticalGap, GapError> {
         let between = apart.summary.gaps[gap].between.clone();
         let Some((nearest, closing)) = nearest_of(apart, gap) else {
             return Err(GapError::NoContact(between.join(" and ")));
         };
-        let mut one = OneGap {
-            search: self,
-            gap,
-            between: between.clone(),
-            closing,
-            known: Vec::new(),
-        };
+        let mut one = OneGap::new(self, gap, &between, closing);
+        let mut other = reversed.and_then(|(search, apart)| {
+            let closing = nearest_of(apart, gap)?.1;
+            Some(OneGap::new(search, gap, &between, closing))
+        });
         let bracket = one.bracket(settings.tolerance)?;
         // A wall has no period, and so no double difference.
         let modes = apart.summary.first_modes(self.model, gap);
@@ -388,8 +435,18 @@ impl Search<'_> {
             .summary
             .required_gaps(self.model, gap, &settings.codes);
         let mut rules: Vec<RuleGap> = required.rules.into_iter().map(rule_gap).collect();
+        let free_of_both = other
+            .as_ref()
+            .map_or(0.0, |other| other.closing)
+            .max(bracket.free);
         for rule in &mut rules {
             rule.ratio = (bracket.free > 0.0).then(|| rule.gap_m / bracket.free);
+            rule.ratio_of_both_signs = (free_of_both > 0.0).then(|| rule.gap_m / free_of_both);
+            if let Some(other) = other.as_mut().filter(|_| settings.outcomes) {
+                let led = other.at(rule.gap_m)?;
+                rule.reversed_impact_count = Some(led.impact_count);
+                rule.reversed_peak_force_n = Some(led.peak_force_n);
+            }
             if settings.outcomes {
                 let led = one.at(rule.gap_m)?;
                 rule.impact_count = Some(led.impact_count);
@@ -406,11 +463,11 @@ impl Search<'_> {
             motion: self.motion.name.clone(),
             pga_m_s2: self.motion.peak(),
             gap_m: bracket.free,
-            reversed_gap_m: reversed.and_then(|tried| Some(nearest_of(tried, gap)?.1)),
+            reversed_gap_m: other.as_ref().map(|other| other.closing),
             pounding_at_m: bracket.pounding,
             closing_without_contact_m: closing,
             height_m: apart.system.contacts[nearest].height,
-            runs: one.runs(),
+            runs: one.runs() + other.as_ref().map_or(0, OneGap::runs),
             periods_s: modes.map(|mode| mode.map_or(0.0, |(period, _)| period)),
             damping: modes.map(|mode| mode.map_or(0.0, |(_, damping)| damping)),
             ddc_correlation: apart.summary.correlation(self.model, gap),
@@ -438,6 +495,9 @@ fn rule_gap(required: Requirement) -> RuleGap {
         impact_count: None,
         peak_force_n: None,
         first_impact_s: None,
+        ratio_of_both_signs: None,
+        reversed_impact_count: None,
+        reversed_peak_force_n: None,
         code: required.code.map(Code::name),
         inputs: required.inputs,
         setbacks_m: required.setbacks,

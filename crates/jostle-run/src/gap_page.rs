@@ -207,12 +207,14 @@ fn sections_of(pair: &[String; 2], gaps: &[&CriticalGap]) -> Vec<Section> {
             message::greatest_force_kn(),
         ];
         let rows = gap.rules.iter().map(|rule| {
+            let worse = rule.worse_outcome();
+            let ratio = rule.ratio_of_both_signs.or(rule.ratio);
             vec![
                 rule.rule.clone(),
                 mm(rule.gap_m),
-                rule.ratio.map_or("–".into(), |ratio| format!("{ratio:.2}")),
-                rule.impact_count.map_or("–".into(), |n| n.to_string()),
-                rule.peak_force_n.map_or("–".into(), kn),
+                ratio.map_or("–".into(), |ratio| format!("{ratio:.2}")),
+                worse.map_or("–".into(), |own| own.impact_count.to_string()),
+                worse.map_or("–".into(), |own| kn(own.peak_force_n)),
             ]
         });
         sections.push(Section {

@@ -67,7 +67,7 @@ pub use contact_advice::{
     contact_advice,
 };
 pub use critical_gap::{
-    CriticalGap, GapProgress, GapSettings, LeftOutRule, RuleGap, critical_gaps,
+    CriticalGap, GapOutcome, GapProgress, GapSettings, LeftOutRule, RuleGap, critical_gaps,
 };
 pub use error::RunError;
 pub use expectation::{Expectation, Pace};

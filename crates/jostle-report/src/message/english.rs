@@ -1195,7 +1195,7 @@ messages! {
     needed_gap = "needed";
     required_gap = "Gaps of rules";
     smallest_gap_and_rules = "Smallest gap of this study without impact, and rules";
-    needed_gap_and_rules = "Needed: the smallest gap of this study without an impact and without one at any wider gap. ABS, SRSS and DDC come from the peak displacements of cases without contact, at the highest floors that face each other; where even the widest gap is closed there is nothing to show.";
+    needed_gap_and_rules = "Needed: the smallest gap of this study without an impact and without one at any wider gap. The true value lies between it and the next smaller gap of the study. ABS, SRSS and DDC come from the peak displacements at the highest floors that face each other, with the widest gap: the greatest of all records and draws, where none of them closes it.";
     gb50011_of_intensity(intensity) = "GB 50011, intensity {intensity}";
     gb50011_of_intensities(least, most) = "GB 50011, intensities 7 to 9: {least} to {most} mm";
     share_of_the_variance = "share of the variance";

@@ -621,14 +621,23 @@ fn results_trip_their_checks_and_others_just_do_not() {
 /// Next to no shaking changes no axial force, whether forces contain self weight or not.
 #[test]
 fn hinges_of_a_quiet_frame_keep_their_axial_force() {
-    for gravity in ["", "gravity = true", "p_delta = true", "gravity = true\np_delta = true"] {
+    for gravity in [
+        "",
+        "gravity = true",
+        "p_delta = true",
+        "gravity = true\np_delta = true",
+    ] {
         let text = format!(
             "[[building]]\nname = \"A\"\nstoreys = 3\nstorey_height = \"3 m\"\nspans = [\"5 m\"]\nconcrete = \"C20\"\nbeam_mass = \"6 t/m\"\ndamping = {{ ratio = 0.05 }}\nhinges = {{ rule = \"takeda\", from = \"section\" }}\ncolumn = {{ width = \"400 mm\", depth = \"400 mm\", steel = \"400 MPa\", bars = \"8 d20\" }}\nbeam = {{ width = \"250 mm\", depth = \"500 mm\", steel = \"400 MPa\", top = \"4 d20\", bottom = \"2 d20\" }}\n{gravity}\n[analysis]\nmembers = true\n"
         );
         let (prepared, summary) = run(sound(&text), false);
         let quiet = |scale: f64| {
             let mut own = summary.clone();
-            for end in own.buildings[0].members.iter_mut().flat_map(|own| &mut own.ends) {
+            for end in own.buildings[0]
+                .members
+                .iter_mut()
+                .flat_map(|own| &mut own.ends)
+            {
                 // The force of weight is the middle of this run.
                 let middle = 0.5 * (end.axial_max_n + end.axial_min_n);
                 end.axial_max_n = middle + scale * (end.axial_max_n - middle);

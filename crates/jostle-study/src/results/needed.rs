@@ -92,7 +92,7 @@ impl Results<'_> {
         let widest = self.numbers(right).last().copied().unwrap_or(0.0);
         let mut series = Vec::new();
         for (colour, (name, cases)) in groups.iter().enumerate().take(7) {
-            let mut needed = Vec::new();
+            let (mut needed, mut between) = (Vec::new(), Vec::new());
             let mut rules: [Vec<[f64; 2]>; 3] = Default::default();
             for level in &levels {
                 let own = || {
@@ -109,10 +109,16 @@ impl Results<'_> {
                     .fold(f64::INFINITY, f64::min);
                 if free.is_finite() {
                     needed.push([size * level, gap_size * free]);
+                    between.push([gap_size * hit.max(0.0), gap_size * free]);
                 }
-                let apart = own().find(|case| impacts[**case] == Some(0.0));
-                if let (Some(case), Some(places)) = (apart, &places) {
-                    self.rules(*case, places, [size * level, gap_size], &mut rules);
+                // All records and draws alike: the same cases at every intensity.
+                let apart: Vec<usize> = own()
+                    .filter(|case| gaps[**case] == Some(widest))
+                    .copied()
+                    .collect();
+                let free = apart.iter().all(|case| impacts[*case] == Some(0.0));
+                if let (true, Some(places)) = (free, &places) {
+                    self.rules(&apart, places, [size * level, gap_size], &mut rules);
                 }
             }
             let label = |what: &str| {
@@ -125,7 +131,7 @@ impl Results<'_> {
             series.push(Series {
                 name: label(message::needed_gap()),
                 points: needed,
-                band: Vec::new(),
+                band: between,
                 stroke: Stroke::Dotted,
                 colour,
             });
@@ -179,33 +185,43 @@ impl Results<'_> {
         })
     }
 
+    /// Adds the greatest gap of each rule over cases without contact.
     fn rules(
         &self,
-        case: usize,
+        cases: &[usize],
         places: &Places,
         [x, size]: [f64; 2],
         into: &mut [Vec<[f64; 2]>; 3],
     ) {
+        let of_cases = cases.iter().filter_map(|case| self.rules_of(*case, places));
+        let greatest = of_cases.reduce(|a, b| [0, 1, 2].map(|rule| a[rule].max(b[rule])));
+        for (points, gap) in into.iter_mut().zip(greatest.into_iter().flatten()) {
+            if gap.is_finite() {
+                points.push([x, size * gap]);
+            }
+        }
+    }
+
+    /// Gaps by ABS, SRSS and DDC, the last not a number without periods and damping \[m\].
+    fn rules_of(&self, case: usize, places: &Places) -> Option<[f64; 3]> {
         let value = |name: String| self.table.column(&name).get(case).copied().flatten();
         let peak = |roof: &String| {
             let high = value(format!("{roof}.displacement_max_m"))?;
             let low = value(format!("{roof}.displacement_min_m"))?;
             Some(high.max(-low))
         };
-        let (Some(left), Some(right)) = (peak(&places.roofs[0]), peak(&places.roofs[1])) else {
-            return;
-        };
-        into[0].push([x, size * (left + right)]);
-        into[1].push([x, size * srss(left, right)]);
+        let [left, right] = [peak(&places.roofs[0])?, peak(&places.roofs[1])?];
         let periods = places
             .names
             .each_ref()
             .map(|name| value(format!("{name}.period_s")));
-        if let [Some(a), Some(b)] = periods
-            && places.damping > 0.0
-        {
-            let rho = ddc_coefficient([a, b], [places.damping; 2]);
-            into[2].push([x, size * double_difference(left, right, rho)]);
-        }
+        let difference = match periods {
+            [Some(a), Some(b)] if places.damping > 0.0 => {
+                let rho = ddc_coefficient([a, b], [places.damping; 2]);
+                double_difference(left, right, rho)
+            }
+            _ => f64::NAN,
+        };
+        Some([left + right, srss(left, right), difference])
     }
 }

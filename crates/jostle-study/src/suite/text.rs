@@ -59,7 +59,7 @@ pub(super) fn headlines(results: &SuiteResults) -> Vec<(String, &QuantityStatist
         (".closing_peak_m", "peak closing"),
         (
             ".closing_without_contact_m",
-            "smallest gap without pounding",
+            "gap needed, sign as in the model",
         ),
         (".roof_displacement_peak_m", "roof displacement"),
         (".drift_peak", "storey drift"),

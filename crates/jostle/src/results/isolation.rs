@@ -176,6 +176,9 @@ pub(super) fn mat_summary(
         height_m: 0.0,
         response,
         in_plan: mat_in_plan(index, run.outcome),
+        without_contact_in_plan: run
+            .without_contact
+            .and_then(|outcome| mat_in_plan(index, outcome)),
         without_contact,
         amplification: without_contact
             .map(|without| Amplification::new(FloorResponse::QUANTITIES, &response, &without)),

@@ -1,6 +1,6 @@
 //! What rules and codes require of the gaps of a run.
 
-use super::summary::{BuildingSummary, FloorSummary, Summary};
+use super::summary::{BuildingSummary, ContactSummary, FloorSummary, Summary};
 use crate::model::{Damping, Model};
 use crate::separation::{
     CodeInputs, Neighbours, Place, Requirements, Side, ddc_coefficient, floors_are_level,
@@ -19,9 +19,10 @@ impl Summary {
             return Requirements::default();
         };
         let places = own.contacts.iter().filter_map(|contact| {
+            let normal = normal_of(contact);
             let peaks = of_gap
                 .between
-                .map(|side| self.peak(model, side, contact.height_m));
+                .map(|side| self.peak(model, side, contact.height_m, normal));
             // A face that stands back by more than both sides move needs no gap.
             let is_beyond = contact.width_m - own.width_m > peaks.iter().sum();
             (!is_beyond || own.contacts.len() == 1).then_some(Place {
@@ -51,15 +52,20 @@ impl Summary {
         required_gaps(&neighbours, inputs)
     }
 
-    /// Period and damping ratio of the first lateral mode of both neighbours of a gap; `None` of a wall, and of a building
-    /// without modes or damping \[s, –\].
+    /// Period and damping ratio of the fundamental mode of both neighbours of a gap in the direction in which they meet; `None` of a
+    /// wall, and of a building without modes or damping \[s, –\].
     #[must_use]
     pub fn first_modes(&self, model: &Model, gap: usize) -> [Option<(f64, f64)>; 2] {
         let between = model.gaps.get(gap).map_or([None; 2], |gap| gap.between);
+        let contacts = self.gaps.get(gap).map(|own| &own.contacts[..]);
+        let highest = contacts.unwrap_or_default().iter();
+        let highest = highest.max_by(|a, b| a.height_m.total_cmp(&b.height_m));
+        let normal = highest.map_or([1.0, 0.0], normal_of);
         model.buildings_beside(between).map(|building| {
             first_mode(
                 self.buildings.get(building?)?,
                 &model.buildings.get(building?)?.damping,
+                normal,
             )
         })
     }
@@ -72,26 +78,40 @@ impl Summary {
         Some(ddc_coefficient([t1, t2], [d1, d2]))
     }
 
-    /// Greatest displacement of a side of a gap at a height above the datum, either sign; 0 of a wall that does not move \[m\].
-    fn peak(&self, model: &Model, side: Option<usize>, height: f64) -> f64 {
+    /// Greatest displacement of a side of a gap along a normal at a height above the datum, either sign; 0 of a wall that does not
+    /// move \[m\].
+    fn peak(&self, model: &Model, side: Option<usize>, height: f64, normal: [f64; 2]) -> f64 {
         let Some(side) = side else { return 0.0 };
         let Some(own) = self.buildings.get(side) else {
             let wall = self.walls.get(side - model.buildings.len());
             return wall.map_or(0.0, |wall| wall.displacement_peak_m);
         };
         let floors = own.floors.mat.iter().chain(&own.floors.above);
-        let peak = |floor: &FloorSummary| {
-            let response = floor.without_contact.as_ref().unwrap_or(&floor.response);
-            (floor.height_m, response.displacement_peak_m())
-        };
+        let peak = |floor: &FloorSummary| (floor.height_m, floor.displacement_peak_m(normal));
         let foot = model.buildings[side].base.elevation;
         peak_at_height(floors.map(peak), height - foot)
     }
 }
 
-/// Period and damping ratio of the first lateral mode, that of the soil included \[s, –\].
-fn first_mode(own: &BuildingSummary, damping: &Damping) -> Option<(f64, f64)> {
-    let period = own.periods_s.first().copied().filter(|t| *t > 0.0)?;
+/// The direction in which two buildings meet.
+fn normal_of(contact: &ContactSummary) -> [f64; 2] {
+    contact.in_plan.map_or([1.0, 0.0], |own| own.normal)
+}
+
+/// Period and damping ratio of the fundamental mode along a normal, that of the soil included \[s, –\].
+fn first_mode(
+    own: &BuildingSummary,
+    damping: &Damping,
+    [x, across]: [f64; 2],
+) -> Option<(f64, f64)> {
+    let [along, sideways] = own.fundamental_periods_s;
+    let nearer = if across.abs() > x.abs() {
+        sideways
+    } else {
+        along
+    };
+    let known = [nearer, own.periods_s.first().copied().unwrap_or(0.0)];
+    let period = known.into_iter().find(|period| *period > 0.0)?;
     let omega = std::f64::consts::TAU / period;
     let damping = match (&own.foundation, damping) {
         (Some(foundation), _) => foundation.damping_ratio,

@@ -171,6 +171,9 @@ fn building_summary(index: usize, run: &Run) -> BuildingSummary {
             height_m: floor.height,
             response,
             in_plan: floor_in_plan(index, k + 1, run.outcome),
+            without_contact_in_plan: run
+                .without_contact
+                .and_then(|outcome| floor_in_plan(index, k + 1, outcome)),
             without_contact,
             amplification: without_contact
                 .map(|without| Amplification::new(FloorResponse::QUANTITIES, &response, &without)),
@@ -193,6 +196,7 @@ fn building_summary(index: usize, run: &Run) -> BuildingSummary {
             .lateral_modes()
             .map(crate::eigen::Mode::period)
             .collect(),
+        fundamental_periods_s: building.fundamental_periods(),
         rayleigh_alpha_per_s: building.equations.alpha,
         rayleigh_beta_s: building.equations.beta,
         isolation: isolation_summary(index, building, run.outcome),

@@ -322,6 +322,20 @@ impl BuildingSystem {
         self.modes.iter().filter(|mode| mode.is_lateral())
     }
 
+    /// Periods of the fundamental modes along x and across: the longest of those that carry at least half as much mass that way as any
+    /// does; 0 where none carries any \[s\].
+    #[must_use]
+    pub fn fundamental_periods(&self) -> [f64; 2] {
+        let along = |mode: &Mode| mode.effective_mass_ratio_x;
+        let across = |mode: &Mode| mode.effective_mass_ratio_across;
+        let longest = |mass: fn(&Mode) -> f64| {
+            let most = self.lateral_modes().map(mass).fold(0.0, f64::max);
+            let first = self.lateral_modes().find(|mode| mass(mode) >= 0.5 * most);
+            first.filter(|_| most > 0.0).map_or(0.0, Mode::period)
+        };
+        [longest(along), longest(across)]
+    }
+
     /// Modes that carry at least 1 % of the mass vertically, longest period first; none where no mass moves vertically, or
     /// where it can move without deforming.
     #[must_use]

@@ -94,7 +94,7 @@ fn an_irregular_frame_moves_as_in_opensees() {
     assert_eq!(periods(&model(&imported), 9).len(), 9);
     let said = imported.remarks.join("\n");
     for word in [
-        "no space frame, which could yield",
+        "not as a space frame, which could yield",
         "point \"3\" of storey \"Base\" is not fixed",
         "members with released ends",
         "connected to the end of another",

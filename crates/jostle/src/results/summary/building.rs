@@ -25,6 +25,9 @@ pub struct BuildingSummary {
     pub mass_kg: f64,
     /// Periods of the lateral modes (at least 1 % of the horizontal effective mass), longest first \[s\].
     pub periods_s: Vec<f64>,
+    /// Periods of the modes with most of the mass along x and across; 0 where none moves that way \[s\].
+    #[serde(skip)]
+    pub fundamental_periods_s: [f64; 2],
     /// Rayleigh damping in use: mass coefficient \[1/s\].
     pub rayleigh_alpha_per_s: f64,
     /// Rayleigh damping in use: stiffness coefficient \[s\].
@@ -106,8 +109,30 @@ pub struct FloorSummary {
     pub in_plan: Option<FloorInPlan>,
     /// The same in the run without contact, if it exists.
     pub without_contact: Option<FloorResponse>,
+    /// Peaks across the row and in rotation of the run without contact, if it exists.
+    #[serde(skip)]
+    pub without_contact_in_plan: Option<FloorInPlan>,
     /// The former over the latter, if that run exists.
     pub amplification: Option<Amplification>,
+}
+
+impl FloorSummary {
+    /// Greatest displacement of the centre of mass in a horizontal direction, either sign, without contact if that run exists \[m\].
+    ///
+    /// Along neither axis it is a bound: the greatest displacements along both, at whatever instants.
+    #[must_use]
+    pub fn displacement_peak_m(&self, [x, across]: [f64; 2]) -> f64 {
+        let along = self.without_contact.as_ref().unwrap_or(&self.response);
+        let own = self
+            .without_contact_in_plan
+            .as_ref()
+            .or(self.in_plan.as_ref());
+        let sideways = own.map_or(0.0, |own| {
+            own.displacement_across_max_m
+                .max(-own.displacement_across_min_m)
+        });
+        x.abs() * along.displacement_peak_m() + across.abs() * sideways
+    }
 }
 
 #[rustfmt::skip]
