@@ -141,7 +141,7 @@ fn capacities(
             Member::Column => format!("{}.column.{}.{}", building.name, member.place, member.floor),
             Member::Beam => format!("{}.beam.{}.{}", building.name, member.floor, member.place),
         };
-        let weighs = building.gravity.is_in_axial_forces();
+        let weighs = building.weight_is_in_axial_forces();
         let alike = members[..index].iter().position(|known| {
             known.member == member.member
                 && known.clear_length == member.clear_length

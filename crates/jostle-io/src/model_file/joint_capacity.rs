@@ -61,7 +61,7 @@ pub(super) fn joints(
         if rules.is_empty() {
             return None;
         }
-        let weighs = building.gravity.is_in_axial_forces();
+        let weighs = building.weight_is_in_axial_forces();
         let above = other(Member::Column, floor + 1, line);
         let at_rest = above.map_or(0.0, |above| above.compression);
         Some(JointRequest {

@@ -161,7 +161,7 @@ pub(super) fn column_tension(known: &Known<'_>, tally: &mut Tally<'_>) {
         return;
     };
     for (model, own) in known.model.buildings.iter().zip(&summary.buildings) {
-        if !model.gravity.is_in_axial_forces() {
+        if !model.weight_is_in_axial_forces() {
             continue;
         }
         let columns = own.members.iter().filter(|m| m.name.contains(".column."));
@@ -207,7 +207,7 @@ pub(super) fn hinge_axial_force(known: &Known<'_>, tally: &mut Tally<'_>) {
                 continue;
             };
             // Forces without self weight are changes.
-            let contained = model.gravity.is_in_axial_forces();
+            let contained = model.weight_is_in_axial_forces();
             let rest = if contained { made_for } else { 0.0 };
             for end in &member.ends {
                 let [most, least] = [end.axial_max_n, end.axial_min_n].map(|force| force + rest);

@@ -170,6 +170,14 @@ impl Default for Building {
 }
 
 impl Building {
+    /// Whether axial forces of its members contain self weight: where the run starts under it, and, in one plane, where columns lean under
+    /// it. In space P-Delta is part of the stiffness alone.
+    #[must_use]
+    pub fn weight_is_in_axial_forces(&self) -> bool {
+        self.gravity.preload
+            || (self.gravity.p_delta && !matches!(self.structure, Structure::Tiers(_)))
+    }
+
     /// Whether anything in it, or under it, may crack, yield or lift off.
     #[must_use]
     pub fn may_yield(&self) -> bool {
@@ -197,14 +205,6 @@ pub struct Gravity {
     pub preload: bool,
     /// P-Delta from the weight above, in chord form.
     pub p_delta: bool,
-}
-
-impl Gravity {
-    /// Whether axial forces of members contain self weight: columns bear it where the run starts under it, and where it leans.
-    #[must_use]
-    pub fn is_in_axial_forces(&self) -> bool {
-        self.preload || self.p_delta
-    }
 }
 
 /// Springs of a building that crack and yield.
