@@ -309,6 +309,9 @@ pub(crate) fn parts(path: &str) -> Result<Vec<Part>, String> {
     Ok(parts)
 }
 
+/// Tables of a model that stand in lists.
+const LISTS: [&str; 4] = ["building", "gap", "link", "wall"];
+
 fn apply_at(node: &mut Node, parts: &[Part], at: &str, change: &Change<'_>) -> Result<(), String> {
     let Some((part, rest)) = parts.split_first() else {
         return match change {
@@ -338,6 +341,11 @@ fn apply_at(node: &mut Node, parts: &[Part], at: &str, change: &Change<'_>) -> R
                 (None, Change::Replace(_)) => {
                     if matches!(rest.first(), Some(Part::Index(_) | Part::Every)) {
                         return Err(format!("{here} has no {key}"));
+                    }
+                    if at.is_empty() && LISTS.contains(&key.as_str()) && !rest.is_empty() {
+                        return Err(format!(
+                            "{here} has no [[{key}]]; write one in the model file first"
+                        ));
                     }
                     table.entries.push(Entry {
                         key: key.clone(),
@@ -577,6 +585,7 @@ mod tests {
             ("title.x", "single value"),
             ("gap[x].width", "no index"),
             ("building[0].mass[0]", "has no mass"),
+            ("link.damping", "has no [[link]]"),
             ("", "not a path"),
             (&"a.".repeat(60_000), "more than 64 parts"),
             (&format!("a{}", "[0]".repeat(60_000)), "more than 64 parts"),
