@@ -414,9 +414,9 @@ fn described(city: &City, answers: &Answers) -> String {
     );
     let _ = writeln!(
         text,
-        "  struck by a neighbour: {:.1} % of them (gaps with a median of {:.0} mm; half of it {:.1} %, double {:.1} %)",
+        "  struck by a neighbour: {:.1} % of them (gaps with a median of {}; half of it {:.1} %, double {:.1} %)",
         middle,
-        1e3 * city.file.gap_median,
+        LENGTH.text(city.file.gap_median, 0),
         half,
         twice
     );

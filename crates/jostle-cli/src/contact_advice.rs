@@ -80,25 +80,26 @@ fn describe(text: &mut String, advice: &ContactAdvice) -> std::fmt::Result {
         None => "a rigid wall".to_owned(),
     };
     let place = match advice.height_m {
-        Some(height) => format!(", floors at {height:.2} m"),
+        Some(height) => format!(", floors at {}", HEIGHT.text(height, 2)),
         None => String::new(),
     };
     let heading = format!(
-        "{} – {}{place}: {} against {} at {} m/s",
+        "{} – {}{place}: {} against {} at {} {}",
         advice.between[0],
         advice.between[1],
         mass(advice.masses_kg[0]),
         mass(advice.masses_kg[1]),
-        advice.speed_m_s
+        SPEED.stated(advice.speed_m_s),
+        SPEED.name()
     );
     writeln!(text, "{}", styled(BOLD, &heading))?;
     if let Some(wave) = &advice.wave {
         writeln!(
             text,
-            "Waves run along the floors in {:.2} and {:.2} ms. As elastic rods they push each other with {} kN for {:.2} ms and part with {:.2} of the speed.",
+            "Waves run along the floors in {:.2} and {:.2} ms. As elastic rods they push each other with {} for {:.2} ms and part with {:.2} of the speed.",
             1e3 * wave.transit_s[0],
             1e3 * wave.transit_s[1],
-            kn(wave.peak_force_n),
+            FORCE.text(wave.peak_force_n, 1),
             1e3 * wave.duration_s,
             wave.restitution
         )?;
@@ -107,13 +108,18 @@ fn describe(text: &mut String, advice: &ContactAdvice) -> std::fmt::Result {
         text,
         "\nstiffness                             value        peak force    duration"
     )?;
+    let force = FORCE.name();
     for estimate in &advice.estimates {
-        let value = format!("{:.3e} {}", estimate.stiffness, estimate.unit);
+        let (value, unit) = match Shown::named(estimate.unit) {
+            Some(own) => (own.of(estimate.stiffness), own.name()),
+            None => (estimate.stiffness, estimate.unit),
+        };
+        let value = format!("{value:.3e} {unit}");
         writeln!(
             text,
-            "{:30} {value:>20}  {:>8} kN  {:>7.2} ms{}",
+            "{:30} {value:>20}  {:>8} {force}  {:>7.2} ms{}",
             estimate.name,
-            kn(estimate.peak_force_n),
+            FORCE.number(estimate.peak_force_n, 1),
             1e3 * estimate.duration_s,
             if estimate.is_valid {
                 ""

@@ -39,10 +39,10 @@ const PRESSURE: [f64; 3] = [-1.0, 1.0, -2.0];
 const ENERGY: [f64; 3] = [2.0, 1.0, -2.0];
 const NONE: [f64; 3] = [0.0; 3];
 
-const INCH: f64 = 0.0254;
-const FOOT: f64 = 0.3048;
-const POUND: f64 = 0.453_592_37;
-const POUND_FORCE: f64 = POUND * STANDARD_GRAVITY;
+pub(crate) const INCH: f64 = 0.0254;
+pub(crate) const FOOT: f64 = 0.3048;
+pub(crate) const POUND: f64 = 0.453_592_37;
+pub(crate) const POUND_FORCE: f64 = POUND * STANDARD_GRAVITY;
 
 /// Units that take no prefix. `g` is gravity, never gram.
 #[rustfmt::skip]
