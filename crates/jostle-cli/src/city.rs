@@ -10,6 +10,7 @@ use jostle_city::{
     ReadOptions, RunOptions, example_city,
 };
 use jostle_classes::Types;
+use jostle_io::shown::LENGTH;
 use jostle_io::{CityFile, Dimension, parse_quantity, write_atomically};
 use jostle_live::{Engine, address, export_all};
 use jostle_run::{BOLD, FolderClaim, counted_grouped, styled};

@@ -4,9 +4,11 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use jostle_io::Overrides;
-use jostle_run::{AdviceOptions, BOLD, ContactAdvice, DIM, RangeAdvice, kn, open, styled};
+use jostle_io::shown::{FORCE, HEIGHT, MASS, SPEED, Shown};
+use jostle_run::{AdviceOptions, BOLD, ContactAdvice, DIM, RangeAdvice, styled};
 
 use crate::failure::Failure;
+use crate::open::open_model;
 use crate::terminal;
 
 #[derive(Debug, clap::Args)]
@@ -47,7 +49,7 @@ pub(crate) struct ContactAdviceArgs {
 
 pub(crate) fn contact_advice(args: &ContactAdviceArgs) -> Result<(), Failure> {
     let opened = match &args.model {
-        Some(path) => Some(open(Some(path), &Overrides::default(), false)?),
+        Some(path) => Some(open_model(Some(path), &Overrides::default(), false)?),
         None => None,
     };
     let options = AdviceOptions {
@@ -76,7 +78,7 @@ pub(crate) fn contact_advice(args: &ContactAdviceArgs) -> Result<(), Failure> {
 
 fn describe(text: &mut String, advice: &ContactAdvice) -> std::fmt::Result {
     let mass = |mass: Option<f64>| match mass {
-        Some(mass) => format!("{:.1} t", 1e-3 * mass),
+        Some(mass) => MASS.text(mass, 1),
         None => "a rigid wall".to_owned(),
     };
     let place = match advice.height_m {

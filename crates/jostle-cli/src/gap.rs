@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 
 use jostle::separation::{Code, CodeInputs, JointSystem};
+use jostle_io::shown::{FORCE, GROUND_ACCELERATION, HEIGHT, LENGTH};
 use jostle_io::{Dimension, parse_option};
 use jostle_study::{CriticalGap, GapError, GapProgress, GapSettings, critical_gaps};
 

@@ -57,6 +57,8 @@ pub const HEIGHT: Shown = shown(("m", 1.0), ("ft", FOOT), 1);
 pub const FORCE: Shown = shown(("kN", 1e3), ("kip", KIP), 1);
 /// The same where it is typed without prefix \[N\].
 pub const NEWTON: Shown = shown(("N", 1.0), ("kip", KIP), 1);
+/// The same where it is large \[N\].
+pub const MEGANEWTON: Shown = shown(("MN", 1e6), ("kip", KIP), 0);
 /// A moment \[N·m\].
 pub const MOMENT: Shown = shown(("kN·m", 1e3), ("kip·ft", KIP * FOOT), 1);
 /// The same of a whole building \[N·m\].
@@ -122,6 +124,7 @@ pub const ALL_SHOWN: &[Shown] = &[
     HEIGHT,
     FORCE,
     NEWTON,
+    MEGANEWTON,
     MOMENT,
     LARGE_MOMENT,
     IMPULSE,

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use jostle_io::shown::{ACCELERATION, LENGTH, SMALL_SPEED, Shown};
 use jostle_io::{Dimension, write_columns_parquet};
 use jostle_motion::{
     Reading, ResponseSpectrum, ductility_spectrum, response_spectrum, spaced_periods,
