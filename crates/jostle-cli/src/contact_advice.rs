@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use jostle_io::Overrides;
-use jostle_io::shown::{FORCE, HEIGHT, MASS, SPEED, Shown};
+use jostle_io::shown::{FORCE, HEIGHT, HERTZ_STIFFNESS, MASS, SPEED, STIFFNESS, Shown};
 use jostle_run::{AdviceOptions, BOLD, ContactAdvice, DIM, RangeAdvice, styled};
 
 use crate::failure::Failure;
@@ -135,7 +135,7 @@ fn describe(text: &mut String, advice: &ContactAdvice) -> std::fmt::Result {
     writeln!(text, "\nRecommended for the [[gap]]:\n")?;
     let e = advice.restitution;
     writeln!(text, "law = \"hertz-damp\"")?;
-    writeln!(text, "{}", stiffness(advice.hertz, "N/m^1.5"))?;
+    writeln!(text, "{}", stiffness(advice.hertz, HERTZ_STIFFNESS))?;
     writeln!(
         text,
         "restitution = {:.2}   # {:.2} to {:.2}",
@@ -147,7 +147,7 @@ fn describe(text: &mut String, advice: &ContactAdvice) -> std::fmt::Result {
             text,
             "\nor, with a linear spring:\n\nlaw = \"kelvin-no-tension\""
         )?;
-        writeln!(text, "{}", stiffness(linear, "N/m"))?;
+        writeln!(text, "{}", stiffness(linear, STIFFNESS))?;
         writeln!(
             text,
             "restitution = {:.2}   # {:.2} to {:.2}",
@@ -155,12 +155,16 @@ fn describe(text: &mut String, advice: &ContactAdvice) -> std::fmt::Result {
         )?;
     }
     writeln!(text)?;
+    let unit = STIFFNESS.name();
     if let Some(rule) = &advice.lateral {
         writeln!(
             text,
             "Many studies take 10 to 100 times the lateral stiffness of the stiffer neighbour for linear laws. Here \"{}\" yields to a push on this floor\n\
-             with {:.2e} N/m, which gives {:.1e} to {:.1e} N/m. It is a habit, not a measurement.",
-            rule.of, rule.lateral_n_m, rule.low_n_m, rule.high_n_m
+             with {:.2e} {unit}, which gives {:.1e} to {:.1e} {unit}. It is a habit, not a measurement.",
+            rule.of,
+            STIFFNESS.of(rule.lateral_n_m),
+            STIFFNESS.of(rule.low_n_m),
+            STIFFNESS.of(rule.high_n_m)
         )?;
     }
     for note in &advice.notes {
@@ -174,9 +178,12 @@ fn describe(text: &mut String, advice: &ContactAdvice) -> std::fmt::Result {
     writeln!(text)
 }
 
-fn stiffness(range: RangeAdvice, unit: &str) -> String {
+fn stiffness(range: RangeAdvice, shown: Shown) -> String {
     format!(
-        "stiffness = \"{:.2e} {unit}\"   # {:.1e} to {:.1e}",
-        range.value, range.low, range.high
+        "stiffness = \"{:.2e} {}\"   # {:.1e} to {:.1e}",
+        shown.of(range.value),
+        shown.name(),
+        shown.of(range.low),
+        shown.of(range.high)
     )
 }

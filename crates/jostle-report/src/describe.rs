@@ -133,7 +133,10 @@ fn building(
                 (own.rocking_stiffness_n_m_rad, "N·m/rad"),
                 (own.rocking_damping_n_m_s_rad, "N·m·s/rad"),
             ];
-            let parts = parts.map(|(value, unit)| format::unit(format::plain(value, 4), unit));
+            let parts = parts.map(|(value, unit)| {
+                let (factor, unit) = format::factor_of(unit);
+                format::unit(format::plain(factor * value, 4), unit)
+            });
             facts.push((message::springs_and_dashpots(), parts.join(", ")));
         }
         if summary.hinges.cracked + summary.hinges.yielded > 0 {
@@ -176,10 +179,11 @@ fn frame_facts(frame: &Frame, facts: &mut Facts) {
     let spans: Vec<String> = frame
         .spans
         .iter()
-        .map(|span| format::plain(*span, 3))
+        .map(|span| format::plain(format::HEIGHT.of(*span), 3))
         .collect();
     if !spans.is_empty() {
-        facts.push((message::spans(), format!("{} m", spans.join(" + "))));
+        let unit = format::HEIGHT.name();
+        facts.push((message::spans(), format!("{} {unit}", spans.join(" + "))));
     }
     let storeys = frame.storey_heights.len();
     let columns = |value: fn(&jostle::Section) -> f64| {
@@ -262,9 +266,14 @@ fn tiers_facts(tiers: &jostle::Tiers, facts: &mut Facts) {
                 .frame
                 .spans
                 .iter()
-                .map(|span| format::plain(*span, 3))
+                .map(|span| format::plain(format::HEIGHT.of(*span), 3))
                 .collect();
-            format!("{} ({} m)", frame.name, spans.join(" + "))
+            format!(
+                "{} ({} {})",
+                frame.name,
+                spans.join(" + "),
+                format::HEIGHT.name()
+            )
         });
         facts.push((
             message::frames_spans(),
@@ -273,8 +282,13 @@ fn tiers_facts(tiers: &jostle::Tiers, facts: &mut Facts) {
     }
     if let Some(frame) = &tiers.space_frame {
         let lines = |lines: &[f64]| -> String {
-            let all = lines.iter().map(|line| format::plain(*line, 4));
-            format!("{} m", all.collect::<Vec<_>>().join(", "))
+            let all = lines.iter();
+            let all = all.map(|line| format::plain(format::HEIGHT.of(*line), 4));
+            format!(
+                "{} {}",
+                all.collect::<Vec<_>>().join(", "),
+                format::HEIGHT.name()
+            )
         };
         facts.push((message::grid_lines_at_x(), lines(&frame.lines_x)));
         facts.push((message::grid_lines_at_y(), lines(&frame.lines_y)));

@@ -250,7 +250,14 @@ fn name(summary: &LinkSummary, floor: &LinkFloorSummary) -> String {
     let place = match floor.floors {
         [Some(left), Some(right)] => message::floors_left_right(left, right),
         [Some(one), None] | [None, Some(one)] => message::floor_one(one),
-        [None, None] => format!("{} m", format::plain(floor.height_m, 3)),
+        [None, None] => {
+            let own = format::HEIGHT;
+            format!(
+                "{} {}",
+                format::plain(own.of(floor.height_m), 3),
+                own.name()
+            )
+        }
     };
     format!("{pair}, {place}, {}", summary.law)
 }
