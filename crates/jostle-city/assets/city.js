@@ -137,13 +137,14 @@ const draw = () => {
       pen.strokeStyle = dark() ? "#ff8c42" : "#d55e00";
       pen.stroke();
     }
-    // A length in metres in the corner.
-    const metres = [5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000].find((own) => own * scale > 60) ?? 20000;
+    // A length in metres or feet in the corner.
+    const { name, size } = page.units.height;
+    const shown = [5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000].find((own) => own * size * scale > 60) ?? 20000;
     const ratio = devicePixelRatio || 1;
     pen.fillStyle = dark() ? "#e9ebee" : "#1a1d21";
-    pen.fillRect(12 * ratio, canvas.height - 14 * ratio, metres * scale, 2 * ratio);
+    pen.fillRect(12 * ratio, canvas.height - 14 * ratio, shown * size * scale, 2 * ratio);
     pen.font = `${12 * ratio}px system-ui, sans-serif`;
-    pen.fillText(metres >= 1000 ? `${metres / 1000} km` : `${metres} m`, 12 * ratio, canvas.height - 19 * ratio);
+    pen.fillText(name === "m" && shown >= 1000 ? `${shown / 1000} km` : `${shown} ${name}`, 12 * ratio, canvas.height - 19 * ratio);
   });
 };
 const legend = () => {
@@ -161,7 +162,9 @@ const legend = () => {
   }));
 };
 const told = () => {
-  element("median-text").value = `${median() < 10 ? median().toFixed(1) : Math.round(median())} mm`;
+  const { name, size } = page.units.length;
+  const shown = (1e-3 * median()) / size;
+  element("median-text").value = `${shown < 10 ? shown.toFixed(name === "mm" ? 1 : 2) : Math.round(shown)} ${name}`;
   slider.disabled = choice.value !== "struck";
   legend(); draw(); detail();
 };

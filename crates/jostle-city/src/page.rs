@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use geo::CoordsIter;
+use jostle_io::shown::{HEIGHT, LENGTH, MEGANEWTON};
 use jostle_io::{Values, csv_field, write_atomically};
 use maud::{Markup, html};
 use serde_json::json;
@@ -233,6 +234,10 @@ impl City {
             "width": width,
             "medians_mm": MEDIANS.map(|own| 1e3 * own * self.file.gap_median),
             "median_mm": 1e3 * self.file.gap_median,
+            "units": {
+                "length": { "name": LENGTH.name(), "size": LENGTH.size() },
+                "height": { "name": HEIGHT.name(), "size": HEIGHT.size() },
+            },
             "ids": self.inventory.buildings.iter().map(|own| own.id.as_str()).collect::<Vec<_>>(),
             "storeys": self.structures.iter().map(|own| own.storeys).collect::<Vec<_>>(),
             "kinds": kinds,
@@ -247,7 +252,7 @@ impl City {
         let percent = |value: f64| format!("{:.1} %", 100.0 * value);
         let [half, struck, twice] = means.struck;
         let [capacities, drifts] = self.types.sources();
-        let millimetres = 1e3 * self.file.gap_median;
+        let median = LENGTH.text(self.file.gap_median, 0);
         let moderate = means.moderate;
         let [_, middle, high, _] = answers.drift_ratios;
         let tiles = [
@@ -255,7 +260,7 @@ impl City {
                 "Struck by a neighbour",
                 percent(struck),
                 format!(
-                    "of buildings with a neighbour, gaps with a median of {millimetres:.0} mm; {} with half of it, {} with double",
+                    "of buildings with a neighbour, gaps with a median of {median}; {} with half of it, {} with double",
                     percent(half),
                     percent(twice)
                 ),
@@ -374,12 +379,12 @@ impl City {
                                 td { (self.inventory.buildings[left].id) }
                                 td { (self.inventory.buildings[right].id) }
                                 td { (self.structures[left].storeys) " | " (self.structures[right].storeys) }
-                                td { (format!("{:.0} mm", 1e3 * pair.distance)) }
+                                td { (LENGTH.text(pair.distance, 0)) }
                                 td { (percent(own.struck)) }
                                 td { (percent(own.column)) }
-                                td { (format!("{:.0} mm", 1e3 * own.closing[0])) }
-                                td { (format!("{:.0} mm", 1e3 * own.closing[1])) }
-                                td { @if own.force[0] > 0.0 { (format!("{:.2} MN", 1e-6 * own.force[0])) } @else { "–" } }
+                                td { (LENGTH.text(own.closing[0], 0)) }
+                                td { (LENGTH.text(own.closing[1], 0)) }
+                                td { @if own.force[0] > 0.0 { (MEGANEWTON.text(own.force[0], 2)) } @else { "–" } }
                                 td { (percent(own.worse)) }
                                 @if let Some((model, link)) = links.get(at) {
                                     @let [draw, motion] = model.sample;
@@ -396,7 +401,7 @@ impl City {
                     p { b { "No building's fate. " } "These are probabilities over draws: they say which kinds of neighbours deserve a look, not what will happen to one of them." }
                     p { "Known from the inventory: outlines, and storeys, height, year and type where it has them; " (mended)
                         " rows were mended, left out or assumed, all listed in mended.csv." }
-                    p { "Drawn: gaps, lognormal with a median of " (format!("{millimetres:.0}")) " mm and a scatter of "
+                    p { "Drawn: gaps, lognormal with a median of " (median) " and a scatter of "
                         (self.file.gap_scatter) " (" (gaps) "); stiffness, strength, damping and contact stiffness. Maps say who stands beside whom, not how far apart." }
                     @if !differs.is_empty() {
                         p { "The shaking differs from place to place. " (differs.join(". ")) "." }

@@ -10,6 +10,7 @@ use jostle_city::{
     ReadOptions, RunOptions, example_city,
 };
 use jostle_classes::Types;
+use jostle_io::shown::LENGTH;
 use jostle_io::{CityFile, Dimension, parse_quantity, write_atomically};
 use jostle_live::{Engine, address, export_all};
 use jostle_run::{BOLD, FolderClaim, counted_grouped, styled};
@@ -414,9 +415,9 @@ fn described(city: &City, answers: &Answers) -> String {
     );
     let _ = writeln!(
         text,
-        "  struck by a neighbour: {:.1} % of them (gaps with a median of {:.0} mm; half of it {:.1} %, double {:.1} %)",
+        "  struck by a neighbour: {:.1} % of them (gaps with a median of {}; half of it {:.1} %, double {:.1} %)",
         middle,
-        1e3 * city.file.gap_median,
+        LENGTH.text(city.file.gap_median, 0),
         half,
         twice
     );

@@ -2,8 +2,9 @@
 
 use std::fmt::Write;
 
+use jostle_io::shown::{ENERGY, FORCE, LENGTH, MASS, SPEED, Shown};
 use jostle_report::{CollidedLaw, Collisions};
-use jostle_run::{BOLD, CollideOptions, DIM, FileKind, collision_json, kn, mm, styled};
+use jostle_run::{BOLD, CollideOptions, DIM, FileKind, collision_json, styled};
 use serde_json::{Value, json};
 
 use crate::args::CollideArgs;
@@ -87,11 +88,13 @@ fn describe(text: &mut String, collisions: &Collisions, args: &CollideArgs) -> s
         (None, None) => "as the formula says".to_owned(),
         (damping, _) => format!("dashpot {}", damping.as_deref().unwrap_or_default()),
     };
+    let mass = MASS.name();
     let heading = format!(
-        "{} t against {} t at {} m/s, {loses}",
-        m1 * 1e-3,
-        m2 * 1e-3,
-        collisions.speed
+        "{} {mass} against {} {mass} at {} {}, {loses}",
+        MASS.stated(m1),
+        MASS.stated(m2),
+        SPEED.stated(collisions.speed),
+        SPEED.name()
     );
     writeln!(text, "{}", styled(BOLD, &heading))?;
     writeln!(text, "{}\n", styled(DIM, &collisions.stiffnesses))?;
@@ -99,17 +102,20 @@ fn describe(text: &mut String, collisions: &Collisions, args: &CollideArgs) -> s
         text,
         "law                                  realised e   peak force  indentation   duration  dissipated"
     )?;
+    let [kn, length, energy] = [FORCE, LENGTH, ENERGY].map(Shown::name);
     for CollidedLaw { law, collision } in &collisions.laws {
-        let force = collision.peak_force.map_or("–".to_owned(), kn);
+        let force = collision
+            .peak_force
+            .map_or("–".to_owned(), |force| FORCE.number(force, 1));
         writeln!(
             text,
-            "{:36} {:>10.4}  {:>8} kN  {:>8} mm  {:>6.2} ms  {:>7.3} kJ",
+            "{:36} {:>10.4}  {:>8} {kn}  {:>8} {length}  {:>6.2} ms  {:>7} {energy}",
             law.kind.full_name(),
             collision.realised_restitution(),
             force,
-            mm(collision.peak_indentation),
+            LENGTH.number(collision.peak_indentation, 1),
             collision.duration * 1e3,
-            collision.dissipated * 1e-3
+            ENERGY.number(collision.dissipated, 3)
         )?;
     }
     for path in [&args.csv, &args.html].into_iter().flatten() {

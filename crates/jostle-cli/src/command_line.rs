@@ -24,6 +24,9 @@ use crate::terminal;
 pub(crate) struct Args {
     #[command(subcommand)]
     pub(crate) command: Command,
+    /// Units of texts and pages: si for mm and kN, us for in and kip; without this, those that the model asks for
+    #[arg(long, global = true, value_name = "SYSTEM", value_parser = ["si", "us"])]
+    pub(crate) units: Option<String>,
 }
 
 impl Args {

@@ -6,6 +6,7 @@ use jostle_io::{ComparisonMap, MeasuredTable, Overrides};
 use jostle_run::{Measurements, earlier_comparison, prepare_comparison, stopped_by};
 
 use crate::failure::Failure;
+use crate::open::open_model;
 use crate::progress::StageBar;
 use crate::stop::stop_on_interrupt;
 use crate::terminal;
@@ -34,7 +35,7 @@ pub(crate) struct CompareArgs {
 }
 
 pub(crate) fn compare(args: &CompareArgs) -> Result<(), Failure> {
-    let opened = jostle_run::open(
+    let opened = open_model(
         Some(&args.model),
         &Overrides::default(),
         args.accept_unusual,

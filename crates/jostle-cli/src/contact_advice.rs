@@ -4,9 +4,11 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use jostle_io::Overrides;
-use jostle_run::{AdviceOptions, BOLD, ContactAdvice, DIM, RangeAdvice, kn, open, styled};
+use jostle_io::shown::{FORCE, HEIGHT, HERTZ_STIFFNESS, MASS, SPEED, STIFFNESS, Shown};
+use jostle_run::{AdviceOptions, BOLD, ContactAdvice, DIM, RangeAdvice, styled};
 
 use crate::failure::Failure;
+use crate::open::open_model;
 use crate::terminal;
 
 #[derive(Debug, clap::Args)]
@@ -47,7 +49,7 @@ pub(crate) struct ContactAdviceArgs {
 
 pub(crate) fn contact_advice(args: &ContactAdviceArgs) -> Result<(), Failure> {
     let opened = match &args.model {
-        Some(path) => Some(open(Some(path), &Overrides::default(), false)?),
+        Some(path) => Some(open_model(Some(path), &Overrides::default(), false)?),
         None => None,
     };
     let options = AdviceOptions {
@@ -76,29 +78,30 @@ pub(crate) fn contact_advice(args: &ContactAdviceArgs) -> Result<(), Failure> {
 
 fn describe(text: &mut String, advice: &ContactAdvice) -> std::fmt::Result {
     let mass = |mass: Option<f64>| match mass {
-        Some(mass) => format!("{:.1} t", 1e-3 * mass),
+        Some(mass) => MASS.text(mass, 1),
         None => "a rigid wall".to_owned(),
     };
     let place = match advice.height_m {
-        Some(height) => format!(", floors at {height:.2} m"),
+        Some(height) => format!(", floors at {}", HEIGHT.text(height, 2)),
         None => String::new(),
     };
     let heading = format!(
-        "{} – {}{place}: {} against {} at {} m/s",
+        "{} – {}{place}: {} against {} at {} {}",
         advice.between[0],
         advice.between[1],
         mass(advice.masses_kg[0]),
         mass(advice.masses_kg[1]),
-        advice.speed_m_s
+        SPEED.stated(advice.speed_m_s),
+        SPEED.name()
     );
     writeln!(text, "{}", styled(BOLD, &heading))?;
     if let Some(wave) = &advice.wave {
         writeln!(
             text,
-            "Waves run along the floors in {:.2} and {:.2} ms. As elastic rods they push each other with {} kN for {:.2} ms and part with {:.2} of the speed.",
+            "Waves run along the floors in {:.2} and {:.2} ms. As elastic rods they push each other with {} for {:.2} ms and part with {:.2} of the speed.",
             1e3 * wave.transit_s[0],
             1e3 * wave.transit_s[1],
-            kn(wave.peak_force_n),
+            FORCE.text(wave.peak_force_n, 1),
             1e3 * wave.duration_s,
             wave.restitution
         )?;
@@ -107,13 +110,18 @@ fn describe(text: &mut String, advice: &ContactAdvice) -> std::fmt::Result {
         text,
         "\nstiffness                             value        peak force    duration"
     )?;
+    let force = FORCE.name();
     for estimate in &advice.estimates {
-        let value = format!("{:.3e} {}", estimate.stiffness, estimate.unit);
+        let (value, unit) = match Shown::named(estimate.unit) {
+            Some(own) => (own.of(estimate.stiffness), own.name()),
+            None => (estimate.stiffness, estimate.unit),
+        };
+        let value = format!("{value:.3e} {unit}");
         writeln!(
             text,
-            "{:30} {value:>20}  {:>8} kN  {:>7.2} ms{}",
+            "{:30} {value:>20}  {:>8} {force}  {:>7.2} ms{}",
             estimate.name,
-            kn(estimate.peak_force_n),
+            FORCE.number(estimate.peak_force_n, 1),
             1e3 * estimate.duration_s,
             if estimate.is_valid {
                 ""
@@ -127,7 +135,7 @@ fn describe(text: &mut String, advice: &ContactAdvice) -> std::fmt::Result {
     writeln!(text, "\nRecommended for the [[gap]]:\n")?;
     let e = advice.restitution;
     writeln!(text, "law = \"hertz-damp\"")?;
-    writeln!(text, "{}", stiffness(advice.hertz, "N/m^1.5"))?;
+    writeln!(text, "{}", stiffness(advice.hertz, HERTZ_STIFFNESS))?;
     writeln!(
         text,
         "restitution = {:.2}   # {:.2} to {:.2}",
@@ -139,7 +147,7 @@ fn describe(text: &mut String, advice: &ContactAdvice) -> std::fmt::Result {
             text,
             "\nor, with a linear spring:\n\nlaw = \"kelvin-no-tension\""
         )?;
-        writeln!(text, "{}", stiffness(linear, "N/m"))?;
+        writeln!(text, "{}", stiffness(linear, STIFFNESS))?;
         writeln!(
             text,
             "restitution = {:.2}   # {:.2} to {:.2}",
@@ -147,12 +155,16 @@ fn describe(text: &mut String, advice: &ContactAdvice) -> std::fmt::Result {
         )?;
     }
     writeln!(text)?;
+    let unit = STIFFNESS.name();
     if let Some(rule) = &advice.lateral {
         writeln!(
             text,
             "Many studies take 10 to 100 times the lateral stiffness of the stiffer neighbour for linear laws. Here \"{}\" yields to a push on this floor\n\
-             with {:.2e} N/m, which gives {:.1e} to {:.1e} N/m. It is a habit, not a measurement.",
-            rule.of, rule.lateral_n_m, rule.low_n_m, rule.high_n_m
+             with {:.2e} {unit}, which gives {:.1e} to {:.1e} {unit}. It is a habit, not a measurement.",
+            rule.of,
+            STIFFNESS.of(rule.lateral_n_m),
+            STIFFNESS.of(rule.low_n_m),
+            STIFFNESS.of(rule.high_n_m)
         )?;
     }
     for note in &advice.notes {
@@ -166,9 +178,12 @@ fn describe(text: &mut String, advice: &ContactAdvice) -> std::fmt::Result {
     writeln!(text)
 }
 
-fn stiffness(range: RangeAdvice, unit: &str) -> String {
+fn stiffness(range: RangeAdvice, shown: Shown) -> String {
     format!(
-        "stiffness = \"{:.2e} {unit}\"   # {:.1e} to {:.1e}",
-        range.value, range.low, range.high
+        "stiffness = \"{:.2e} {}\"   # {:.1e} to {:.1e}",
+        shown.of(range.value),
+        shown.name(),
+        shown.of(range.low),
+        shown.of(range.high)
     )
 }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 
 use jostle::separation::{Code, CodeInputs, JointSystem};
+use jostle_io::shown::{FORCE, GROUND_ACCELERATION, HEIGHT, LENGTH};
 use jostle_io::{Dimension, parse_option};
 use jostle_study::{CriticalGap, GapError, GapProgress, GapSettings, critical_gaps};
 
@@ -13,7 +14,7 @@ use crate::failure::Failure;
 use crate::progress::TimeBar;
 use crate::stop::stop_on_interrupt;
 use crate::terminal;
-use jostle_run::{RuleGap, counted, earlier_gap_curves, kn, mm, write_gap_curves};
+use jostle_run::{RuleGap, counted, earlier_gap_curves, rounded_up, write_gap_curves};
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct GapArgs {
@@ -272,10 +273,10 @@ pub(crate) fn describe(title: &str, found: &[CriticalGap]) -> String {
     let mut text = format!("{}\n", jostle_run::styled(jostle_run::BOLD, title));
     for gap in found {
         text += &format!(
-            "\n{}  under {}, {:.1} cm/s²\n",
+            "\n{}  under {}, {}\n",
             gap.between.join(" – "),
             gap.motion,
-            100.0 * gap.pga_m_s2
+            GROUND_ACCELERATION.text(gap.pga_m_s2, 1)
         );
         let bracket = match gap.pounding_at_m {
             Some(hit) => format!("at {} there is an impact", millimetres(hit)),
@@ -285,10 +286,10 @@ pub(crate) fn describe(title: &str, found: &[CriticalGap]) -> String {
             format!(", {} with the motion reversed", whole_millimetres(reversed))
         });
         text += &format!(
-            "  smallest gap without pounding {}{reversed}  ({bracket}; {}, closest at {:.2} m)\n",
+            "  smallest gap without pounding {}{reversed}  ({bracket}; {}, closest at {})\n",
             jostle_run::styled(jostle_run::BOLD, &whole_millimetres(gap.gap_m)),
             counted(gap.runs, "run"),
-            gap.height_m
+            HEIGHT.text(gap.height_m, 2)
         );
         if let Some(rho) = gap.ddc_correlation {
             text += &format!(
@@ -356,15 +357,18 @@ fn outcome(rule: &RuleGap) -> String {
         false => format!("from {:.2} s", rule.first_impact_s.unwrap_or(0.0)),
     };
     let impacts = counted(worse.impact_count, "impact");
-    format!("{impacts}, up to {} kN, {when}", kn(worse.peak_force_n))
+    format!(
+        "{impacts}, up to {}, {when}",
+        FORCE.text(worse.peak_force_n, 1)
+    )
 }
 
 /// Records below which no code takes a result \[–\].
 const FEW_RECORDS: usize = 3;
 
-/// A width to build: whole millimetres, rounded up.
+/// A width to build: whole millimetres or hundredths of an inch, rounded up.
 fn whole_millimetres(metres: f64) -> String {
-    format!("{:.0} mm", (1e3 * metres - 1e-6).ceil())
+    format!("{} {}", rounded_up(metres), LENGTH.name())
 }
 
 /// Inputs of codes, distances from property lines, and rules without a value.
@@ -379,12 +383,12 @@ fn inputs(gap: &CriticalGap) -> String {
         }
         if let Some([left, right]) = rule.setbacks_m {
             text += &format!(
-                "  {}: {} from the property line {} mm, {} {} mm\n",
+                "  {}: {} from the property line {}, {} {}\n",
                 rule.rule,
                 gap.between[0],
-                mm(left),
+                LENGTH.text(left, 1),
                 gap.between[1],
-                mm(right)
+                LENGTH.text(right, 1)
             );
         }
     }
@@ -398,5 +402,5 @@ fn inputs(gap: &CriticalGap) -> String {
 }
 
 fn millimetres(metres: f64) -> String {
-    format!("{:.2} mm", 1e3 * metres)
+    LENGTH.text(metres, 2)
 }

@@ -42,6 +42,7 @@ pub use command_list::command_list;
 use clap::{CommandFactory, Parser};
 use command_line::{Args, Command};
 use failure::Failure;
+use jostle_io::{Units, shown};
 
 /// Runs the command given by the arguments, of which the first is the program name, and returns the exit code.
 pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
@@ -49,7 +50,18 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
         Ok(args) => args,
         Err(code) => return code,
     };
-    let done = match args.command {
+    let units = args.units.as_deref().and_then(Units::named);
+    if let Some(units) = units {
+        shown::choose_for_all_threads(units);
+    }
+    match shown::in_units(units, || run_command(args.command)) {
+        Ok(()) => 0,
+        Err(failure) => report(failure),
+    }
+}
+
+fn run_command(command: Command) -> Result<(), Failure> {
+    match command {
         Command::Run(args) => run::run(&args),
         Command::Check(args) => check::check(&args),
         Command::Modes(args) => modes::modes(&args),
@@ -73,10 +85,6 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
         Command::Completions(args) => completions::completions(&args, Args::command()),
         Command::Man(args) => man::man(&args, Args::command()),
         Command::Schema(args) => terminal::print(&schema(args.list(), args.markdown)),
-    };
-    match done {
-        Ok(()) => 0,
-        Err(failure) => report(failure),
     }
 }
 

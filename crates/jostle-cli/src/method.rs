@@ -3,15 +3,16 @@
 use std::fmt::Write;
 
 use jostle_io::Overrides;
-use jostle_run::{BOLD, FileKind, methods_text, open, styled, survey_methods};
+use jostle_run::{BOLD, FileKind, methods_text, styled, survey_methods};
 
 use crate::args::MethodArgs;
 use crate::failure::Failure;
+use crate::open::open_model;
 use crate::replace::Target;
 use crate::terminal;
 
 pub(crate) fn method(args: &MethodArgs) -> Result<(), Failure> {
-    let opened = open(args.model.as_deref(), &Overrides::default(), false)?;
+    let opened = open_model(args.model.as_deref(), &Overrides::default(), false)?;
     let surveys = survey_methods(&opened.system)?;
     let mut text = methods_text(&surveys);
     if let Some(out) = &args.out {

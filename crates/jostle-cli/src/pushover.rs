@@ -5,10 +5,11 @@ use std::path::{Path, PathBuf};
 use jostle::pushover::{LoadPattern, PushDirection};
 use jostle_io::{Dimension, Overrides, parse_quantity};
 use jostle_report::Demand;
-use jostle_run::{FileKind, accelerogram, checked_drift, chosen_buildings, open, pushed_buildings};
+use jostle_run::{FileKind, accelerogram, checked_drift, chosen_buildings, pushed_buildings};
 
 use crate::args::{Push, PushoverArgs, Spread};
 use crate::failure::Failure;
+use crate::open::open_model;
 use crate::replace::Target;
 use crate::{pushover_text, terminal};
 
@@ -19,7 +20,7 @@ const RESULTS: &str = "jostle-out";
 
 pub(crate) fn pushover(args: &PushoverArgs) -> Result<(), Failure> {
     let drift = drift(&args.drift)?;
-    let opened = open(args.model.as_deref(), &Overrides::default(), false)?;
+    let opened = open_model(args.model.as_deref(), &Overrides::default(), false)?;
     let buildings = chosen_buildings(opened.system.structures(), args.building.as_deref())?;
     let directions: &[PushDirection] = match args.direction {
         Push::Right => &[PushDirection::Right],

@@ -6,6 +6,7 @@ use std::path::Path;
 use jostle::hysteresis::Stage;
 use jostle::pushover::{Bilinear, PushEnd, PushEventKind, PushPoint, PushedBuilding, Pushover};
 
+use jostle_io::shown::{FORCE, HEIGHT, LENGTH, Shown};
 use jostle_run::{BOLD, DIM, LOUD, styled};
 use jostle_run::{counted, kn, mm};
 
@@ -34,13 +35,13 @@ fn write_curve(text: &mut String, one: &PushedBuilding, curve: &Pushover) -> std
     let settings = curve.settings;
     writeln!(
         text,
-        "\n{}  pushed to the {}, {} load; {}, {:.1} m, {:.0} kN",
+        "\n{}  pushed to the {}, {} load; {}, {}, {}",
         styled(BOLD, &one.building.name),
         settings.direction.name(),
         settings.pattern.name(),
         counted(one.building.floors.len(), "storey"),
-        curve.height,
-        curve.weight * 1e-3
+        HEIGHT.text(curve.height, 1),
+        FORCE.text(curve.weight, 0)
     )?;
     writeln!(
         text,
@@ -50,13 +51,14 @@ fn write_curve(text: &mut String, one: &PushedBuilding, curve: &Pushover) -> std
             "                 base shear   of weight         roof     drift"
         )
     )?;
+    let [force, length] = [FORCE, LENGTH].map(Shown::name);
     let mut row = |name: &str, point: Option<&PushPoint>| match point {
         Some(point) if point.roof == 0.0 => {
             writeln!(text, "  {name:<12}{:>15}   under gravity alone", "at rest")
         }
         Some(point) => writeln!(
             text,
-            "  {name:<12}{:>12} kN{:>12.4}{:>10} mm{:>8.3} %",
+            "  {name:<12}{:>12} {force}{:>12.4}{:>10} {length}{:>8.3} %",
             kn(point.base_shear),
             curve.coefficient(point),
             mm(point.roof),
@@ -80,9 +82,9 @@ fn write_curve(text: &mut String, one: &PushedBuilding, curve: &Pushover) -> std
     if let Some(two) = Bilinear::fit(&curve.points) {
         writeln!(
             text,
-            "  bilinear of equal energy (FEMA 356): yields at {} kN and {} mm, then {:.1} % of the stiffness; ductility {:.2}",
-            kn(two.yield_force),
-            mm(two.yield_displacement),
+            "  bilinear of equal energy (FEMA 356): yields at {} and {}, then {:.1} % of the stiffness; ductility {:.2}",
+            FORCE.text(two.yield_force, 1),
+            LENGTH.text(two.yield_displacement, 1),
             100.0 * two.hardening(),
             two.ductility()
         )?;

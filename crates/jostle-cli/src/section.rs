@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use jostle_io::shown::follow;
 use jostle_run::{FileKind, SectionOptions, read, sections_json, sections_text};
 
 use crate::args::SectionArgs;
@@ -14,6 +15,7 @@ pub(crate) fn section(args: &SectionArgs) -> Result<(), Failure> {
     let (title, surveys) = match &args.model {
         Some(path) => {
             let input = read(path)?;
+            follow(input.units);
             let surveys = jostle_run::sections(&input, &path.display().to_string())?;
             (input.model.title, surveys)
         }

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use jostle_io::shown::follow;
 use jostle_io::{Dimension, ModelTree, parse_option};
 use jostle_study::size::{Over, SizeProblem, SizeProgress, SizeRequest, earlier_size_files};
 
@@ -71,6 +72,7 @@ pub(crate) fn size(args: &SizeArgs) -> Result<(), Failure> {
         parse_option("--pga", pga, Dimension::Acceleration).map_err(Failure::Input)?;
     }
     let tree = ModelTree::find(&args.model)?;
+    follow(tree.units());
     let request = SizeRequest {
         vary: args.vary.clone(),
         keep: args.keep.clone(),

@@ -450,6 +450,8 @@ pub(crate) const ALIGNMENTS: [&str; 2] = ["floors", "half-storey"];
 pub(crate) const POSITIONS: [&str; 2] = ["end", "middle"];
 /// Measures of the intensity of motions.
 pub(crate) const MEASURES: [&str; 3] = ["PGA", "Sa(T1)", "AvgSA"];
+/// Systems of units for texts and pages.
+pub(crate) const UNIT_SYSTEMS: &[&str] = &["si", "us"];
 /// Rules for the capacity of columns and beams, in the order of
 /// [`ShearRule::ALL`](jostle_section::capacity::ShearRule::ALL).
 pub(crate) const CAPACITY_RULES: &[&str] =
@@ -1215,6 +1217,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Output, "interval", Quantity(D::Time), "\"5 ms\"", "Least time between rows of histories in free vibration; every step of a closed contact has a row. Files shrink as it grows.").usual("a time between rows", 1e-4, 1.0),
     default(S::Output, "capacity", FlagOrChoices(CAPACITY_RULES), "all rules, if forces of members are asked for and ties are known", "Compares shear and moment of reinforced columns and beams with their capacity at every instant: a rule, a list of rules whose first governs, true for all, of which that of the country of the steel governs, false for none. Implies the forces of all members."),
 
+    default(S::Output, "units", Choice(UNIT_SYSTEMS), "\"si\"", "Units of texts and pages: \"si\" for mm, m, kN, MPa and t, \"us\" for in, ft, kip, ksi and masses as their weight in kip. Files whose keys or columns name SI units stay in SI, such as `summary.json`, Parquet and CSV."),
     default(S::Output, "floor_spectra", Kind::FlagTextsOrTable(S::FloorSpectra), "false", "Response spectra of floors, with and without contact: true for every floor, a list of floors such as [\"J1.floor.5\"] or buildings such as [\"J1\"], or a table."),
 
     default(S::FloorSpectra, "floors", TextOrTexts, "every floor", "Floors such as \"J1.floor.5\", counted from 1, or all floors of a building, \"J1\"."),

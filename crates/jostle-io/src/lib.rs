@@ -41,6 +41,7 @@ mod response_tables;
 mod rewrite;
 mod schema;
 mod selection;
+pub mod shown;
 mod source;
 mod study_file;
 mod tables;
@@ -103,6 +104,7 @@ pub use response_tables::{
 };
 pub use schema::model_schema;
 pub use selection::selection_json;
+pub use shown::Units;
 pub use source::Place;
 pub use study_file::{
     Correlation, Design, DesignKind, Distribution, Factor, FactorValues, FragilityMethod,

@@ -82,6 +82,7 @@ use crate::quantity::Dimension;
 use crate::reader::{Field, Reader};
 use crate::record::RecordOptions;
 use crate::record_list;
+use crate::shown::Units;
 use crate::source::Source;
 use crate::tree::{self, Format, Node, Value};
 use crate::unusual::{Accepted, GAP, PEAK_ACCELERATION, Range, Verdict, Written, is_within};
@@ -105,6 +106,8 @@ pub struct Input {
     pub north: Option<f64>,
     /// Rules for the capacity of these members.
     pub capacity: CapacityRequest,
+    /// Units of texts and pages, if the file asks for some.
+    pub units: Option<Units>,
     /// What stands in the title block of its report.
     pub title_block: TitleBlock,
     /// What checks need of the file beyond the model.
@@ -224,6 +227,7 @@ pub(crate) fn read_tree(
             governing,
             silenced,
             title_block,
+            units,
             dampers: _,
         }) if error.faults.is_empty() => Ok(Input {
             capacity,
@@ -232,6 +236,7 @@ pub(crate) fn read_tree(
             floor_spectra,
             governing,
             title_block,
+            units,
             warnings: {
                 noted.extend(warnings(&model, &root));
                 noted
@@ -512,6 +517,7 @@ struct Parts {
     governing: Option<GoverningRule>,
     silenced: Vec<&'static str>,
     title_block: TitleBlock,
+    units: Option<Units>,
 }
 
 /// Reads the whole tree; `None` if there is nothing to build a model from.
@@ -569,11 +575,13 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, files: &Files) -> Option<Part
     let mut analysis =
         analysis.map_or_else(Default::default, |field| analysis::read(reader, &field));
     let (mut capacity, mut floor_spectra) = (CapacityRequest::default(), None);
+    let mut units = None;
     if let Some(field) = reader.get(&view, "output") {
         let read = buildings.as_ref();
         let read = read.map(|read| (&read.buildings[..], &read.members[..]));
         (analysis.members, floor_spectra, capacity) = output::read(reader, &field, read);
         analysis.link_motion = output::link_motion(reader, &field);
+        units = output::units(reader, &field);
         if let Some(interval) = output::interval(reader, &field) {
             analysis.row_interval = interval;
         }
@@ -638,6 +646,7 @@ fn read_root(reader: &mut Reader<'_>, root: &Node, files: &Files) -> Option<Part
         governing,
         silenced,
         title_block,
+        units,
         dampers: paths,
     })
 }

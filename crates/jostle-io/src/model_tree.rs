@@ -11,6 +11,7 @@ use crate::model_file::{self, Input};
 use crate::quantity::split_number;
 use crate::reader::join;
 use crate::record_list;
+use crate::shown::Units;
 use crate::source::Source;
 use crate::tree::{self, Entry, Format, Node, Table, Value};
 use crate::unit::Unit;
@@ -259,6 +260,15 @@ impl ModelTree {
         apply_at(&mut root, &parts, "", change).map_err(wrong)?;
         self.root = root;
         Ok(())
+    }
+
+    /// The system of units that the model asks for in texts and pages.
+    #[must_use]
+    pub fn units(&self) -> Option<Units> {
+        match self.values("output.units").into_iter().next()? {
+            TreeValue::Text(name) => Units::named(&name),
+            _ => None,
+        }
     }
 
     /// Reads and checks the tree.

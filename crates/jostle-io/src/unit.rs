@@ -36,13 +36,15 @@ const SPEED: [f64; 3] = [1.0, 0.0, -1.0];
 const ACCELERATION: [f64; 3] = [1.0, 0.0, -2.0];
 const FORCE: [f64; 3] = [1.0, 1.0, -2.0];
 const PRESSURE: [f64; 3] = [-1.0, 1.0, -2.0];
+const LINE_LOAD: [f64; 3] = [0.0, 1.0, -2.0];
+const DENSITY: [f64; 3] = [-3.0, 1.0, 0.0];
 const ENERGY: [f64; 3] = [2.0, 1.0, -2.0];
 const NONE: [f64; 3] = [0.0; 3];
 
-const INCH: f64 = 0.0254;
-const FOOT: f64 = 0.3048;
-const POUND: f64 = 0.453_592_37;
-const POUND_FORCE: f64 = POUND * STANDARD_GRAVITY;
+pub(crate) const INCH: f64 = 0.0254;
+pub(crate) const FOOT: f64 = 0.3048;
+pub(crate) const POUND: f64 = 0.453_592_37;
+pub(crate) const POUND_FORCE: f64 = POUND * STANDARD_GRAVITY;
 
 /// Units that take no prefix. `g` is gravity, never gram.
 #[rustfmt::skip]
@@ -55,6 +57,8 @@ const PLAIN: &[(&str, f64, [f64; 3])] = &[
     ("kgf", STANDARD_GRAVITY, FORCE), ("tf", 1e3 * STANDARD_GRAVITY, FORCE), ("dyn", 1e-5, FORCE),
     ("psi", POUND_FORCE / (INCH * INCH), PRESSURE), ("ksi", 1e3 * POUND_FORCE / (INCH * INCH), PRESSURE),
     ("psf", POUND_FORCE / (FOOT * FOOT), PRESSURE), ("ksf", 1e3 * POUND_FORCE / (FOOT * FOOT), PRESSURE),
+    ("plf", POUND_FORCE / FOOT, LINE_LOAD), ("klf", 1e3 * POUND_FORCE / FOOT, LINE_LOAD),
+    ("pcf", POUND / (FOOT * FOOT * FOOT), DENSITY),
     ("bar", 1e5, PRESSURE),
     ("kph", 1.0 / 3.6, SPEED), ("mph", 5280.0 * FOOT / 3600.0, SPEED),
     ("deg", std::f64::consts::PI / 180.0, NONE), ("°", std::f64::consts::PI / 180.0, NONE),
@@ -364,6 +368,10 @@ mod tests {
         assert_unit("kip", 4_448.221_615_260_5, FORCE);
         assert_unit("ksi", 6_894_757.293_168_36, PRESSURE);
         assert_unit("N/mm2", 1e6, PRESSURE);
+        assert_unit("plf", 14.593_902_937_206_4, LINE_LOAD);
+        assert_unit("klf", 14_593.902_937_206_4, LINE_LOAD);
+        assert_unit("psf", 47.880_258_980_335_8, PRESSURE);
+        assert_unit("pcf", 16.018_463_373_960_14, DENSITY);
         assert_unit("m2.kg", 1.0, [2.0, 1.0, 0.0]);
         assert_unit("1/s", 1.0, FREQUENCY);
         assert_unit("", 1.0, NONE);

@@ -1,11 +1,15 @@
 // Results over one key: a curve that is drawn as its points come, with the present value as a line to drag.
 
 const results = [
-  { name: say("peak_force_title"), unit: "kN" },
-  { name: say("number_of_impacts"), unit: "" },
-  { name: say("peak_storey_drift"), unit: "%" },
-  { name: say("peak_floor_acceleration"), unit: "m/s²" },
+  { name: say("peak_force_title"), unit: unitOf("kN").name, factor: 1e3 * unitOf("kN").factor },
+  { name: say("number_of_impacts"), unit: "", factor: 1 },
+  { name: say("peak_storey_drift"), unit: "%", factor: 1 },
+  { name: say("peak_floor_acceleration"), unit: unitOf("m/s²").name, factor: unitOf("m/s²").factor },
 ];
+/** Units in which widths of gaps are typed. */
+const metresPer = { mm: 1e-3, cm: 1e-2, m: 1, in: 0.0254, ft: 0.3048, "": 1 };
+/** The width of a gap in the unit of the page. */
+const gapWidth = (metres) => fixed(metres * unitOf("mm").factor, Math.max(1, unitOf("mm").least));
 const curvePoints = 120;
 const pointsPerRecord = 60;
 
@@ -100,7 +104,7 @@ function fitRange(knob) {
   Object.assign(curve, rangeAround(knob));
   const needed = Math.max(...(latest?.needed ?? []).map((width) => width ?? 0), 0);
   if (knob.path.startsWith("gap") && needed > 0) {
-    const perUnit = { mm: 1e-3, cm: 1e-2, m: 1, "": 1 }[knob.unit];
+    const perUnit = metresPer[knob.unit];
     if (perUnit) curve.to = Math.max(Number(((1.4 * needed) / perUnit).toPrecision(2)), 1.1 * knob.number);
   }
 }
@@ -162,6 +166,8 @@ function addPoints({ id, points, of }) {
   beginCurve();
   curve.of = of;
   for (const point of points) {
+    // Forces come in kN, accelerations in m/s².
+    point.y &&= point.y.map((value, i) => value * results[i].factor);
     const line = (curve.lines[point.record] ??= []);
     if (curve.across) line.push(point);
     else line.splice(indexBefore(line.map((p) => p.x), point.x) + 1, 0, point);
@@ -239,6 +245,8 @@ function drawCurve() {
     let text = "";
     let pen = "M";
     for (const point of points) {
+    // Forces come in kN, accelerations in m/s².
+    point.y &&= point.y.map((value, i) => value * results[i].factor);
       if (!point.y && !Number.isFinite(y(point))) { pen = "M"; continue; }
       text += `${pen}${px(point.x).toFixed(1)},${py(y(point)).toFixed(1)}`;
       pen = "L";
@@ -265,7 +273,7 @@ function drawCurve() {
   byId("curve-caption").textContent = say("one_against_other", { result: withUnit(name, unit), key: withUnit(over, curve.unit), records });
   const needed = knownMarks().find((mark) => mark.needed);
   const done = all.length ? say("points_of", { done: lines.flat().length, all: curve.of }) : "";
-  const found = needed ? say("smallest_gap_is", { width: fixed(1e3 * needed.width, 1) }) : "";
+  const found = needed ? say("smallest_gap_is", { width: gapWidth(needed.width) }) : "";
   if (curve.fresh && !curve.stale) byId("curve-note").textContent = curve.problem || found + (lines.flat().length < curve.of ? done : "") + say("drag_the_line_or_use");
 }
 
@@ -281,7 +289,7 @@ function knownMarks() {
 
 /** The smallest gap without pounding, and rules, as marks with their names above each other. */
 function drawMarks(image, px, width) {
-  const perUnit = { mm: 1e-3, cm: 1e-2, m: 1, "": 1 }[curve.unit];
+  const perUnit = metresPer[curve.unit];
   if (!isWidth() || !perUnit) return;
   const seen = knownMarks()
     .map((mark) => ({ ...mark, x: mark.width / perUnit }))
@@ -292,7 +300,7 @@ function drawMarks(image, px, width) {
   for (const mark of seen) {
     const x = px(mark.x);
     const line = svg("g", { class: mark.needed ? "needed" : "" }, group);
-    svg("title", {}, line).textContent = say("mark_of_a_rule", { name: mark.name, width: fixed(1e3 * mark.width, 1), source: mark.source });
+    svg("title", {}, line).textContent = say("mark_of_a_rule", { name: mark.name, width: gapWidth(mark.width), source: mark.source });
     const length = 6.1 * mark.name.length;
     const anchor = x + length > width - picture.right ? "end" : "start";
     const start = anchor === "end" ? x - length : x;

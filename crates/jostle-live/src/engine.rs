@@ -8,7 +8,8 @@ use std::time::Instant;
 
 use jostle::stepping::Progress;
 use jostle::{GroundMotion, Model, Outcome, Pounding, RunEnd, Settings, Summary};
-use jostle_io::{Files, Format, InputError, ModelTree, TreeValue};
+use jostle_io::shown::{ACCELERATION, FORCE, LENGTH, chosen_units, in_units};
+use jostle_io::{Files, Format, InputError, ModelTree, TreeValue, Units};
 use jostle_run::{CaseCache, CaseError, Prepared, Results, STORAGE};
 use serde::Serialize;
 
@@ -32,6 +33,8 @@ pub struct Engine {
     named: Vec<String>,
     /// Those of them that are records of its motion.
     named_records: Vec<String>,
+    /// Units that the opened model asks for; the page keeps them.
+    pub(crate) units: Option<Units>,
     case_cache: CaseCache,
     /// The last runs without contact, the most recent at the end.
     apart: Mutex<Vec<Apart>>,
@@ -147,6 +150,7 @@ impl Engine {
             files: tree.files().confined(&named),
             named_records: records.filter(|name| named.contains(name)).collect(),
             named,
+            units: tree.units(),
             case_cache: CaseCache::default(),
             apart: Mutex::default(),
         }
@@ -156,6 +160,12 @@ impl Engine {
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
+    }
+
+    /// Returns what `write` returns, in the units of the page: those that were chosen, else those of the opened model.
+    pub(crate) fn in_its_units<T>(&self, write: impl FnOnce() -> T) -> T {
+        let units = chosen_units().or(self.units).unwrap_or_default();
+        in_units(Some(units), write)
     }
 
     /// Text of the file.
@@ -290,30 +300,8 @@ impl Engine {
         watch: &(dyn Fn(Progress) -> ControlFlow<()> + Sync),
     ) -> Result<(Vec<u8>, Solved), Trouble> {
         let solved = self.solve(self.prepare(tree, record)?, watch)?;
-        let frame = solved.results().with_page(jostle_report::frame);
-        let frame = frame.ok_or(Trouble::Stopped)?;
-        let summary = &solved.summary;
-        let head = Head {
-            op: "frame",
-            id,
-            text: tree.text(),
-            knobs: tree.knobs(),
-            records: tree.records(),
-            headline: &frame.headline,
-            parts: &frame.parts,
-            numbers: numbers(summary),
-            notes: &summary.notes,
-            accuracy: summary.promise.in_words(),
-            needed: summary
-                .gaps
-                .iter()
-                .map(|gap| gap.closing_without_contact_m)
-                .collect(),
-        };
-        let head = serde_json::to_string(&head).unwrap_or_default();
-        // Two texts, so that the data need not be written twice.
-        let json = format!("[{head},{}]", frame.data);
-        Ok((crate::message::binary(&json, &frame.numbers), solved))
+        let frame = self.in_its_units(|| written(id, tree, &solved))?;
+        Ok((frame, solved))
     }
 
     /// Runs a model: the report as one HTML file.
@@ -327,8 +315,37 @@ impl Engine {
         let (prepared, wall) = (&solved.prepared, solved.summary.work.wall_s);
         prepared.find_sensitivity(&mut solved.outcome, watch);
         solved.summary = prepared.summary(&solved.outcome, solved.without.as_deref(), wall);
-        solved.results().report().ok_or(Trouble::Stopped)
+        let report = self.in_its_units(|| solved.results().report());
+        report.ok_or(Trouble::Stopped)
     }
+}
+
+/// The binary message of the frame of a run.
+fn written(id: u64, tree: &ModelTree, solved: &Solved) -> Result<Vec<u8>, Trouble> {
+    let frame = solved.results().with_page(jostle_report::frame);
+    let frame = frame.ok_or(Trouble::Stopped)?;
+    let summary = &solved.summary;
+    let head = Head {
+        op: "frame",
+        id,
+        text: tree.text(),
+        knobs: tree.knobs(),
+        records: tree.records(),
+        headline: &frame.headline,
+        parts: &frame.parts,
+        numbers: numbers(summary),
+        notes: &summary.notes,
+        accuracy: summary.promise.in_words(),
+        needed: summary
+            .gaps
+            .iter()
+            .map(|gap| gap.closing_without_contact_m)
+            .collect(),
+    };
+    let head = serde_json::to_string(&head).unwrap_or_default();
+    // Two texts, so that the data need not be written twice.
+    let json = format!("[{head},{}]", frame.data);
+    Ok(crate::message::binary(&json, &frame.numbers))
 }
 
 impl Solved {
@@ -425,18 +442,26 @@ fn numbers(summary: &Summary) -> Vec<Number> {
         } else {
             String::new()
         };
-        add(message::gap_pair(&pair), "mm", 1e3 * gap.width_m);
+        add(
+            message::gap_pair(&pair),
+            LENGTH.name(),
+            LENGTH.of(gap.width_m),
+        );
         add(
             message::peak_force_of_pair(&pair),
-            "kN",
-            1e-3 * gap.peak_force_n,
+            FORCE.name(),
+            FORCE.of(gap.peak_force_n),
         );
         add(message::impacts_pair(&pair), "", gap.impact_count as f64);
         if let Some(first) = gap.first_impact_s {
             add(message::first_impact(&pair), "s", first);
         }
         if let Some(closing) = gap.closing_without_contact_m {
-            add(message::gap_needed(&pair), "mm", 1e3 * closing);
+            add(
+                message::gap_needed(&pair),
+                LENGTH.name(),
+                LENGTH.of(closing),
+            );
         }
     }
     for building in &summary.buildings {
@@ -444,7 +469,11 @@ fn numbers(summary: &Summary) -> Vec<Number> {
         let floors = building.floors.iter();
         let sway = floors.map(|f| f.response.displacement_peak_m());
         let sway = sway.fold(0.0, f64::max);
-        add(message::displacement_of(name), "mm", 1e3 * sway);
+        add(
+            message::displacement_of(name),
+            LENGTH.name(),
+            LENGTH.of(sway),
+        );
         add(
             message::storey_drift_of(name),
             "%",
@@ -452,19 +481,19 @@ fn numbers(summary: &Summary) -> Vec<Number> {
         );
         add(
             message::floor_acceleration(name),
-            "m/s²",
-            building.response.total_acceleration_peak_m_s2,
+            ACCELERATION.name(),
+            ACCELERATION.of(building.response.total_acceleration_peak_m_s2),
         );
         add(
             message::base_shear_title(name),
-            "kN",
-            1e-3 * building.response.base_shear_peak_n,
+            FORCE.name(),
+            FORCE.of(building.response.base_shear_peak_n),
         );
     }
     add(
         message::peak_ground_acceleration().into(),
-        "m/s²",
-        summary.motion.pga_m_s2,
+        ACCELERATION.name(),
+        ACCELERATION.of(summary.motion.pga_m_s2),
     );
     list
 }

@@ -8,6 +8,7 @@ use base64::engine::general_purpose::{STANDARD, URL_SAFE_NO_PAD};
 use flate2::Compression;
 use flate2::write::DeflateEncoder;
 use jostle_io::FileError;
+use jostle_io::shown::in_units;
 use maud::{PreEscaped, html};
 
 use crate::engine::Engine;
@@ -88,7 +89,11 @@ pub fn export_all(engines: &[Engine], module: &[u8]) -> Result<String, ExportErr
         script #worker type="text/plain" { (PreEscaped(WORKER)) }
         script #engine type="text/plain" { (PreEscaped(STANDARD.encode(module))) }
     };
-    Ok(page::page_with_engine(name, markup))
+    // The engine inside knows only what the model asks for.
+    let units = first.and_then(|own| own.units).unwrap_or_default();
+    Ok(in_units(Some(units), || {
+        page::page_with_engine(name, markup)
+    }))
 }
 
 /// What follows `#` in the address of a page that opens with this text instead of its own.

@@ -240,7 +240,8 @@ fn answer(stream: &mut TcpStream, connection: &Connection) -> std::io::Result<()
         http::read_head(stream).and_then(|head| http::judge(&head, shared.port, &shared.token));
     match judged {
         Ok(Wanted::Page) => {
-            let (page, policy) = page::page(shared.engine.name(), shared.port, &shared.token);
+            let page = || page::page(shared.engine.name(), shared.port, &shared.token);
+            let (page, policy) = shared.engine.in_its_units(page);
             http::send_page(stream, &page, &policy)?;
         }
         Ok(Wanted::Socket { key }) => {

@@ -45,7 +45,7 @@ function chosenPairs() {
 
 function drawMap() {
   const gap = data.gaps[at("gap").value];
-  at("gap-width").textContent = `${digits(1000 * gap)} mm`;
+  at("gap-width").textContent = `${digits(gap * unitOf("mm").factor)} ${unitOf("mm").name}`;
   const state = Number(at("state").value);
   const shown = at("shown").value;
   const pairs = chosenPairs();
@@ -92,7 +92,7 @@ function drawCurves() {
   if (chosen === null) return;
   const gap = data.gaps[at("gap").value];
   const pair = data.pairs[chosen];
-  at("chosen").textContent = say("classes_chosen", { storeys: pair.storeys, class: pair.class, beside: pair.beside, neighbour: pair.neighbour, gap: digits(1000 * gap) });
+  at("chosen").textContent = say("classes_chosen", { storeys: pair.storeys, class: pair.class, beside: pair.beside, neighbour: pair.neighbour, gap: digits(gap * unitOf("mm").factor) });
   const [left, top, width, height] = [46, 12, 520, 260];
   const most = data.range[1];
   const x = (value) => left + (width * value) / most;

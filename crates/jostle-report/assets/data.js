@@ -104,6 +104,9 @@ function readable(value) {
   return fixed(value, size >= 1000 ? 0 : size >= 100 ? 1 : size >= 1 || size === 0 ? 2 : 3);
 }
 
+/** An SI value in a unit, with its name. */
+const inUnit = (value, { name, factor, least }, decimals) => `${fixed(value * factor, Math.max(decimals, least))} ${name}`;
+
 /** Round values between two ends, about `count` of them, and the decimals they need. */
 function ticks(low, high, count) {
   const raw = (high - low) / count;

@@ -4,7 +4,7 @@
 const firstPanels = 24;
 const mostPanels = 240;
 
-/** The points of an impact: time from its start [ms], force [kN], indentation [mm] or null. */
+/** The points of an impact: time from its start [ms], force and indentation or null in the units of the page. */
 function pointsOf(impact) {
   const { time, values, indentation } = forces[impact.contact];
   // The rows around it, in which the force is zero, belong to it.
@@ -17,8 +17,8 @@ function pointsOf(impact) {
     const at = Math.min(Math.max(time[k], impact.start), impact.end);
     points.push({
       time: 1e3 * ((apart ? at : time[k]) - impact.start),
-      force: values[k] / 1e3,
-      depth: indentation ? 1e3 * indentation[k] : null,
+      force: values[k] * unitOf("kN").factor,
+      depth: indentation ? unitOf("mm").factor * indentation[k] : null,
     });
   }
   return points.some(({ force }) => force !== 0) ? points : [];
@@ -66,7 +66,7 @@ class ImpactPanels {
     this.buttons = new Map();
     if (this.byForce.length < 2) return;
     const shown = this.byForce.slice(0, this.all ? mostPanels : firstPanels).sort((a, b) => a - b);
-    const hardest = page.impacts[this.byForce[0]].peak / 1e3;
+    const hardest = page.impacts[this.byForce[0]].peak * unitOf("kN").factor;
     for (const i of shown) {
       const { at, peak, contact } = page.impacts[i];
       const button = html("button", "impact-panel", undefined, this.strip);
@@ -79,7 +79,7 @@ class ImpactPanels {
       const drawing = svg("svg", { viewBox: "0 0 100 44", "aria-hidden": "true" }, button);
       svg("path", { class: "line area", style: this.colour(i), d: `M${points.map(place).join("L")}Z` }, drawing);
       html("span", "", `${fixed(at, 2)} s`, button);
-      html("span", "unit", `${readable(peak / 1e3)} kN`, button);
+      html("span", "unit", `${readable(peak * unitOf("kN").factor)} ${unitOf("kN").name}`, button);
       button.addEventListener("click", () => showImpact(page.impacts[i]));
       this.buttons.set(i, button);
     }
@@ -113,14 +113,14 @@ class ImpactPanels {
     const rank = this.byForce.indexOf(i) + 1;
     const place = contactName(contacts[impact.contact]);
     const order = this.byForce.length > 1 ? (rank === 1 ? say("the_hardest_of", { all: this.byForce.length }) : say("rank_by_force", { rank, all: this.byForce.length })) : "";
-    this.said.textContent = say("impact_at", { instant: fixed(impact.start, 3), place, force: readable(impact.peak / 1e3), order });
+    this.said.textContent = say("impact_at", { instant: fixed(impact.start, 3), place, force: readable(impact.peak * unitOf("kN").factor), order });
     for (const [other, button] of this.buttons) button.setAttribute("aria-pressed", String(other === i));
     const points = this.shapes[i];
     this.pictures.replaceChildren();
     this.dots = [this.picture(say("contact_force_over_time"), say("ms_from_first_contact"), points, "time")];
     // A force that acts at once has no indentation.
     const deep = points.filter(({ depth, force }) => depth !== null && (depth > 0 || force === 0));
-    if (deep.some(({ depth }) => depth > 0)) this.dots.push(this.picture(say("contact_force_over_indentation"), "mm", deep, "depth"));
+    if (deep.some(({ depth }) => depth > 0)) this.dots.push(this.picture(say("contact_force_over_indentation"), unitOf("mm").name, deep, "depth"));
     else html("p", "quiet", say("no_loop_at_one_instant"), this.pictures);
     this.draw(player?.time ?? 0);
   }
@@ -131,7 +131,7 @@ class ImpactPanels {
     const drawing = svg("svg", { viewBox: "0 0 320 230", role: "img", "aria-label": name }, figure);
     const most = (of) => 1.06 * Math.max(...points.map((point) => point[of]), 1e-9);
     const least = Math.min(...points.map(({ force }) => force), 0);
-    const ends = { x: [0, most(across)], y: [1.06 * least, most("force")], xUnit: unit, yUnit: "kN" };
+    const ends = { x: [0, most(across)], y: [1.06 * least, most("force")], xUnit: unit, yUnit: unitOf("kN").name };
     const { px, py, inside } = smallPlot(drawing, { width: 320, height: 230, margin: LoopChart.margin, ...ends });
     const d = `M${points.map((point) => `${px(point[across]).toFixed(1)},${py(point.force).toFixed(1)}`).join("L")}`;
     svg("path", { class: "line", style: this.colour(this.chosen), d }, inside);

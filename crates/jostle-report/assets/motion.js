@@ -10,7 +10,7 @@ if (timeHost) {
   const view = new TimeView(page.duration);
   const seek = (t) => view.setCursor(t);
   const time = ground.time;
-  const chart = (title, unit, values, factor, more = {}) =>
+  const chart = (title, { name: unit, factor }, values, more = {}) =>
     new TimeChart(timeHost, view, {
       title,
       unit,
@@ -19,10 +19,10 @@ if (timeHost) {
       series: [{ label: "", colour: "var(--c0)", time, values: scaled(values, factor) }],
       ...more,
     });
-  chart(say("acceleration_title"), "m/s²", ground.values, 1);
-  chart(say("velocity_title"), "m/s", unpack(page.velocity), 1);
-  chart(say("displacement_title"), "mm", unpack(page.displacement), 1e3);
-  chart(say("arias_intensity"), say("of_the_whole"), unpack(page.husid), 100, {
+  chart(say("acceleration_title"), unitOf("m/s²"), ground.values);
+  chart(say("velocity_title"), unitOf("m/s"), unpack(page.velocity));
+  chart(say("displacement_title"), unitOf("mm"), unpack(page.displacement));
+  chart(say("arias_intensity"), { name: say("of_the_whole"), factor: 100 }, unpack(page.husid), {
     levels: page.levels.map((level) => ({ value: 100 * level, label: `${100 * level} %` })),
   });
   element("zoom-in").addEventListener("click", () => view.zoom(0.5));
@@ -42,10 +42,10 @@ if (timeHost) {
 // --- Spectra -------------------------------------------------------------------------------------------
 
 const quantities = {
-  psa: [say("pseudo_acceleration_title"), "m/s²", 1],
-  sa: [say("total_acceleration_title"), "m/s²", 1],
-  psv: [say("pseudo_velocity_title"), "m/s", 1],
-  sd: [say("displacement_title"), "mm", 1e3],
+  psa: [say("pseudo_acceleration_title"), unitOf("m/s²")],
+  sa: [say("total_acceleration_title"), unitOf("m/s²")],
+  psv: [say("pseudo_velocity_title"), unitOf("m/s")],
+  sd: [say("displacement_title"), unitOf("mm")],
 };
 const axesOf = { semilog: { x: "log", y: "linear" }, linear: { x: "linear", y: "linear" }, log: { x: "log", y: "log" } };
 
@@ -54,7 +54,7 @@ const curves = (quantity) =>
     label: s.label,
     colour: s.bold ? "var(--ink)" : s.code ? "var(--alarm)" : colours(i),
     x: s.periods,
-    y: scaled(s[quantity] ?? [], quantities[quantity][2]),
+    y: scaled(s[quantity] ?? [], quantities[quantity][1].factor),
     dashed: s.dashed,
     bold: s.bold,
     thin: s.thin,
@@ -62,7 +62,7 @@ const curves = (quantity) =>
 const [quantity, axes] = [element("quantity"), element("axes")];
 const spectra = new SpectrumChart(element("spectra"), {
   title: quantities.psa[0],
-  unit: quantities.psa[1],
+  unit: quantities.psa[1].name,
   xUnit: "s",
   xName: "T",
   series: curves("psa"),
@@ -72,7 +72,7 @@ const spectra = new SpectrumChart(element("spectra"), {
 });
 quantity?.addEventListener("change", () => {
   const [title, unit] = quantities[quantity.value];
-  spectra.show(curves(quantity.value), title, unit);
+  spectra.show(curves(quantity.value), title, unit.name);
 });
 axes.addEventListener("change", () => spectra.setAxes(axesOf[axes.value]));
 
@@ -80,10 +80,10 @@ const fourier = element("fourier");
 if (fourier) {
   new SpectrumChart(fourier, {
     title: say("fourier_amplitude"),
-    unit: "m/s",
+    unit: unitOf("m/s").name,
     xUnit: "Hz",
     xName: "f",
-    series: [{ label: "", colour: "var(--c0)", x: page.fourier.frequency, y: page.fourier.amplitude }],
+    series: [{ label: "", colour: "var(--c0)", x: page.fourier.frequency, y: scaled(page.fourier.amplitude, unitOf("m/s").factor) }],
     axes: axesOf.log,
     height: 260,
   });

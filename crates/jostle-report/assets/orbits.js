@@ -1,12 +1,13 @@
 // Paths of corners in plan: displacement across against displacement along x, with and without contact.
 
-/** A list of values at the instants of a table for one corner: along x and across [mm]. */
+/** A list of values at the instants of a table for one corner: along x and across, in the unit of the page. */
 function cornerPath(table, building, floor, corner) {
   const plan = page.buildings[building].plans[floor - 1];
   const [u, v, r] = ["u", "v", "r"].map((name) => table.columns.get(`${name}:${building}:${floor}`));
   if (!u || !v || !r) return null;
   const [dx, dy] = [0, 1].map((axis) => plan.corners[corner][axis] - plan.centre[axis]);
-  return { x: u.map((value, i) => 1e3 * (value - r[i] * dy)), y: v.map((value, i) => 1e3 * (value + r[i] * dx)) };
+  const { factor } = unitOf("mm");
+  return { x: u.map((value, i) => factor * (value - r[i] * dy)), y: v.map((value, i) => factor * (value + r[i] * dx)) };
 }
 
 /** One path, with a list of corners to choose from. */
@@ -52,7 +53,7 @@ class Orbit {
     const [wide, tall] = [Orbit.side - margin.left - margin.right, Orbit.side - margin.top - margin.bottom];
     const x = [-reach, reach];
     const y = x.map((end) => (end * tall) / wide);
-    this.plot = smallPlot(this.svg, { width: Orbit.side, height: Orbit.side, margin, x, y, xUnit: "x [mm]", yUnit: "y [mm]" });
+    this.plot = smallPlot(this.svg, { width: Orbit.side, height: Orbit.side, margin, x, y, xUnit: `x [${unitOf("mm").name}]`, yUnit: `y [${unitOf("mm").name}]` });
     const points = ({ x, y }) => x.reduce((text, value, i) => `${text}${i ? "L" : "M"}${this.plot.px(value).toFixed(1)} ${this.plot.py(y[i]).toFixed(1)}`, "");
     if (free) svg("path", { class: "path-without", d: points(free) }, this.plot.inside);
     svg("path", { class: "path-run", d: points(this.path) }, this.plot.inside);

@@ -21,7 +21,9 @@ function contactName(contact) {
 
 function groundChart() {
   const series = [{ label: say("ground"), colour: "var(--ink-2)", ...ground }];
-  return { title: say("ground_acceleration_title"), unit: "m/s²", series, height: 150 };
+  const { name, factor } = unitOf("m/s²");
+  for (const own of series) own.values = scaled(own.values, factor);
+  return { title: say("ground_acceleration_title"), unit: name, series, height: 150 };
 }
 
 /** The contacts of the chart of forces, at most as many as there are colours, the highest first. */
@@ -36,31 +38,32 @@ function forceChart() {
     label: contactName(contact),
     colour: `var(--f${i})`,
     time: forces[contact.index].time,
-    values: scaled(forces[contact.index].values, 1e-3),
+    values: scaled(forces[contact.index].values, unitOf("kN").factor),
   }));
   const title = struck.length > shown.length ? say("contact_force_of_some", { shown: shown.length, struck: struck.length }) : say("contact_force_title");
-  return { title, unit: "kN", series };
+  return { title, unit: unitOf("kN").name, series };
 }
 
 /** Every impact at its instant and height, with an area as its peak force; a click goes there. */
 function heightChart() {
+  const height = unitOf("m");
   const hardest = Math.max(...page.impacts.map((impact) => impact.peak));
   const coloured = contactColours();
   const dots = page.impacts.map((impact) => {
     const contact = contacts[impact.contact];
     return {
       at: impact.at,
-      value: contact.height,
+      value: contact.height * height.factor,
       size: Number((1.5 + 8.5 * Math.sqrt(impact.peak / hardest)).toFixed(1)),
       colour: coloured.get(contact.index) ?? "var(--ink-2)",
-      title: say("impact_in_words", { instant: fixed(impact.at, 3), contact: contactName(contact), force: readable(impact.peak / 1e3) }),
+      title: say("impact_in_words", { instant: fixed(impact.at, 3), contact: contactName(contact), force: readable(impact.peak * unitOf("kN").factor) }),
       pick: () => showImpact(impact),
     };
   });
   const roofs = new Map();
   for (const { name, heights } of page.buildings) roofs.set(heights.at(-1), [...(roofs.get(heights.at(-1)) ?? []), name]);
-  const levels = [...roofs].map(([value, names]) => ({ value, label: say("roof_of_names", { names: names.join(", ") }), quiet: true }));
-  return { title: say("height_of_impacts"), unit: "m", series: [], levels, dots };
+  const levels = [...roofs].map(([roof, names]) => ({ value: roof * height.factor, label: say("roof_of_names", { names: names.join(", ") }), quiet: true }));
+  return { title: say("height_of_impacts"), unit: height.name, series: [], levels, dots };
 }
 
 const energyNames = {
@@ -79,7 +82,9 @@ function energyChart() {
   const input = run.columns.get("e:input");
   if (!terms.length || !input) return null;
   const largest = greatest(input);
-  const [factor, unit] = largest >= 1e6 ? [1e-6, "MJ"] : largest >= 1e3 ? [1e-3, "kJ"] : [1, "J"];
+  const kilojoules = unitOf("kJ");
+  const prefixed = largest >= 1e6 ? [1e-6, "MJ"] : largest >= 1e3 ? [1e-3, "kJ"] : [1, "J"];
+  const [factor, unit] = kilojoules.name === "kJ" ? prefixed : [kilojoules.factor, kilojoules.name];
   let pile = new Float64Array(run.time.length);
   const series = terms.map((term) => {
     const own = scaled(run.columns.get(`e:${term}`), factor);
@@ -116,17 +121,18 @@ function contactCharts(contact) {
     return { building, name, run: of(run), without: of(without) };
   });
   if (sides.some((side) => !side.run)) return [];
+  const length = unitOf("mm");
   const series = [];
   const moving = sides.filter((side) => side.building !== null);
   for (const side of moving) {
-    series.push({ label: side.name, colour: colours(side.building), time: run.time, values: scaled(side.run, 1e3) });
+    series.push({ label: side.name, colour: colours(side.building), time: run.time, values: scaled(side.run, length.factor) });
   }
   for (const side of moving.filter((s) => s.without)) {
-    const values = scaled(side.without, 1e3);
+    const values = scaled(side.without, length.factor);
     series.push({ label: say("name_without", { name: side.name }), colour: colours(side.building), time: without.time, values, dashed: true });
   }
   // Between floors columns bend, so the run itself says how far they close.
-  const closing = (table, [left, right]) => scaled(table.columns.get(`c:${contact.index}`) ?? left.map((u, i) => u - right[i]), 1e3);
+  const closing = (table, [left, right]) => scaled(table.columns.get(`c:${contact.index}`) ?? left.map((u, i) => u - right[i]), length.factor);
   const closings = [
     { label: say("closing"), colour: "var(--ink)", time: run.time, values: closing(run, sides.map((s) => s.run)) },
   ];
@@ -134,21 +140,21 @@ function contactCharts(contact) {
     const values = closing(without, sides.map((s) => s.without));
     closings.push({ label: say("without"), colour: "var(--ink-2)", time: without.time, values, dashed: true });
   }
-  const width = contact.width * 1e3;
+  const width = contact.width * length.factor;
   const levels = [{ value: width, label: say("gap_width", { width: readableLength(contact.width) }) }];
   const name = contactName(contact);
   const bent = moving.some((side) => contact.floors[sides.indexOf(side)] === null);
   return [
-    { title: (contact.plan ? say("displacement_along_the_normal_of", { name }) : say("displacement_of_contact", { name })) + (bent ? say("straight_lines_between_floors") : ""), unit: "mm", series },
-    { title: say("closing_of", { name }), unit: "mm", series: closings, levels, zone: width },
+    { title: (contact.plan ? say("displacement_along_the_normal_of", { name }) : say("displacement_of_contact", { name })) + (bent ? say("straight_lines_between_floors") : ""), unit: length.name, series },
+    { title: say("closing_of", { name }), unit: length.name, series: closings, levels, zone: width },
   ];
 }
 
 /** What a floor does over time: displacements, and of floors with a plan rotation. */
 const FLOOR_CHARTS = [
-  ["u", say("displacement_title"), "mm"],
-  ["v", say("displacement_across_title"), "mm"],
-  ["r", say("rotation_title"), "mrad"],
+  ["u", say("displacement_title"), unitOf("mm")],
+  ["v", say("displacement_across_title"), unitOf("mm")],
+  ["r", say("rotation_title"), { name: "mrad", factor: 1e3 }],
 ];
 
 const floorCharts = (building, floor) => FLOOR_CHARTS.flatMap((chart) => floorChart(building, floor, chart));
@@ -159,12 +165,12 @@ function floorChart(building, floor, [letter, quantity, unit]) {
   if (!values) return [];
   const { name } = page.buildings[building];
   const where = floor ? say("floor_one", { one: floor }) : say("mat");
-  const series = [{ label: name, colour: colours(building), time: run.time, values: scaled(values, 1e3) }];
+  const series = [{ label: name, colour: colours(building), time: run.time, values: scaled(values, unit.factor) }];
   if (without && page.gaps.length) {
-    const free = scaled(without.columns.get(column) ?? new Float64Array(), 1e3);
+    const free = scaled(without.columns.get(column) ?? new Float64Array(), unit.factor);
     if (free.length) series.push({ label: say("without"), colour: colours(building), time: without.time, values: free, dashed: true });
   }
-  return [{ title: `${quantity}, ${name}, ${where}`, unit, series }];
+  return [{ title: `${quantity}, ${name}, ${where}`, unit: unit.name, series }];
 }
 
 /** Charts in a host, one for each description; those that are there take the new data over. */

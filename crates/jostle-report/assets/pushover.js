@@ -26,6 +26,9 @@ function between(list, value) {
 
 const fixed = (value, decimals) => value.toFixed(decimals).replace("-", "−");
 
+/** An SI value in a unit, with its name. */
+const inUnit = (value, { name, factor, least }, decimals) => `${fixed(value * factor, Math.max(decimals, least))} ${name}`;
+
 const frame = { left: 70, top: 24, width: 380, height: 400 };
 const side = { left: 520, width: 180 };
 
@@ -169,7 +172,7 @@ class PushView {
     });
     this.profile.setAttribute("d", path);
     this.said.textContent = building.hinges.length ? say("hinges_so_far", { cracked: cracked - yielded, yielded, all: building.hinges.length }) : say("no_hinges");
-    this.find("now").textContent = `${fixed(1000 * roof, 1)} mm (${fixed((100 * roof) / building.height, 3)} %), ${fixed(shear / 1e3, 0)} kN`;
+    this.find("now").textContent = `${inUnit(roof, unitOf("mm"), 1)} (${fixed((100 * roof) / building.height, 3)} %), ${inUnit(shear, unitOf("kN"), 0)}`;
     this.find("factor").textContent = `${factor}×`;
     const chart = building.chart;
     this.here.setAttribute("cx", chart.left + roof * chart.x);

@@ -208,7 +208,7 @@ class Scene {
   drawDimensions(building, i) {
     const back = this.back;
     const mark = 3.5;
-    const metres = (value) => `${Number(value.toPrecision(4))}`;
+    const metres = (value) => `${Number((value * unitOf("m").factor).toPrecision(4))}`;
     if (building.frame) {
       const y = this.base + 16 + this.pit;
       let x = this.left[i];
@@ -216,7 +216,7 @@ class Scene {
       for (const span of [0, ...building.spans]) {
         x += span;
         path += `M${(this.px(x) - mark).toFixed(1)},${y + mark}l${2 * mark},${-2 * mark}`;
-        const text = `${metres(span)} m`;
+        const text = `${metres(span)} ${unitOf("m").name}`;
         if (span * this.scale < 6.2 * text.length) continue;
         const label = { class: "dimension-name", x: this.px(x - span / 2), y: y + 12, "text-anchor": "middle" };
         svg("text", label, back).textContent = text;
@@ -242,7 +242,7 @@ class Scene {
     };
     const equal = storeys.every((storey) => Math.abs(storey - storeys[0]) < 1e-6);
     const middle = (foot + roof) / 2;
-    if (equal) write(storeys.length > 1 ? `${storeys.length} × ${metres(storeys[0])} m = ${metres(roof - foot)} m` : `${metres(roof - foot)} m`, middle);
+    if (equal) write(storeys.length > 1 ? `${storeys.length} × ${metres(storeys[0])} ${unitOf("m").name} = ${metres(roof - foot)} ${unitOf("m").name}` : `${metres(roof - foot)} ${unitOf("m").name}`, middle);
     else if (storeys.every((storey) => storey * this.scale > 24)) storeys.forEach((storey, k) => write(`${metres(storey)}`, heights[k] + storey / 2));
     else write(say("roof_and_storeys", { height: metres(roof - foot), storeys: storeys.length }), middle);
   }
@@ -383,7 +383,7 @@ class Scene {
     const [first, last] = this.outer(i, heights.length - 1);
     part.sway.setAttribute("x", this.px((first + last) / 2));
     part.sway.setAttribute("y", this.py(heights[heights.length - 1]) - 12);
-    part.sway.textContent = `${fixed(roof * 1e3, 1)} mm`;
+    part.sway.textContent = inUnit(roof, unitOf("mm"), 1);
   }
 
   /** Braces as lines between joints, infill panels as shaded bays. */
@@ -533,7 +533,7 @@ function levelsOf(building) {
   return [0, ...building.heights].map((height) => height + (building.elevation ?? 0));
 }
 
-/** A length in mm without needless decimals. */
+/** A length of the order of a gap without needless decimals. */
 function readableLength(metres) {
-  return `${Number((metres * 1e3).toPrecision(4))} mm`;
+  return `${Number((metres * unitOf("mm").factor).toPrecision(4))} ${unitOf("mm").name}`;
 }

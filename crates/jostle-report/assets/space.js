@@ -418,7 +418,7 @@ class SpaceScene {
       this.line([this.at(onA), this.at(slipped)], { stroke: this.ink, width: 3 });
       const [x, y] = this.at(onB);
       this.dot(x, y, 4);
-      labels.push([`${readable(force / 1e3)} kN`, x, y]);
+      labels.push([`${readable(force * unitOf("kN").factor)} ${unitOf("kN").name}`, x, y]);
     });
     if (!this.lettered) return;
     // Below each other where they would overlap.

@@ -75,7 +75,11 @@ pub(crate) fn curves(index: usize, building: &Building) -> Markup {
 
 /// Rule, cracking and yield: "peak-oriented; cracks at 80 to 95 kN·m, yields at 250 to 300 kN·m".
 fn words(springs: &[Hysteresis], storeys: bool) -> String {
-    let unit = if storeys { "kN" } else { "kN·m" };
+    let shown = if storeys {
+        format::FORCE
+    } else {
+        format::MOMENT
+    };
     let mut rules: Vec<&str> = springs.iter().map(|spring| spring.rule().name()).collect();
     rules.dedup();
     let differ = springs
@@ -97,7 +101,7 @@ fn words(springs: &[Hysteresis], storeys: bool) -> String {
                 let (low, high) = forces.fold((f64::INFINITY, 0.0_f64), |(low, high), force| {
                     (low.min(force), high.max(force))
                 });
-                let [low, high] = [low, high].map(|force| format::significant(force * 1e-3, 3));
+                let [low, high] = [low, high].map(|force| format::significant(shown.of(force), 3));
                 if low == high {
                     low
                 } else {
@@ -109,7 +113,7 @@ fn words(springs: &[Hysteresis], storeys: bool) -> String {
                 (true, Side::Positive) => " (+)",
                 (true, Side::Negative) => " (−)",
             };
-            message::cracks_at_yields(of(false), of(true), unit, sign)
+            message::cracks_at_yields(of(false), of(true), shown.name(), sign)
         })
         .collect();
     format!("{}: {}", rules.join(", "), sides.join("; "))
@@ -140,26 +144,33 @@ fn picture(building: usize, name: &str, springs: &[Hysteresis], storeys: bool) -
             .flatten()
             .map(|point| point[1].abs())
             .fold(1e-12, f64::max);
-    let (deformation, force) = if storeys {
-        ("mm", "kN")
+    let forces = if storeys {
+        format::FORCE
     } else {
-        ("mrad", "kN·m")
+        format::MOMENT
     };
+    let force = forces.name();
+    // Radians as milliradians.
+    let (deformation, milli) = match storeys {
+        true => (format::LENGTH.name(), format::LENGTH.size()),
+        false => ("mrad", 1e-3),
+    };
+    let per_milli = 1.0 / milli;
     let x = |d: f64| LEFT + (d + reach) / (2.0 * reach) * (WIDTH - LEFT - RIGHT);
     let y = |f: f64| HEIGHT - BOTTOM - (f + high) / (2.0 * high) * (HEIGHT - TOP - BOTTOM);
     let px = |value: f64| format!("{value:.1}");
-    let (xs, x_decimals) = crate::envelope::ticks(-reach * 1e3, reach * 1e3, 5.0);
-    let (ys, y_decimals) = crate::envelope::ticks(-high * 1e-3, high * 1e-3, 4.0);
+    let (xs, x_decimals) = crate::envelope::ticks(-reach * per_milli, reach * per_milli, 5.0);
+    let (ys, y_decimals) = crate::envelope::ticks(-forces.of(high), forces.of(high), 4.0);
     html! {
         svg viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) role="img" aria-label=(message::name_force_over_deformation(name, force, deformation)) {
             g.grid {
                 @for value in &xs {
-                    line x1=(px(x(value * 1e-3))) x2=(px(x(value * 1e-3))) y1=(px(TOP)) y2=(px(HEIGHT - BOTTOM)) class=[(*value == 0.0).then_some("zero")] {}
-                    text x=(px(x(value * 1e-3))) y=(px(HEIGHT - BOTTOM + 14.0)) text-anchor="middle" { (format::fixed(*value, x_decimals)) }
+                    line x1=(px(x(value * milli))) x2=(px(x(value * milli))) y1=(px(TOP)) y2=(px(HEIGHT - BOTTOM)) class=[(*value == 0.0).then_some("zero")] {}
+                    text x=(px(x(value * milli))) y=(px(HEIGHT - BOTTOM + 14.0)) text-anchor="middle" { (format::fixed(*value, x_decimals)) }
                 }
                 @for value in &ys {
-                    line x1=(px(LEFT)) x2=(px(WIDTH - RIGHT)) y1=(px(y(value * 1e3))) y2=(px(y(value * 1e3))) class=[(*value == 0.0).then_some("zero")] {}
-                    text x=(px(LEFT - 5.0)) y=(px(y(value * 1e3) + 3.5)) text-anchor="end" { (format::fixed(*value, y_decimals)) }
+                    line x1=(px(LEFT)) x2=(px(WIDTH - RIGHT)) y1=(px(y(value * forces.size()))) y2=(px(y(value * forces.size()))) class=[(*value == 0.0).then_some("zero")] {}
+                    text x=(px(LEFT - 5.0)) y=(px(y(value * forces.size()) + 3.5)) text-anchor="end" { (format::fixed(*value, y_decimals)) }
                 }
                 text x=(px(WIDTH - RIGHT)) y=(px(HEIGHT - 4.0)) text-anchor="end" { (deformation) }
                 text x=(px(LEFT + 4.0)) y=(px(TOP + 10.0)) { (force) }

@@ -10,8 +10,8 @@ pub(crate) fn section(page: &Page) -> Markup {
     let Some(found) = &page.summary.isolation_bounds else {
         return html! {};
     };
-    let millimetres = |value: f64| format::significant(1e3 * value, 4);
-    let kilonewtons = |value: f64| format::significant(1e-3 * value, 4);
+    let millimetres = |value: f64| format::significant(format::LENGTH.of(value), 4);
+    let kilonewtons = |value: f64| format::significant(format::FORCE.of(value), 4);
     let percent = |value: f64| format::fixed(100.0 * value, 2);
     html! {
         section #bounds {

@@ -47,6 +47,14 @@ impl Across {
         }
     }
 
+    /// Size of the unit of the axis \[SI\].
+    fn unit(self) -> f64 {
+        match self {
+            Self::Time => 1e-3,
+            Self::Indentation => format::LENGTH.size(),
+        }
+    }
+
     fn label(self) -> &'static str {
         match self {
             Self::Time => message::time_ms(),
@@ -76,7 +84,7 @@ pub fn render_collisions(collisions: &Collisions) -> String {
     let title = message::against_at_m_s(
         format::tonnes(m1),
         format::tonnes(m2),
-        format::plain(collisions.speed, 3),
+        format::plain(format::SPEED.of(collisions.speed), 3),
     );
     let page = html! {
         (DOCTYPE)
@@ -122,12 +130,12 @@ pub fn render_collisions(collisions: &Collisions) -> String {
 fn table(collisions: &Collisions) -> Markup {
     let columns = [
         (message::realised_e(), "–"),
-        (message::peak_force(), "kN"),
-        (message::indentation(), "mm"),
+        (message::peak_force(), format::FORCE.name()),
+        (message::indentation(), format::LENGTH.name()),
         (message::duration(), "ms"),
-        (message::dissipated(), "kJ"),
-        (message::impulse(), "kN·s"),
-        (message::separation_speed(), "m/s"),
+        (message::dissipated(), format::ENERGY.name()),
+        (message::impulse(), format::IMPULSE.name()),
+        (message::separation_speed(), format::SPEED.name()),
     ];
     html! {
         div.scroll { table {
@@ -140,12 +148,12 @@ fn table(collisions: &Collisions) -> Markup {
                     tr {
                         td { (law.kind.full_name()) }
                         td.number { (format::fixed(collision.realised_restitution(), 4)) }
-                        td.number { (collision.peak_force.map_or(format::NOTHING.into(), |force| format::significant(force / 1e3, 4))) }
-                        td.number { (format::significant(collision.peak_indentation * 1e3, 4)) }
+                        td.number { (collision.peak_force.map_or(format::NOTHING.into(), |force| format::significant(format::FORCE.of(force), 4))) }
+                        td.number { (format::significant(format::LENGTH.of(collision.peak_indentation), 4)) }
                         td.number { (format::significant(collision.duration * 1e3, 4)) }
-                        td.number { (format::significant(collision.dissipated / 1e3, 4)) }
-                        td.number { (format::significant(collision.impulse / 1e3, 4)) }
-                        td.number { (format::significant(collision.separation_speed, 4)) }
+                        td.number { (format::significant(format::ENERGY.of(collision.dissipated), 4)) }
+                        td.number { (format::significant(format::IMPULSE.of(collision.impulse), 4)) }
+                        td.number { (format::significant(format::SPEED.of(collision.separation_speed), 4)) }
                     }
                 }
             }
@@ -284,25 +292,28 @@ fn panel(
         points.dedup();
         format!("M{}", points.join("L"))
     };
-    let (step_x, step_y) = (tick(extent.across * 1e3), tick(extent.force / 1e3));
+    let (step_x, step_y) = (
+        tick(extent.across / across.unit()),
+        tick(format::FORCE.of(extent.force)),
+    );
     let marks = |step: f64, from: f64, to: f64| {
         let (low, high) = ((from / step).ceil() as i64, (to / step).floor() as i64);
         (low..=high).map(move |i| i as f64 * step)
     };
     html! {
         g.grid {
-            @for kn in marks(step_y, extent.least / 1e3, extent.force / 1e3) {
-                @let y = place(0.0, kn * 1e3)[1];
+            @for kn in marks(step_y, format::FORCE.of(extent.least), format::FORCE.of(extent.force)) {
+                @let y = place(0.0, kn * format::FORCE.size())[1];
                 line.zero[kn == 0.0] x1=(left) x2=(left + width) y1=(format!("{y:.1}")) y2=(format!("{y:.1}")) {}
                 text x=(left - 6.0) y=(format!("{:.1}", y + 4.0)) text-anchor="end" { (format::plain(kn, 3)) }
             }
-            @for milli in marks(step_x, 0.0, extent.across * 1e3) {
-                @let x = place(milli / 1e3, 0.0)[0];
+            @for milli in marks(step_x, 0.0, extent.across / across.unit()) {
+                @let x = place(milli * across.unit(), 0.0)[0];
                 line x1=(format!("{x:.1}")) x2=(format!("{x:.1}")) y1=(top) y2=(top + height) {}
                 text x=(format!("{x:.1}")) y=(top + height + 15.0) text-anchor="middle" { (format::plain(milli, 3)) }
             }
             text x=(left + width) y=(PANEL[1] - 3.0) text-anchor="end" { (across.label()) }
-            text x=(left - 6.0) y=(PANEL[1] - 3.0) text-anchor="end" { "kN" }
+            text x=(left - 6.0) y=(PANEL[1] - 3.0) text-anchor="end" { (format::FORCE.name()) }
         }
         @if let Some(elastic) = elastic {
             path class="line dashed" style="--c:var(--ink-2)" d=(path(elastic, false)) {}

@@ -122,13 +122,17 @@ pub fn render_comparison(page: &ComparisonPage) -> String {
     markup.into_string()
 }
 
-/// Unit in which a history is shown, and its size.
+/// Unit in which a history is shown, and how many of it make up one of the SI unit.
 fn shown(unit: &str, peak: f64) -> (&str, f64) {
-    match unit {
-        "m" if peak < 1.0 => ("mm", 1e3),
-        "N" => ("kN", 1e-3),
-        _ => (unit, 1.0),
-    }
+    let own = match unit {
+        "m" if peak < 1.0 => format::LENGTH,
+        "m" => format::HEIGHT,
+        "N" => format::FORCE,
+        "m/s" => format::SPEED,
+        "m/s²" => format::ACCELERATION,
+        _ => return (unit, 1.0),
+    };
+    (own.name(), own.of(1.0))
 }
 
 fn number(value: Option<f64>, digits: usize) -> String {

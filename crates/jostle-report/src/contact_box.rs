@@ -41,37 +41,37 @@ pub(crate) fn contact_boxes(page: &Page) -> Markup {
                             th scope="col" { (message::gap()) }
                             th scope="col" { (message::law()) }
                             th.number scope="col" { (message::stiffness_used()) br; span.unit { (message::stiffness_units()) } }
-                            th.number scope="col" { (message::hertz_effective_radius()) br; span.unit { "[N/m^1.5]" } }
-                            th.number scope="col" { (message::plausible_range()) br; span.unit { "[N/m^1.5]" } }
+                            th.number scope="col" { (message::hertz_effective_radius()) br; span.unit { (format::HERTZ_STIFFNESS.bracketed()) } }
+                            th.number scope="col" { (message::plausible_range()) br; span.unit { (format::HERTZ_STIFFNESS.bracketed()) } }
                             th.number scope="col" { (message::restitution_used()) }
                             th.number scope="col" { (message::plausible_range()) }
-                            th.number scope="col" { (message::masses()) br; span.unit { "[t]" } }
-                            th.number scope="col" { (message::greatest_impact_speed()) br; span.unit { "[m/s]" } }
+                            th.number scope="col" { (message::masses()) br; span.unit { (format::MASS.bracketed()) } }
+                            th.number scope="col" { (message::greatest_impact_speed()) br; span.unit { (format::SPEED.bracketed()) } }
                         } }
                         tbody {
                             @for row in boxes {
                                 tr {
                                     th scope="row" { (row.between[0]) " – " (row.between[1]) }
                                     td { (row.law) }
-                                    td.number { (power(row.stiffness)) }
-                                    td.number { (power(row.hertz[0])) }
-                                    td.number { (power(row.hertz[1])) " – " (power(row.hertz[2])) }
+                                    td.number { (power(row.is_hertzian, row.stiffness)) }
+                                    td.number { (power(true, row.hertz[0])) }
+                                    td.number { (power(true, row.hertz[1])) " – " (power(true, row.hertz[2])) }
                                     td.number { (row.restitution.map_or(format::NOTHING.into(), |e| format::plain(e, 3))) }
                                     td.number { (format::plain(row.restitution_range[0], 2)) " – " (format::plain(row.restitution_range[1], 2)) }
                                     td.number {
                                         @for (side, mass) in row.masses.iter().enumerate() {
                                             @if side > 0 { " / " }
-                                            (mass.map_or(message::wall().into(), |mass| format::significant(1e-3 * mass, 3)))
+                                            (mass.map_or(message::wall().into(), |mass| format::significant(format::MASS.of(mass), 3)))
                                         }
                                     }
-                                    td.number { (row.impact_speed.map_or(format::NOTHING.into(), |speed| format::significant(speed, 3))) }
+                                    td.number { (row.impact_speed.map_or(format::NOTHING.into(), |speed| format::significant(format::SPEED.of(speed), 3))) }
                                 }
                             }
                         }
                     }
                 }
                 p.quiet {
-                    (message::hertz_k_4_3_h()) " "
+                    (message::hertz_k_4_3_h(format::MODULUS.text(30e9, 0))) " "
                     code { "jostle run --sensitivity" } " " (message::repeats_the_run_with_half()) " "
                     code { "jostle contact-advice" } " " (message::adds_the_axial_stiffness())
                     @if boxes.iter().any(|row| !row.is_hertzian) {
@@ -83,6 +83,10 @@ pub(crate) fn contact_boxes(page: &Page) -> Markup {
     }
 }
 
-fn power(value: f64) -> String {
-    format!("{value:.2e}")
+fn power(hertzian: bool, value: f64) -> String {
+    let unit = match hertzian {
+        true => format::HERTZ_STIFFNESS,
+        false => format::STIFFNESS,
+    };
+    format!("{:.2e}", unit.of(value))
 }

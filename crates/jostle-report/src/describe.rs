@@ -56,13 +56,16 @@ fn building(
         message::storeys(),
         message::of_m_m_high(
             building.floors(),
-            grouped(building.storey_heights(), |h| format::plain(h, 3)),
-            format::plain(heights.last().copied().unwrap_or(0.0), 4),
+            grouped(building.storey_heights(), |h| {
+                format::plain(format::HEIGHT.of(h), 3)
+            }),
+            format::plain(format::HEIGHT.of(heights.last().copied().unwrap_or(0.0)), 4),
         ),
     )];
     let elevation = building.base.elevation;
     if elevation != 0.0 {
-        let text = format!("{} m", format::plain(elevation, 4));
+        let own = format::HEIGHT;
+        let text = format!("{} {}", format::plain(own.of(elevation), 4), own.name());
         facts.push((message::elevation_of_the_base(), text));
     }
     match &building.structure {
@@ -130,7 +133,10 @@ fn building(
                 (own.rocking_stiffness_n_m_rad, "N·m/rad"),
                 (own.rocking_damping_n_m_s_rad, "N·m·s/rad"),
             ];
-            let parts = parts.map(|(value, unit)| format::unit(format::plain(value, 4), unit));
+            let parts = parts.map(|(value, unit)| {
+                let (factor, unit) = format::factor_of(unit);
+                format::unit(format::plain(factor * value, 4), unit)
+            });
             facts.push((message::springs_and_dashpots(), parts.join(", ")));
         }
         if summary.hinges.cracked + summary.hinges.yielded > 0 {
@@ -173,10 +179,11 @@ fn frame_facts(frame: &Frame, facts: &mut Facts) {
     let spans: Vec<String> = frame
         .spans
         .iter()
-        .map(|span| format::plain(*span, 3))
+        .map(|span| format::plain(format::HEIGHT.of(*span), 3))
         .collect();
     if !spans.is_empty() {
-        facts.push((message::spans(), format!("{} m", spans.join(" + "))));
+        let unit = format::HEIGHT.name();
+        facts.push((message::spans(), format!("{} {unit}", spans.join(" + "))));
     }
     let storeys = frame.storey_heights.len();
     let columns = |value: fn(&jostle::Section) -> f64| {
@@ -207,9 +214,11 @@ fn frame_facts(frame: &Frame, facts: &mut Facts) {
         message::line_mass(),
         message::columns_beams_kg_m(
             by_place(storeys, columns(|own| own.line_mass), |m| {
-                format::plain(m, 4)
+                format::plain(format::LINE_MASS.of(m), 4)
             }),
-            grouped(&frame.beam_mass, |m| format::plain(m, 4)),
+            grouped(&frame.beam_mass, |m| {
+                format::plain(format::LINE_MASS.of(m), 4)
+            }),
         ),
     ));
     if frame.floor_mass.iter().any(|mass| *mass > 0.0) {
@@ -257,9 +266,14 @@ fn tiers_facts(tiers: &jostle::Tiers, facts: &mut Facts) {
                 .frame
                 .spans
                 .iter()
-                .map(|span| format::plain(*span, 3))
+                .map(|span| format::plain(format::HEIGHT.of(*span), 3))
                 .collect();
-            format!("{} ({} m)", frame.name, spans.join(" + "))
+            format!(
+                "{} ({} {})",
+                frame.name,
+                spans.join(" + "),
+                format::HEIGHT.name()
+            )
         });
         facts.push((
             message::frames_spans(),
@@ -268,8 +282,13 @@ fn tiers_facts(tiers: &jostle::Tiers, facts: &mut Facts) {
     }
     if let Some(frame) = &tiers.space_frame {
         let lines = |lines: &[f64]| -> String {
-            let all = lines.iter().map(|line| format::plain(*line, 4));
-            format!("{} m", all.collect::<Vec<_>>().join(", "))
+            let all = lines.iter();
+            let all = all.map(|line| format::plain(format::HEIGHT.of(*line), 4));
+            format!(
+                "{} {}",
+                all.collect::<Vec<_>>().join(", "),
+                format::HEIGHT.name()
+            )
         };
         facts.push((message::grid_lines_at_x(), lines(&frame.lines_x)));
         facts.push((message::grid_lines_at_y(), lines(&frame.lines_y)));
@@ -304,7 +323,8 @@ fn tiers_facts(tiers: &jostle::Tiers, facts: &mut Facts) {
     }
     let torsion = storeys.iter().map(|storey| storey.stiffness[2]);
     let torsion: Vec<f64> = torsion.collect();
-    let unit = |value: f64| format!("{}\u{a0}MN·m/rad", format::plain(value / 1e6, 4));
+    let own = format::ROTATIONAL_STIFFNESS;
+    let unit = |value: f64| format::unit(format::plain(own.of(value), 4), own.name());
     facts.push((message::torsional_stiffness(), grouped(&torsion, unit)));
 }
 
@@ -356,18 +376,14 @@ fn link(link: &Link, summary: &LinkSummary) -> Facts {
     if link.stiffness > 0.0 {
         facts.push((
             message::stiffness_of_each(),
-            format!("{} N/m", format::plain(link.stiffness, 3)),
+            format::exact(link.stiffness, "N/m"),
         ));
     }
     if link.damping > 0.0 {
-        let unit = if summary.exponent == 1.0 {
-            "N·s/m".to_owned()
-        } else {
-            format!("N·(s/m)^{}", summary.exponent)
-        };
+        let (value, unit) = format::dashpot(link.damping, summary.exponent);
         facts.push((
             message::damping_of_each(),
-            format!("{} {unit}", format::plain(link.damping, 3)),
+            format!("{} {unit}", format::plain(value, 3)),
         ));
     }
     facts.push((message::peak_force(), format::force(summary.peak_force_n)));
@@ -377,9 +393,9 @@ fn link(link: &Link, summary: &LinkSummary) -> Facts {
     ));
     facts.push((
         message::dissipated(),
-        format!(
-            "{}\u{a0}kJ",
-            format::significant(summary.dissipated_j / 1e3, 3)
+        format::unit(
+            format::significant(format::ENERGY.of(summary.dissipated_j), 3),
+            format::ENERGY.name(),
         ),
     ));
     facts
@@ -402,10 +418,7 @@ fn contact(gap: &Gap, summary: &GapSummary) -> Facts {
         ),
         (message::can_touch(), places(&gap.floors)),
         (message::contact_law(), law.kind.name().into()),
-        (
-            message::stiffness(),
-            format!("{} {unit}", format::plain(law.stiffness, 3)),
-        ),
+        (message::stiffness(), format::exact(law.stiffness, unit)),
     ];
     facts.extend(constants(law));
     if law.kind.uses_restitution() {
@@ -438,13 +451,12 @@ fn contact(gap: &Gap, summary: &GapSummary) -> Facts {
 
 /// Constants that the law states instead of a coefficient of restitution.
 fn constants(law: &ContactLaw) -> Facts {
-    let exact = |value: f64, unit: &str| format!("{} {unit}", format::plain(value, 3));
     match law.kind {
-        LawKind::Dashpot(own) => vec![(message::dashpot(), exact(own.damping, "N·s/m"))],
+        LawKind::Dashpot(own) => vec![(message::dashpot(), format::exact(own.damping, "N·s/m"))],
         LawKind::BilinearGiven(own) => vec![
             (
                 message::second_stiffness(),
-                exact(own.second_stiffness, "N/m"),
+                format::exact(own.second_stiffness, "N/m"),
             ),
             (
                 message::yield_indentation(),
@@ -453,7 +465,7 @@ fn constants(law: &ContactLaw) -> Facts {
         ],
         LawKind::Formula(own) => vec![(message::contact_force_formula(), own.to_string())],
         LawKind::Crushing(own) => vec![
-            (message::crushing_force(), exact(own.force, "N")),
+            (message::crushing_force(), format::exact(own.force, "N")),
             (
                 message::crushing_hardening(),
                 format::plain(own.hardening, 3),

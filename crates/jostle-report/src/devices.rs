@@ -250,7 +250,14 @@ fn name(summary: &LinkSummary, floor: &LinkFloorSummary) -> String {
     let place = match floor.floors {
         [Some(left), Some(right)] => message::floors_left_right(left, right),
         [Some(one), None] | [None, Some(one)] => message::floor_one(one),
-        [None, None] => format!("{} m", format::plain(floor.height_m, 3)),
+        [None, None] => {
+            let own = format::HEIGHT;
+            format!(
+                "{} {}",
+                format::plain(own.of(floor.height_m), 3),
+                own.name()
+            )
+        }
     };
     format!("{pair}, {place}, {}", summary.law)
 }
@@ -345,13 +352,13 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
 
 fn columns() -> [(&'static str, &'static str); 7] {
     [
-        (message::peak_force(), "kN"),
-        (message::stroke(), "mm"),
-        (message::capacity(), "mm"),
+        (message::peak_force(), format::FORCE.name()),
+        (message::stroke(), format::LENGTH.name()),
+        (message::capacity(), format::LENGTH.name()),
         (message::used(), "%"),
-        (message::peak_speed(), "m/s"),
-        (message::residual(), "mm"),
-        (message::dissipated(), "kJ"),
+        (message::peak_speed(), format::SPEED.name()),
+        (message::residual(), format::LENGTH.name()),
+        (message::dissipated(), format::ENERGY.name()),
     ]
 }
 
@@ -416,8 +423,8 @@ type Row = (String, [String; 7]);
 
 /// Rows of the table, and how many there would be.
 fn rows(page: &Page) -> (Vec<Row>, usize) {
-    let milli = |value: f64| format::significant(value * 1e3, 3);
-    let kilo = |value: f64| format::significant(value * 1e-3, 3);
+    let milli = |value: f64| format::significant(format::LENGTH.of(value), 3);
+    let kilo = |value: f64| format::significant(format::FORCE.of(value), 3);
     let none = || format::NOTHING.to_owned();
     let mut rows = Vec::new();
     for (index, isolation, result) in isolated(page) {

@@ -4,6 +4,7 @@ use jostle::model::{Building, Frame, Structure};
 use jostle::results::summary::{BuildingSummary, MemberSummary};
 use maud::{Markup, html};
 
+use crate::format::Shown;
 use crate::message;
 use crate::{Page, format};
 
@@ -25,11 +26,11 @@ enum Force {
 }
 
 impl Force {
-    fn all() -> [(Self, &'static str, &'static str); 3] {
+    fn all() -> [(Self, &'static str, Shown); 3] {
         [
-            (Self::Axial, message::axial_force(), "kN"),
-            (Self::Shear, message::shear_title(), "kN"),
-            (Self::Moment, message::moment_title(), "kN·m"),
+            (Self::Axial, message::axial_force(), format::FORCE),
+            (Self::Shear, message::shear_title(), format::FORCE),
+            (Self::Moment, message::moment_title(), format::MOMENT),
         ]
     }
 }
@@ -191,7 +192,7 @@ fn sums(parts: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-fn picture(frame: &Frame, index: usize, title: &str, unit: &str, members: &[Drawn]) -> Markup {
+fn picture(frame: &Frame, index: usize, title: &str, unit: Shown, members: &[Drawn]) -> Markup {
     let (width, height) = (
         frame.spans.iter().sum::<f64>(),
         frame.storey_heights.iter().sum::<f64>(),
@@ -232,7 +233,7 @@ fn picture(frame: &Frame, index: usize, title: &str, unit: &str, members: &[Draw
     };
     html! {
         figure.multiple.diagram {
-            figcaption { (title) " " span.unit { (message::greatest_in_unit(format::significant(greatest / 1e3, 3), unit)) } }
+            figcaption { (title) " " span.unit { (message::greatest_in_unit(format::significant(unit.of(greatest), 3), unit.name())) } }
             svg viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) role="img" aria-label=(title) style=(crate::document::colour(index)) {
                 @for member in members {
                     @for side in 0..2 {

@@ -170,18 +170,21 @@ pub(crate) fn envelopes(page: &Page, run: &[Envelope], without: Option<&[Envelop
             ];
             for (values, side, meaning) in both {
                 let base = envelope.mat.map_or(0.0, |mat| mat[side]);
-                displacement.push(line(from_base(base, values, heights, 1e3), meaning));
+                displacement.push(line(
+                    from_base(base, values, heights, format::LENGTH.of(1.0)),
+                    meaning,
+                ));
             }
             drift.push(line(
                 steps(&envelope.drift, heights, 100.0),
                 message::drift_of_the_storey(),
             ));
             shear.push(line(
-                steps(&envelope.shear, heights, 1e-3),
+                steps(&envelope.shear, heights, format::FORCE.of(1.0)),
                 message::storey_shear(),
             ));
             moment.push(line(
-                at_bases(&envelope.moment, heights, 1e-6),
+                at_bases(&envelope.moment, heights, format::LARGE_MOMENT.of(1.0)),
                 message::overturning_moment(),
             ));
             residual.push(line(
@@ -198,6 +201,9 @@ pub(crate) fn envelopes(page: &Page, run: &[Envelope], without: Option<&[Envelop
                 let base = envelope.mat.map_or(page.motion.peak(), |mat| mat[2]);
                 points.insert(0, (base, 0.0));
             }
+            for point in &mut points {
+                point.0 = format::ACCELERATION.of(point.0);
+            }
             acceleration.push(line(points, message::either_sign()));
         }
     }
@@ -209,11 +215,11 @@ pub(crate) fn envelopes(page: &Page, run: &[Envelope], without: Option<&[Envelop
         .max(1e-3);
     html! {
         div.multiples {
-            (picture(message::displacement_title(), "mm", top, &displacement, page))
+            (picture(message::displacement_title(), format::LENGTH.name(), top, &displacement, page))
             (picture(message::storey_drift_title(), "%", top, &drift, page))
-            (picture(message::total_acceleration_title(), "m/s²", top, &acceleration, page))
-            (picture(message::storey_shear_title(), "kN", top, &shear, page))
-            (picture(message::overturning_moment_title(), "MN·m", top, &moment, page))
+            (picture(message::total_acceleration_title(), format::ACCELERATION.name(), top, &acceleration, page))
+            (picture(message::storey_shear_title(), format::FORCE.name(), top, &shear, page))
+            (picture(message::overturning_moment_title(), format::LARGE_MOMENT.name(), top, &moment, page))
             @if yields { (picture(message::residual_drift(), "%", top, &residual, page)) }
         }
     }
@@ -274,7 +280,7 @@ fn picture(title: &str, unit: &str, top: f64, lines: &[Line], page: &Page) -> Ma
     let x = |value: f64| LEFT + (value - low) / (high - low) * (WIDTH - LEFT - RIGHT);
     let y = |height: f64| HEIGHT - BOTTOM - height / (top * 1.03) * (HEIGHT - TOP - BOTTOM);
     let (x_ticks, x_decimals) = ticks(low, high, 5.0);
-    let (y_ticks, y_decimals) = ticks(0.0, top * 1.03, 6.0);
+    let (y_ticks, y_decimals) = ticks(0.0, format::HEIGHT.of(top * 1.03), 6.0);
     html! {
         figure.multiple {
             figcaption { (title) " " span.unit { "[" (unit) "]" } }
@@ -285,8 +291,8 @@ fn picture(title: &str, unit: &str, top: f64, lines: &[Line], page: &Page) -> Ma
                         text x=(px(x(*value))) y=(px(HEIGHT - BOTTOM + 15.0)) text-anchor="middle" { (format::fixed(*value, x_decimals)) }
                     }
                     @for value in &y_ticks {
-                        line x1=(px(LEFT)) x2=(px(WIDTH - RIGHT)) y1=(px(y(*value))) y2=(px(y(*value))) {}
-                        text x=(px(LEFT - 6.0)) y=(px(y(*value) + 3.5)) text-anchor="end" { (format::fixed(*value, y_decimals)) @if *value == 0.0 { " m" } }
+                        line x1=(px(LEFT)) x2=(px(WIDTH - RIGHT)) y1=(px(y(*value * format::HEIGHT.size()))) y2=(px(y(*value * format::HEIGHT.size()))) {}
+                        text x=(px(LEFT - 6.0)) y=(px(y(*value * format::HEIGHT.size()) + 3.5)) text-anchor="end" { (format::fixed(*value, y_decimals)) @if *value == 0.0 { " " (format::HEIGHT.name()) } }
                     }
                 }
                 @for line in lines {
@@ -298,7 +304,7 @@ fn picture(title: &str, unit: &str, top: f64, lines: &[Line], page: &Page) -> Ma
                             circle.dot style=(crate::document::colour(line.building)) cx=(px(x(*value))) cy=(px(y(*height))) r="5" {
                                 title {
                                     (page.model.buildings.get(line.building).map_or("", |b| b.name.as_str())) ", "
-                                    (format::fixed(*height, 2)) " m: " (format::significant(*value, 4)) " " (unit) ", " (line.meaning)
+                                    (format::in_unit(format::HEIGHT, *height, 2)) " " (format::HEIGHT.name()) ": " (format::significant(*value, 4)) " " (unit) ", " (line.meaning)
                                 }
                             }
                         }

@@ -77,18 +77,18 @@ fn figure(contact: &ContactSummary, names: &[String; 2], sides: &[String; 2]) ->
     let place = |[x, y]: [f64; 2]| {
         (x - plan.plan_m[0]) * along[0] + (y - plan.plan_m[1]) * along[1] + 0.5 * length
     };
-    // F_i = w_i L p_i, in kN/m.
+    // F_i = w_i L p_i, in kN/m or kip/ft.
     let pressures: Vec<[f64; 2]> = plan
         .points
         .iter()
         .filter(|point| point.share > 0.0)
         .map(|point| {
-            let pressure = 1e-3 * point.force / (point.share * length);
+            let pressure = format::LINE_LOAD.of(point.force / (point.share * length));
             [place(point.place), pressure]
         })
         .collect();
     let total = plan.points.iter().fold(0.0, |sum, point| sum + point.force);
-    let mean = 1e-3 * total / length;
+    let mean = format::LINE_LOAD.of(total / length);
     let most = pressures.iter().map(|p| p[1]).fold(mean, f64::max);
     let (marks, decimals) = crate::envelope::ticks(0.0, most.max(1e-9), 4.0);
     let top = marks.last().copied().unwrap_or(most).max(most);
@@ -107,7 +107,7 @@ fn figure(contact: &ContactSummary, names: &[String; 2], sides: &[String; 2]) ->
         py(0.0)
     );
     let centre = plan.points.centre.map(place);
-    let (stations, digits) = crate::envelope::ticks(0.0, length, 6.0);
+    let (stations, digits) = crate::envelope::ticks(0.0, format::HEIGHT.of(length), 6.0);
     html! {
         figure.static-plot.pressure {
             figcaption {
@@ -116,7 +116,7 @@ fn figure(contact: &ContactSummary, names: &[String; 2], sides: &[String; 2]) ->
                 span.quiet {
                     (format::force(total))
                     @if let Some(at) = plan.points.at { " " (message::at_at(format::instant(at))) }
-                    @if let Some(centre) = centre { (message::centre_of_pressure_m(format::fixed(centre - 0.5 * length, 2))) }
+                    @if let Some(centre) = centre { (message::centre_of_pressure_m(format::in_unit(format::HEIGHT, centre - 0.5 * length, 2))) }
                 }
             }
             svg viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) role="img" aria-label=(message::force_per_length_along()) {
@@ -126,8 +126,8 @@ fn figure(contact: &ContactSummary, names: &[String; 2], sides: &[String; 2]) ->
                         line x1=(LEFT) x2=(WIDTH - RIGHT) y1=(y) y2=(y) {}
                         text x=(LEFT - 6.0) y=(format!("{:.1}", py(*mark) + 4.0)) text-anchor="end" { (format::fixed(*mark, decimals)) }
                     }
-                    @for station in stations.iter().filter(|s| **s <= length * (1.0 + 1e-9)) {
-                        text x=(format!("{:.1}", px(*station))) y=(HEIGHT - BOTTOM + 15.0) text-anchor="middle" { (format::fixed(*station, digits)) }
+                    @for station in stations.iter().filter(|s| **s <= format::HEIGHT.of(length) * (1.0 + 1e-9)) {
+                        text x=(format!("{:.1}", px(*station * format::HEIGHT.size()))) y=(HEIGHT - BOTTOM + 15.0) text-anchor="middle" { (format::fixed(*station, digits)) }
                     }
                 }
                 polygon.pressed points=(area) {}

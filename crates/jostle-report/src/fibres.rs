@@ -41,12 +41,12 @@ fn sentence(name: &str, all: &[FibreSummary]) -> String {
 fn table(all: &[&FibreSummary]) -> Markup {
     let in_space = all.iter().any(|own| own.across.is_some());
     let mut columns = vec![
-        (message::compression(), "kN"),
-        (message::moment(), "kN·m"),
+        (message::compression(), format::FORCE.name()),
+        (message::moment(), format::MOMENT.name()),
         (message::rotation(), "mrad"),
     ];
     if in_space {
-        columns.push((message::moment_across(), "kN·m"));
+        columns.push((message::moment_across(), format::MOMENT.name()));
         columns.push((message::rotation_across(), "mrad"));
     }
     columns.extend([
@@ -54,7 +54,7 @@ fn table(all: &[&FibreSummary]) -> Markup {
         (message::yielded(), "s"),
         (message::strain_of_concrete(), "‰"),
         (message::past_its_strength(), "s"),
-        (message::dissipated(), "kJ"),
+        (message::dissipated(), format::ENERGY.name()),
     ]);
     html! {
         @if all.len() > MOST_ROWS {
@@ -89,10 +89,14 @@ fn cells(own: &FibreSummary, in_space: bool) -> Vec<String> {
     let greatest = |a: f64, b: f64, unit: f64| format::significant(a.max(-b) / unit, 4);
     let mut cells = vec![
         message::least_to_greatest(
-            format::significant(-own.axial_max_n / 1e3, 3),
-            format::significant(-own.axial_min_n / 1e3, 3),
+            format::significant(format::FORCE.of(-own.axial_max_n), 3),
+            format::significant(format::FORCE.of(-own.axial_min_n), 3),
         ),
-        greatest(own.moment_max_n_m, own.moment_min_n_m, 1e3),
+        greatest(
+            own.moment_max_n_m,
+            own.moment_min_n_m,
+            format::MOMENT.size(),
+        ),
         greatest(own.rotation_max_rad, own.rotation_min_rad, 1e-3),
     ];
     if in_space {
@@ -105,7 +109,7 @@ fn cells(own: &FibreSummary, in_space: bool) -> Vec<String> {
                     [own.rotation_across_max_rad, own.rotation_across_min_rad],
                 ];
                 [
-                    greatest(moment[0], moment[1], 1e3),
+                    greatest(moment[0], moment[1], format::MOMENT.size()),
                     greatest(turned[0], turned[1], 1e-3),
                 ]
             },
@@ -116,7 +120,7 @@ fn cells(own: &FibreSummary, in_space: bool) -> Vec<String> {
         instant(own.yielded_s),
         strain(own.concrete_strain),
         instant(own.crushed_s),
-        format::significant(own.dissipated_j / 1e3, 3),
+        format::significant(format::ENERGY.of(own.dissipated_j), 3),
     ]);
     cells
 }

@@ -58,7 +58,9 @@ fn plot(found: &FloorSpectra, floor: &FloorSpectrum, names: &[&str]) -> Markup {
             let values = found.periods_s.iter().zip(&curve.pseudo_acceleration_m_s2);
             lines.push(Line {
                 name,
-                points: values.map(|(period, value)| [*period, *value]).collect(),
+                points: values
+                    .map(|(period, value)| [*period, format::ACCELERATION.of(*value)])
+                    .collect(),
                 colour: building.unwrap_or(0) + if several { index } else { 0 },
                 dashed,
             });
@@ -80,23 +82,23 @@ fn plot(found: &FloorSpectra, floor: &FloorSpectrum, names: &[&str]) -> Markup {
 }
 
 fn table(found: &FloorSpectra, compared: bool) -> Markup {
-    let number = |value: f64| format::fixed(value, 2);
+    let number = |value: f64| format::in_unit(format::ACCELERATION, value, 2);
     html! {
         div.scroll {
             table {
                 thead { tr {
                     th scope="col" { (message::floor()) }
-                    th.number scope="col" { (message::peak_acceleration()) br; span.unit { "[m/s²]" } }
-                    th.number scope="col" { (message::filtered()) br; span.unit { "[m/s²]" } }
+                    th.number scope="col" { (message::peak_acceleration()) br; span.unit { (format::ACCELERATION.bracketed()) } }
+                    th.number scope="col" { (message::filtered()) br; span.unit { (format::ACCELERATION.bracketed()) } }
                     @if compared {
-                        th.number scope="col" { (message::without_contact()) br; span.unit { "[m/s²]" } }
-                        th.number scope="col" { (message::filtered()) br; span.unit { "[m/s²]" } }
+                        th.number scope="col" { (message::without_contact()) br; span.unit { (format::ACCELERATION.bracketed()) } }
+                        th.number scope="col" { (message::filtered()) br; span.unit { (format::ACCELERATION.bracketed()) } }
                     }
                     th.number scope="col" { (message::damping()) br; span.unit { "[%]" } }
-                    th.number scope="col" { (message::peak_of_the_spectrum()) br; span.unit { "[m/s²]" } }
+                    th.number scope="col" { (message::peak_of_the_spectrum()) br; span.unit { (format::ACCELERATION.bracketed()) } }
                     th.number scope="col" { (message::at_period()) br; span.unit { "[s]" } }
                     @if compared {
-                        th.number scope="col" { (message::without_contact()) br; span.unit { "[m/s²]" } }
+                        th.number scope="col" { (message::without_contact()) br; span.unit { (format::ACCELERATION.bracketed()) } }
                         th.number scope="col" { (message::greatest_ratio()) }
                         th.number scope="col" { (message::at_period()) br; span.unit { "[s]" } }
                     }

@@ -1,5 +1,8 @@
 //! Number formats of the pages: few digits, suitable prefixes, never "NaN".
 
+use jostle::quantity::Shown as Peak;
+pub(crate) use jostle_io::shown::*;
+
 /// Shown instead of a missing number.
 pub(crate) const NOTHING: &str = "–";
 
@@ -110,18 +113,90 @@ fn prefixed_plain(value: f64, units: &[(f64, &str)]) -> String {
     }
 }
 
+/// A number in the unit of what is shown, with so many decimals in SI units and enough in others.
+pub(crate) fn in_unit(shown: Shown, si: f64, decimals: usize) -> String {
+    fixed(shown.of(si), shown.decimals(decimals))
+}
+
+/// A value with significant digits and its unit.
+pub(crate) fn short(shown: Shown, si: f64, digits: i32) -> String {
+    unit(significant(shown.of(si), digits), shown.name())
+}
+
+/// The same without trailing zeros: for what the user typed.
+fn stated(shown: Shown, si: f64) -> String {
+    unit(plain(shown.of(si), 4), shown.name())
+}
+
+/// Unit of a peak in tables.
+pub(crate) fn unit_of(peak: Peak) -> &'static str {
+    Shown::named(peak.unit).map_or(peak.unit, Shown::name)
+}
+
+/// The number of a peak in tables.
+pub(crate) fn shown_peak(peak: Peak, si: f64) -> String {
+    match Shown::named(peak.unit) {
+        Some(own) if is_us() => in_unit(own, si, peak.decimals),
+        _ => fixed(peak.factor * si, peak.decimals),
+    }
+}
+
+/// A stated number with its unit, which has this SI name.
+pub(crate) fn exact(si: f64, unit: &str) -> String {
+    let (factor, unit) = factor_of(unit);
+    format!("{} {unit}", plain(si * factor, 3))
+}
+
+/// Factor to the unit that is shown, and its name, of a unit without prefix.
+pub(crate) fn factor_of(unit: &str) -> (f64, &str) {
+    Shown::named(unit).map_or((1.0, unit), |own| (own.of(1.0), own.name()))
+}
+
+/// The constant of a dashpot whose force grows with a power of speed \[N·(s/m)^exponent\], and its unit.
+pub(crate) fn dashpot(si: f64, exponent: f64) -> (f64, String) {
+    if exponent == 1.0 {
+        return (DASHPOT.of(si), DASHPOT.name().to_owned());
+    }
+    let (force, length) = match units() {
+        Units::Si => (NEWTON, HEIGHT),
+        Units::Us => (FORCE, LENGTH),
+    };
+    let name = format!("{}·(s/{})^{exponent}", force.name(), length.name());
+    (force.of(si) * length.size().powf(exponent), name)
+}
+
+fn is_us() -> bool {
+    units() == Units::Us
+}
+
 /// A force; kN up to a hundred meganewton \[N\].
 pub(crate) fn force(newton: f64) -> String {
+    if is_us() {
+        return short(FORCE, newton, 4);
+    }
     prefixed(newton, 4, &[(1.0, "N"), (1e3, "kN"), (1e8, "MN")])
 }
 
 /// An energy \[J\].
 pub(crate) fn energy(joule: f64) -> String {
+    if is_us() {
+        return short(ENERGY, joule, 4);
+    }
     prefixed(joule, 4, &[(1.0, "J"), (1e3, "kJ"), (1e6, "MJ")])
 }
 
-/// A length of the order of a gap, in millimetres \[m\].
+/// A length of the order of a gap, in millimetres or inches \[m\].
 pub(crate) fn millimetres(metre: f64) -> String {
+    if is_us() {
+        let value = LENGTH.of(metre);
+        let decimals = if value != 0.0 && value.abs() < 0.1 {
+            4
+        } else {
+            2
+        };
+        let text = fixed(value, decimals);
+        return unit(without_zeros(&text).to_owned(), LENGTH.name());
+    }
     let value = metre * 1e3;
     let decimals = match value.abs() {
         v if v >= 1000.0 => 0,
@@ -143,13 +218,16 @@ pub(crate) fn milliseconds(second: f64) -> String {
     unit(plain(second * 1e3, 3), "ms")
 }
 
-/// A mass in tonnes \[kg\].
+/// A mass in tonnes, or its weight in kip \[kg\].
 pub(crate) fn tonnes(kilogram: f64) -> String {
-    unit(plain(kilogram / 1e3, 4), "t")
+    stated(MASS, kilogram)
 }
 
 /// A flexural rigidity \[N·m²\].
 pub(crate) fn rigidity(value: f64) -> String {
+    if is_us() {
+        return stated(RIGIDITY, value);
+    }
     prefixed_plain(
         value,
         &[
@@ -163,6 +241,9 @@ pub(crate) fn rigidity(value: f64) -> String {
 
 /// A lateral stiffness \[N/m\].
 pub(crate) fn stiffness(value: f64) -> String {
+    if is_us() {
+        return stated(STIFFNESS, value);
+    }
     prefixed_plain(
         value,
         &[(1.0, "N/m"), (1e3, "kN/m"), (1e6, "MN/m"), (1e9, "GN/m")],
@@ -175,8 +256,8 @@ pub(crate) fn acceleration(value: f64) -> String {
         return NOTHING.into();
     }
     format!(
-        "{}\u{a0}m/s² ({}\u{a0}%\u{a0}g)",
-        significant(value, 3),
+        "{} ({}\u{a0}%\u{a0}g)",
+        short(ACCELERATION, value, 3),
         significant(value / STANDARD_GRAVITY * 100.0, 3)
     )
 }

@@ -80,10 +80,10 @@ fn table(model: &Model, all: &[Face]) -> Markup {
             thead { tr {
                 th scope="col" { (message::between()) } th scope="col" { (message::faces_word()) }
                 th.number scope="col" { (message::friction_coefficient()) }
-                th.number scope="col" { (message::peak_friction_force()) br; span.unit { "[kN]" } }
-                th.number scope="col" { (message::greatest_slip()) br; span.unit { "[mm]" } }
-                th.number scope="col" { (message::friction_impulse()) br; span.unit { "[kN·s]" } }
-                th.number scope="col" { (message::dissipated()) br; span.unit { "[kJ]" } }
+                th.number scope="col" { (message::peak_friction_force()) br; span.unit { (format::FORCE.bracketed()) } }
+                th.number scope="col" { (message::greatest_slip()) br; span.unit { (format::LENGTH.bracketed()) } }
+                th.number scope="col" { (message::friction_impulse()) br; span.unit { (format::IMPULSE.bracketed()) } }
+                th.number scope="col" { (message::dissipated()) br; span.unit { (format::ENERGY.bracketed()) } }
             } }
             tbody {
                 @for face in all {
@@ -92,10 +92,10 @@ fn table(model: &Model, all: &[Face]) -> Markup {
                         th scope="row" { (face.gap.between[0]) " ↔ " (face.gap.between[1]) }
                         td { (sides[0]) " | " (sides[1]) }
                         td.number { (format::plain(coefficient(model, face), 3)) }
-                        td.number { (format::fixed(face.sliding.tangential_peak_n * 1e-3, 1)) }
-                        td.number { (format::fixed(face.sliding.slip_peak_m * 1e3, 2)) }
-                        td.number { (format::fixed(face.sliding.tangential_impulse_n_s * 1e-3, 2)) }
-                        td.number { (format::fixed(face.sliding.friction_j * 1e-3, 2)) }
+                        td.number { (format::in_unit(format::FORCE, face.sliding.tangential_peak_n, 1)) }
+                        td.number { (format::in_unit(format::LENGTH, face.sliding.slip_peak_m, 2)) }
+                        td.number { (format::in_unit(format::IMPULSE, face.sliding.tangential_impulse_n_s, 2)) }
+                        td.number { (format::in_unit(format::ENERGY, face.sliding.friction_j, 2)) }
                     }
                 }
             }
@@ -126,7 +126,8 @@ fn slip_over_time(page: &Page, face: &Face) -> Option<Plot> {
     let times = page.history.column(Column::TIME)?;
     let [tx, ty] = [-face.plan.normal[1], face.plan.normal[0]];
     let ([ax, ay], [bx, by]) = (moved(page, face, 0)?, moved(page, face, 1)?);
-    let slip = |row: usize| 1e3 * (tx * (ax[row] - bx[row]) + ty * (ay[row] - by[row]));
+    let slip =
+        |row: usize| format::LENGTH.of(1.0) * (tx * (ax[row] - bx[row]) + ty * (ay[row] - by[row]));
     let slip: Vec<[f64; 2]> = times
         .iter()
         .enumerate()

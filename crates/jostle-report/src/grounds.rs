@@ -24,7 +24,9 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
     let moved = |axis: usize| -> Vec<Vec<f64>> {
         let moved = (0..shown).map(|building| {
             let path = page.motion.under(building);
-            let values = times.iter().map(|t| 1e3 * path.at(*t).displacement[axis]);
+            let values = times
+                .iter()
+                .map(|t| format::LENGTH.of(path.at(*t).displacement[axis]));
             values.collect()
         });
         moved.collect()
@@ -105,8 +107,8 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
                         tr {
                             td { (building.name) }
                             td { (format::fixed(ground.arrival_s, 3)) }
-                            td { (format::fixed(1e3 * ground.displacement_peak_m, 1)) }
-                            td { (format::fixed(1e3 * ground.displacement_end_m, 1)) }
+                            td { (format::in_unit(format::LENGTH, ground.displacement_peak_m, 1)) }
+                            td { (format::in_unit(format::LENGTH, ground.displacement_end_m, 1)) }
                         }
                     }
                 }

@@ -8,6 +8,7 @@ use jostle::results::summary::{HingeSummary, SpringSummary};
 use jostle::structure::{BaseMotion, Discretization, MemberEnd, MemberPlace, SpringPlace};
 use maud::{Markup, html};
 
+use crate::format::Shown;
 use crate::message;
 use crate::{Page, format};
 
@@ -345,19 +346,21 @@ fn sentence(name: &str, hinges: &HingeSummary, residual: f64) -> String {
 fn table(page: &Page, order: &[(Place, &SpringSummary)]) -> Markup {
     let storeys = order.iter().any(|(place, _)| slides(place.at));
     let members = order.iter().any(|(place, _)| !slides(place.at));
+    let [length, force, moment] = [format::LENGTH, format::FORCE, format::MOMENT].map(Shown::name);
     let [deformation, force] = match (members, storeys) {
-        (true, false) => ["mrad", "kN·m"],
-        (false, true) => ["mm", "kN"],
-        _ => ["mrad; mm", "kN·m; kN"],
+        (true, false) => ["mrad".to_owned(), moment.to_owned()],
+        (false, true) => [length.to_owned(), force.to_owned()],
+        _ => [format!("mrad; {length}"), format!("{moment}; {force}")],
     };
+    let energy = format::ENERGY.name();
     let columns = [
         (message::cracked(), "s"),
         (message::yielded(), "s"),
         (message::ductility(), ""),
-        (message::greatest_positive(), deformation),
-        (message::greatest_negative(), deformation),
-        (message::peak(), force),
-        (message::dissipated(), "kJ"),
+        (message::greatest_positive(), &deformation[..]),
+        (message::greatest_negative(), &deformation[..]),
+        (message::peak(), &force[..]),
+        (message::dissipated(), energy),
     ];
     let all = order.len();
     let shown = &order[..all.min(MOST_ROWS)];
@@ -380,7 +383,7 @@ fn table(page: &Page, order: &[(Place, &SpringSummary)]) -> Markup {
                         tr.beyond[i >= FIRST_ROWS] {
                             td.number { (i + 1) }
                             td { (name(page, place)) }
-                            @for value in cells(spring) { td.number { (value) } }
+                            @for value in cells(spring, slides(place.at)) { td.number { (value) } }
                         }
                     }
                 }
@@ -392,17 +395,27 @@ fn table(page: &Page, order: &[(Place, &SpringSummary)]) -> Markup {
     }
 }
 
-fn cells(spring: &SpringSummary) -> [String; 7] {
+fn cells(spring: &SpringSummary, slides: bool) -> [String; 7] {
+    // A hinge that turns has radians and moments.
+    let deformation = |value: f64| match slides {
+        true => format::significant(format::LENGTH.of(value), 3),
+        false => format::significant(value * 1e3, 3),
+    };
+    let force = if slides {
+        format::FORCE
+    } else {
+        format::MOMENT
+    };
     let instant =
         |t: Option<f64>| t.map_or_else(|| format::NOTHING.into(), |t| format::fixed(t, 3));
     [
         instant(spring.cracked_s),
         instant(spring.yielded_s),
         format::significant(spring.ductility, 3),
-        format::significant(spring.deformation_max * 1e3, 3),
-        format::significant(spring.deformation_min * 1e3, 3),
-        format::significant(spring.peak_force / 1e3, 4),
-        format::significant(spring.dissipated_j / 1e3, 3),
+        deformation(spring.deformation_max),
+        deformation(spring.deformation_min),
+        format::significant(force.of(spring.peak_force), 4),
+        format::significant(format::ENERGY.of(spring.dissipated_j), 3),
     ]
 }
 

@@ -41,7 +41,7 @@ pub(crate) fn joints(page: &Page) -> Markup {
                 h3 {
                     (message::one_and_other(&summary.between[0], &summary.between[1]))
                     @if let Some(height) = lower_height(page, gap.between) {
-                        span.quiet { " " (message::lower_building_m_high(format::plain(height, 4))) }
+                        span.quiet { " " (message::lower_building_m_high(format::plain(format::HEIGHT.of(height), 4))) }
                     }
                 }
                 div.bars role="table" {

@@ -179,10 +179,10 @@ fn table(building: &BuildingSummary) -> Markup {
     let all = members.len();
     members.truncate(MOST_ROWS);
     let columns = [
-        (message::greatest_tension(), "kN"),
-        (message::greatest_compression(), "kN"),
-        (message::shear(), "kN"),
-        (message::moment(), "kN·m"),
+        (message::greatest_tension(), format::FORCE.name()),
+        (message::greatest_compression(), format::FORCE.name()),
+        (message::shear(), format::FORCE.name()),
+        (message::moment(), format::MOMENT.name()),
     ];
     html! {
         details.peaks open[is_rated || members.iter().any(|m| hit(m) > 0.0)] {
@@ -201,7 +201,7 @@ fn table(building: &BuildingSummary) -> Markup {
                         }
                         @if turns { th scope="col" { (message::rotation_within()) } }
                         th.number scope="col" { (message::impacts()) }
-                        th.number scope="col" { (message::contact_force()) br; span.unit { "[kN]" } }
+                        th.number scope="col" { (message::contact_force()) br; span.unit { (format::FORCE.bracketed()) } }
                         @for (name, unit) in columns {
                             th.number scope="col" { (name) br; span.unit { "[" (unit) "]" } }
                         }
@@ -231,7 +231,7 @@ fn table(building: &BuildingSummary) -> Markup {
                                 td.number { (kilo(greatest(member, |s| s.axial_max_n).max(0.0))) }
                                 td.number { (kilo(greatest(member, |s| -s.axial_min_n).max(0.0))) }
                                 td.number { (kilo(shear(member))) }
-                                td.number { (kilo(moment(member))) }
+                                td.number { (format::in_unit(format::MOMENT, moment(member), 1)) }
                                 @if is_compared {
                                     @let own = member.compared.as_ref();
                                     (amplification(own.and_then(|m| m.shear_amplification)))
@@ -274,7 +274,7 @@ fn joints(building: &BuildingSummary) -> Markup {
                 table {
                     thead { tr {
                         th scope="col" { (message::joint()) }
-                        th.number scope="col" { (message::shear_of_the_core()) br; span.unit { "[kN]" } }
+                        th.number scope="col" { (message::shear_of_the_core()) br; span.unit { (format::FORCE.bracketed()) } }
                         @for rule in &rules { th.number scope="col" { (message::shear_capacity()) br; (rule) } }
                     } }
                     tbody {
@@ -298,5 +298,5 @@ fn joints(building: &BuildingSummary) -> Markup {
 }
 
 fn kilo(value: f64) -> String {
-    format::fixed(value / 1e3, 1)
+    format::in_unit(format::FORCE, value, 1)
 }

@@ -119,6 +119,7 @@ fn sentence(page: &MotionPage) -> String {
 
 fn tiles(m: &Measures) -> Markup {
     let value = |value: f64, unit: &str| format::unit(format::significant(value, 4), unit);
+    let shown = |own: format::Shown, value: f64| format::short(own, value, 4);
     let at = |t: f64| message::at_at(format::unit(format::fixed(t, 2), "s"));
     let span = |[from, to]: [f64; 2]| {
         (
@@ -135,34 +136,34 @@ fn tiles(m: &Measures) -> Markup {
     let tiles = [
         (
             message::peak_acceleration_title(),
-            value(m.pga.value, "m/s²"),
+            shown(format::ACCELERATION, m.pga.value),
             format!("{gravity} g, {}", at(m.pga.at)),
         ),
         (
             message::peak_velocity(),
-            value(m.pgv.value, "m/s"),
+            shown(format::SPEED, m.pgv.value),
             at(m.pgv.at),
         ),
         (
             message::peak_displacement(),
-            value(m.pgd.value, "m"),
+            shown(format::HEIGHT, m.pgd.value),
             at(m.pgd.at),
         ),
         (
             message::arias_intensity(),
-            value(m.arias, "m/s"),
+            shown(format::SPEED, m.arias),
             message::arias_integral().to_owned(),
         ),
         (
             message::cumulative_absolute_velocity(),
-            value(m.cav, "m/s"),
+            shown(format::SPEED, m.cav),
             message::absolute_integral().to_owned(),
         ),
         (message::duration_5_95(), long, long_note),
         (message::duration_5_75(), short, short_note),
         (
             message::root_mean_square(),
-            value(m.rms, "m/s²"),
+            shown(format::ACCELERATION, m.rms),
             message::within_5_95().to_owned(),
         ),
         (
@@ -177,7 +178,7 @@ fn tiles(m: &Measures) -> Markup {
         ),
         (
             message::housner_intensity(),
-            value(m.housner, "m"),
+            shown(format::HEIGHT, m.housner),
             message::psv_over_0_1_2().to_owned(),
         ),
     ];

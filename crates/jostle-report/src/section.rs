@@ -5,7 +5,7 @@ use jostle_section::{Analysis, EndCurve, Section, SectionSurvey};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::document::{POLICY, STYLE, theme_button, theme_script};
-use crate::format::{fixed, significant};
+use crate::format::{FORCE, HEIGHT, LENGTH, MOMENT, STRESS, fixed, in_unit, significant};
 use crate::message;
 
 /// Plot area: left, top, width, height.
@@ -54,7 +54,7 @@ fn sheet(survey: &SectionSurvey) -> Markup {
         section {
             h2 { (survey.name) }
             p {
-                (message::section_in_words(fixed(section.width * 1e3, 0), fixed(section.depth * 1e3, 0), section.bars.len(), fixed(section.steel_area() / section.area() * 100.0, 2), significant(section.concrete.strength * 1e-6, 3), fixed(section.steel.yield_strength * 1e-6, 0), fixed(survey.compression * 1e-3, 0), fixed(section.axial_ratio(survey.compression), 2), fixed(survey.length, 2)))
+                (message::section_in_words(in_unit(LENGTH, section.width, 0), in_unit(LENGTH, section.depth, 0), section.bars.len(), fixed(section.steel_area() / section.area() * 100.0, 2), significant(STRESS.of(section.concrete.strength), 3), in_unit(STRESS, section.steel.yield_strength, 0), in_unit(FORCE, survey.compression, 0), fixed(section.axial_ratio(survey.compression), 2), in_unit(HEIGHT, survey.length, 2)))
             }
             div style="display:flex;flex-wrap:wrap;gap:1rem;align-items:flex-start" {
                 figure style="flex:0 1 15rem" { (drawing(section)) figcaption class="quiet" { (message::positive_moment_the_bottom()) } }
@@ -100,9 +100,9 @@ fn row(survey: &SectionSurvey, name: &str, ends: &EndCurve, side: Side) -> Marku
     html! {
         tr {
             td { (name) (side_name(survey, side)) }
-            td { (fixed(end.cracking.force * 1e-3, 1)) }
+            td { (in_unit(MOMENT, end.cracking.force, 1)) }
             td { (fixed(end.cracking.deformation * 1e3, 3)) }
-            td { (fixed(end.yielding.force * 1e-3, 1)) }
+            td { (in_unit(MOMENT, end.yielding.force, 1)) }
             td { (fixed(end.yielding.deformation * 1e3, 3)) }
             td { (fixed(end.yielding.force / end.yielding.deformation / gross, 3)) }
             td { (fixed(end.post_yield / gross, 4)) }
@@ -127,8 +127,8 @@ fn drawing(section: &Section) -> Markup {
                 circle cx=(left + bar.x * scale) cy=(top + bar.depth * scale) r=(0.5 * bar.diameter * scale) fill="var(--c1)" {}
             }
             g class="grid" {
-                text x=(left + 0.5 * width) y=(top + depth + 20.0) text-anchor="middle" { (fixed(section.width * 1e3, 0)) " mm" }
-                text x=(left + width + 8.0) y=(top + 0.5 * depth + 4.0) { (fixed(section.depth * 1e3, 0)) }
+                text x=(left + 0.5 * width) y=(top + depth + 20.0) text-anchor="middle" { (in_unit(LENGTH, section.width, 0)) " " (LENGTH.name()) }
+                text x=(left + width + 8.0) y=(top + 0.5 * depth + 4.0) { (in_unit(LENGTH, section.depth, 0)) }
             }
         }
     }
@@ -177,8 +177,8 @@ fn plot(survey: &SectionSurvey, analysis: &Analysis, side: Side) -> Markup {
     html! {
         svg viewBox="0 0 500 320" role="img" aria-label={ (message::moment_against_curvature(side_name(survey, side))) } {
             g class="grid" {
-                @for moment in ticks(high * 1e-3) {
-                    @let [_, y] = place(&Corner { deformation: 0.0, force: moment * 1e3 });
+                @for moment in ticks(MOMENT.of(high)) {
+                    @let [_, y] = place(&Corner { deformation: 0.0, force: moment * MOMENT.size() });
                     line x1=(left) x2=(left + width) y1=(y) y2=(y) {}
                     text x=(left - 8.0) y=(y + 4.0) text-anchor="end" { (significant_tick(moment)) }
                 }
@@ -199,7 +199,7 @@ fn plot(survey: &SectionSurvey, analysis: &Analysis, side: Side) -> Markup {
             }
             @for (number, event) in curve.events.iter().enumerate() {
                 text x=(left + width - 8.0) y=(top + height - 8.0 - 15.0 * (curve.events.len() - 1 - number) as f64) text-anchor="end" font-size="11" fill="var(--ink)" {
-                    (number + 1) " " (event.kind.describe()) ", " (fixed(event.moment * 1e-3, 1)) " kN·m"
+                    (number + 1) " " (event.kind.describe()) ", " (in_unit(MOMENT, event.moment, 1)) " " (MOMENT.name())
                 }
             }
         }

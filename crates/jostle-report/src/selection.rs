@@ -242,7 +242,7 @@ fn chart(spectra: &Spectra, set: &[Candidate], structures: &[CheckedStructure]) 
     Chart {
         title: message::response_spectra().into(),
         x: axis(message::period(), "s"),
-        y: axis("pseudo-acceleration", "m/s²"),
+        y: axis("pseudo-acceleration", format::ACCELERATION.name()),
         series: all,
         levels: Vec::new(),
         reach: 0.0,
@@ -341,7 +341,7 @@ fn origin(candidate: &Candidate) -> &'static str {
 }
 
 fn peak(candidate: &Candidate) -> String {
-    format::unit(format::significant(candidate.motion.peak(), 4), "m/s²")
+    format::short(format::ACCELERATION, candidate.motion.peak(), 4)
 }
 
 fn duration(seconds: f64) -> String {

@@ -43,10 +43,10 @@ fn sentence(name: &str, all: &ShearFailureSummary) -> String {
 fn table(failed: &[&ShearFailure]) -> Markup {
     let columns = [
         (message::time(), "s"),
-        (message::strength(), "kN"),
-        (message::greatest_slip(), "mm"),
+        (message::strength(), format::FORCE.name()),
+        (message::greatest_slip(), format::LENGTH.name()),
         (message::strength_left(), "%"),
-        (message::dissipated(), "kJ"),
+        (message::dissipated(), format::ENERGY.name()),
     ];
     html! {
         @if failed.len() > MOST_ROWS {
@@ -81,10 +81,10 @@ fn table(failed: &[&ShearFailure]) -> Markup {
 fn cells(own: &ShearFailure) -> [String; 5] {
     [
         format::fixed(own.failed_s, 3),
-        format::significant(own.strength_n / 1e3, 4),
-        format::significant(own.slip_peak_m * 1e3, 3),
+        format::significant(format::FORCE.of(own.strength_n), 4),
+        format::significant(format::LENGTH.of(own.slip_peak_m), 3),
         format::fixed(100.0 * own.strength_left, 0),
-        format::significant(own.dissipated_j / 1e3, 3),
+        format::significant(format::ENERGY.of(own.dissipated_j), 3),
     ]
 }
 
@@ -95,7 +95,7 @@ fn during(own: &ShearFailure) -> String {
             message::both_at_height_from(
                 &impact.between[0],
                 &impact.between[1],
-                format::plain(impact.height_m, 4),
+                format::plain(format::HEIGHT.of(impact.height_m), 4),
                 format::instant(impact.start_s),
             )
         },

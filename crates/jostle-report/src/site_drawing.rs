@@ -238,7 +238,7 @@ fn grid(frame: &SpaceFrame, scale: &Scale) -> Markup {
     let is_column = |own: &SpaceMember| matches!(own.place, SpacePlace::Column { .. });
     html! {
         @for (number, (line, name, place)) in numbered {
-            polyline.axis stroke-dasharray="6 3 1 3" points=(path(&line)) { title { (message::grid_line(name, number + 1, format::plain(place, 4))) } }
+            polyline.axis stroke-dasharray="6 3 1 3" points=(path(&line)) { title { (message::grid_line(name, number + 1, format::plain(format::HEIGHT.of(place), 4))) } }
         }
         @for own in lowest() {
             @if is_column(own) {
@@ -553,20 +553,21 @@ fn shaking_in_words(angle: f64, north: Option<f64>, degrees: &str, name: &str) -
     message::shaking_at_with_bearing(degrees, format::plain(bearing, 4), name)
 }
 
-/// A round number of metres, about a seventh of the drawing.
+/// A round number of metres or feet, about a seventh of the drawing.
 fn scale_bar(scale: &Scale, base: f64) -> Markup {
-    let rough = WIDTH / scale.factor / 7.0;
+    let unit = scale.factor * format::HEIGHT.size();
+    let rough = WIDTH / unit / 7.0;
     let power = 10f64.powf(rough.log10().floor());
     let steps = [5.0, 2.0, 1.0].map(|step| step * power);
-    let metres = steps.into_iter().find(|step| *step <= rough);
-    let metres = metres.unwrap_or(power);
-    let length = metres * scale.factor;
+    let shown = steps.into_iter().find(|step| *step <= rough);
+    let shown = shown.unwrap_or(power);
+    let length = shown * unit;
     let from = WIDTH - 30.0 - length;
     let half = 0.5 * length;
     html! {
         rect.bar-dark x=(format!("{from:.1}")) y=(format!("{:.1}", base - 3.0)) width=(format!("{half:.1}")) height="6" {}
         rect.bar-light x=(format!("{:.1}", from + half)) y=(format!("{:.1}", base - 3.0)) width=(format!("{half:.1}")) height="6" {}
         text.axis-name x=(format!("{from:.1}")) y=(format!("{:.1}", base - 8.0)) text-anchor="middle" { "0" }
-        text.axis-name x=(format!("{:.1}", from + length)) y=(format!("{:.1}", base - 8.0)) text-anchor="middle" { (format::plain(metres, 3)) " m" }
+        text.axis-name x=(format!("{:.1}", from + length)) y=(format!("{:.1}", base - 8.0)) text-anchor="middle" { (format::plain(shown, 3)) " " (format::HEIGHT.name()) }
     }
 }

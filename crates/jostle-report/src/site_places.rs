@@ -1,6 +1,6 @@
 //! Places where plans can touch, as the geometry found them: equal ones of several floors together.
 
-use crate::message;
+use crate::{format, message};
 use jostle::interface::{Contact, PlanContactKind, PlanPart};
 use jostle::{Model, PlanPoint, Summary, System};
 
@@ -149,11 +149,11 @@ impl SitePlace {
     pub fn gap_in_words(&self) -> String {
         let [least, most] = self.gap;
         if most - least < 5e-5 {
-            format!("{:.1} mm", 1e3 * least)
+            format::LENGTH.text(least, 1)
         } else {
             message::to_mm(
-                format_args!("{:.1}", 1e3 * least),
-                format_args!("{:.1}", 1e3 * most),
+                format::LENGTH.number(least, 1),
+                format::LENGTH.number(most, 1),
             )
         }
     }

@@ -160,9 +160,9 @@ fn faces(page: &Page) -> Markup {
         div.scroll { table {
             thead { tr {
                 th scope="col" { (message::between()) } th scope="col" { (message::floors()) } th scope="col" { (message::kind()) }
-                th.number scope="col" { (message::length()) br; span.unit { "[m]" } } th.number scope="col" { (message::gap()) br; span.unit { "[mm]" } }
+                th.number scope="col" { (message::length()) br; span.unit { (format::HEIGHT.bracketed()) } } th.number scope="col" { (message::gap()) br; span.unit { (format::LENGTH.bracketed()) } }
                 th.number scope="col" { (message::normal()) } th.number scope="col" { (message::impacts()) }
-                th.number scope="col" { (message::peak_force()) br; span.unit { "[kN]" } } th.number scope="col" { (message::centre_of_pressure()) br; span.unit { "[m]" } }
+                th.number scope="col" { (message::peak_force()) br; span.unit { (format::FORCE.bracketed()) } } th.number scope="col" { (message::centre_of_pressure()) br; span.unit { (format::HEIGHT.bracketed()) } }
             } }
             tbody {
                 @for gap in &page.summary.gaps {
@@ -173,10 +173,10 @@ fn faces(page: &Page) -> Markup {
                             tr {
                                 th scope="row" { (gap.between[0]) " ↔ " (gap.between[1]) }
                                 td { (pair(contact.floors)) } td { (if plan.kind == PlanContactKind::Face.name() { message::face() } else { message::corner() }) }
-                                td.number { (format::fixed(plan.overlap_m, 2)) } td.number { (format::fixed(contact.width_m * 1e3, 1)) }
+                                td.number { (format::in_unit(format::HEIGHT, plan.overlap_m, 2)) } td.number { (format::in_unit(format::LENGTH, contact.width_m, 1)) }
                                 td.number { (format::fixed(plan.normal[0], 3)) ", " (format::fixed(plan.normal[1], 3)) }
-                                td.number { (contact.impact_count) } td.number { (format::fixed(contact.peak_force_n * 1e-3, 1)) }
-                                td.number { @match centre { Some([x, y]) => { (format::fixed(x, 2)) ", " (format::fixed(y, 2)) } None => { "–" } } }
+                                td.number { (contact.impact_count) } td.number { (format::in_unit(format::FORCE, contact.peak_force_n, 1)) }
+                                td.number { @match centre { Some([x, y]) => { (format::in_unit(format::HEIGHT, x, 2)) ", " (format::in_unit(format::HEIGHT, y, 2)) } None => { "–" } } }
                             }
                         }
                     }
@@ -192,11 +192,11 @@ fn peaks(page: &Page) -> Markup {
         div.scroll { table {
             thead { tr {
                 th scope="col" { (message::building()) } th.number scope="col" { (message::floor()) }
-                th.number scope="col" { (message::displacement_across()) br; span.unit { "[mm]" } } th.number scope="col" { (message::rotation()) br; span.unit { "[mrad]" } }
-                th.number scope="col" { (message::corner()) br; span.unit { "[mm]" } } th.number scope="col" { (message::drift_across()) br; span.unit { "[%]" } }
+                th.number scope="col" { (message::displacement_across()) br; span.unit { (format::LENGTH.bracketed()) } } th.number scope="col" { (message::rotation()) br; span.unit { "[mrad]" } }
+                th.number scope="col" { (message::corner()) br; span.unit { (format::LENGTH.bracketed()) } } th.number scope="col" { (message::drift_across()) br; span.unit { "[%]" } }
                 th.number scope="col" { (message::drift_at_a_corner()) br; span.unit { "[%]" } }
-                th.number scope="col" { (message::shear_across()) br; span.unit { "[kN]" } } th.number scope="col" { (message::torque()) br; span.unit { "[kN·m]" } }
-                th.number scope="col" { (message::acceleration_across()) br; span.unit { "[m/s²]" } }
+                th.number scope="col" { (message::shear_across()) br; span.unit { (format::FORCE.bracketed()) } } th.number scope="col" { (message::torque()) br; span.unit { (format::MOMENT.bracketed()) } }
+                th.number scope="col" { (message::acceleration_across()) br; span.unit { (format::ACCELERATION.bracketed()) } }
             } }
             tbody {
                 @for building in &page.summary.buildings {
@@ -204,14 +204,14 @@ fn peaks(page: &Page) -> Markup {
                         @if let Some(plan) = floor.in_plan {
                             tr {
                                 th scope="row" { (building.name) } td.number { (floor.floor) }
-                                td.number { (format::fixed(plan.displacement_across_max_m * 1e3, 1)) " / " (format::fixed(plan.displacement_across_min_m * 1e3, 1)) }
+                                td.number { (format::in_unit(format::LENGTH, plan.displacement_across_max_m, 1)) " / " (format::in_unit(format::LENGTH, plan.displacement_across_min_m, 1)) }
                                 td.number { (format::fixed(plan.rotation_max_rad * 1e3, 2)) " / " (format::fixed(plan.rotation_min_rad * 1e3, 2)) }
-                                td.number { (format::fixed(plan.corner_displacement_peak_m * 1e3, 1)) }
+                                td.number { (format::in_unit(format::LENGTH, plan.corner_displacement_peak_m, 1)) }
                                 td.number { (format::fixed(plan.storey_drift_across_peak * 100.0, 2)) }
                                 td.number { (format::fixed(plan.storey_drift_corner_peak * 100.0, 2)) }
-                                td.number { (format::fixed(plan.storey_shear_across_peak_n * 1e-3, 1)) }
-                                td.number { (format::fixed(plan.storey_torque_peak_n_m * 1e-3, 0)) }
-                                td.number { (format::fixed(plan.total_acceleration_across_peak_m_s2, 2)) }
+                                td.number { (format::in_unit(format::FORCE, plan.storey_shear_across_peak_n, 1)) }
+                                td.number { (format::in_unit(format::MOMENT, plan.storey_torque_peak_n_m, 0)) }
+                                td.number { (format::in_unit(format::ACCELERATION, plan.total_acceleration_across_peak_m_s2, 2)) }
                             }
                         }
                     }
@@ -269,7 +269,7 @@ fn histories(page: &Page) -> Markup {
     };
     let across = lines(
         |building, floor| Column::displacement(building, floor).across(),
-        1e3,
+        format::LENGTH.of(1.0),
     );
     let turns = lines(
         |building, floor| Column::displacement(building, floor).turning(),

@@ -56,7 +56,8 @@ fn base(base: &Base) -> Facts {
         ];
     }
     if let Some(foundation) = &base.foundation {
-        let metres = |value: f64| format::plain(value, 3);
+        let metres = |value: f64| format::plain(format::HEIGHT.of(value), 3);
+        let unit = format::HEIGHT.name();
         let depth = match foundation.embedment > 0.0 {
             true => message::m_deep(metres(foundation.embedment)),
             false => String::new(),
@@ -67,7 +68,7 @@ fn base(base: &Base) -> Facts {
             (
                 message::size_of_the_foundation(),
                 format!(
-                    "{} m × {} m{depth}{lifts}",
+                    "{} {unit} × {} {unit}{depth}{lifts}",
                     metres(foundation.length),
                     metres(foundation.width)
                 ),
@@ -90,12 +91,12 @@ fn base(base: &Base) -> Facts {
     ]);
     let mut facts: Facts = vec![(message::base(), on_springs + lifts)];
     for (name, hinge, unit) in [
-        (message::base_rocks(), base.rotational_hinge, "kN·m"),
-        (message::base_slides(), base.horizontal_hinge, "kN"),
+        (message::base_rocks(), base.rotational_hinge, format::MOMENT),
+        (message::base_slides(), base.horizontal_hinge, format::FORCE),
     ] {
         if let Some(hinge) = hinge {
             let yielding = hinge.backbone().side(Side::Positive).yielding.force;
-            let value = format::unit(format::plain(yielding * 1e-3, 4), unit);
+            let value = format::unit(format::plain(unit.of(yielding), 4), unit.name());
             facts.push((
                 name,
                 message::name_yields_at_value(hinge.rule().name(), &value),
@@ -135,7 +136,8 @@ fn positive(value: f64) -> Option<f64> {
 /// "rotation 2 × 10⁸ N·m/rad, sideways …" of flexible directions.
 fn springs(parts: &[(&str, Option<f64>, &str)]) -> String {
     let known = parts.iter().filter_map(|(name, value, unit)| {
-        let value = format::plain((*value)?, 3);
+        let (factor, unit) = format::factor_of(unit);
+        let value = format::plain((*value)? * factor, 3);
         Some(format!("{name} {value}\u{a0}{unit}"))
     });
     known.collect::<Vec<_>>().join(", ")
@@ -172,15 +174,15 @@ fn section(known: &ReinforcedSection) -> String {
         [low, high] if low == high => format!("{low}: "),
         [low, high] => format!("{low}–{high}: "),
     };
-    let size = |metres: f64| format::plain(metres * 1e3, 4);
+    let size = |metres: f64| format::plain(format::LENGTH.of(metres), 4);
     let mut text = message::section_on_floors(
         &floors,
         size(section.width),
         size(section.depth),
         bars(section),
         format::fixed(section.steel_area() / section.area() * 100.0, 2),
-        format::plain(section.concrete.strength * 1e-6, 3),
-        format::plain(section.steel.yield_strength * 1e-6, 3),
+        format::plain(format::STRESS.of(section.concrete.strength), 3),
+        format::plain(format::STRESS.of(section.steel.yield_strength), 3),
     );
     if let Some(ties) = &section.ties {
         text.push_str(&message::ties_d_at_mm_legs(

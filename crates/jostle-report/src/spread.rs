@@ -43,23 +43,23 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
                 } }
                 tbody {
                     @for (gap, own) in found.gaps.iter().zip(&page.summary.gaps) {
-                        (row(&named(message::peak_force_kn(), gap, several), [own.peak_force_n, gap.peak_force_min_n, gap.peak_force_max_n], |force| format::significant(force * 1e-3, 4)))
+                        (row(&named(message::peak_force_kn(), gap, several), [own.peak_force_n, gap.peak_force_min_n, gap.peak_force_max_n], |force| format::significant(format::FORCE.of(force), 4)))
                         @let counts = [own.impact_count, gap.impact_count_min, gap.impact_count_max].map(|count| count as f64);
                         (row(&named(message::impacts(), gap, several), counts, |count| format::fixed(count, 0)))
                     }
                     @for (building, own) in found.buildings.iter().zip(&page.summary.buildings) {
-                        (row(&message::total_acceleration_of(&building.name), [own.response.total_acceleration_peak_m_s2, building.total_acceleration_min_m_s2, building.total_acceleration_max_m_s2], |value| format::significant(value, 3)))
+                        (row(&message::total_acceleration_of(&building.name), [own.response.total_acceleration_peak_m_s2, building.total_acceleration_min_m_s2, building.total_acceleration_max_m_s2], |value| format::significant(format::ACCELERATION.of(value), 3)))
                     }
                 }
             } }
             div.scroll { table {
                 thead { tr {
-                    th scope="col" { (message::contact()) } th.number scope="col" { (message::peak_force()) br; span.unit { "[kN]" } } th.number scope="col" { (message::impacts()) }
+                    th scope="col" { (message::contact()) } th.number scope="col" { (message::peak_force()) br; span.unit { (format::FORCE.bracketed()) } } th.number scope="col" { (message::impacts()) }
                 } }
                 tbody {
-                    tr { th scope="row" { (message::of_this_run()) } td.number { (format::significant(greatest * 1e-3, 4)) } td.number { (impacts) } }
+                    tr { th scope="row" { (message::of_this_run()) } td.number { (format::significant(format::FORCE.of(greatest), 4)) } td.number { (impacts) } }
                     @for variant in &found.variants {
-                        tr { th scope="row" { (in_words(variant)) } td.number { (format::significant(variant.peak_force_n * 1e-3, 4)) } td.number { (variant.impact_count) } }
+                        tr { th scope="row" { (in_words(variant)) } td.number { (format::significant(format::FORCE.of(variant.peak_force_n), 4)) } td.number { (variant.impact_count) } }
                     }
                 }
             } }

@@ -40,13 +40,13 @@ pub(crate) fn impacts(page: &Page) -> Markup {
     let columns: [(&str, &str); 9] = [
         (message::start(), "s"),
         (message::duration(), "ms"),
-        (message::peak_force(), "kN"),
-        (message::indentation(), "mm"),
-        (message::impact_speed(), "m/s"),
-        (message::separation_speed(), "m/s"),
+        (message::peak_force(), format::FORCE.name()),
+        (message::indentation(), format::LENGTH.name()),
+        (message::impact_speed(), format::SPEED.name()),
+        (message::separation_speed(), format::SPEED.name()),
         (message::restitution(), "–"),
-        (message::impulse(), "kN·s"),
-        (message::dissipated(), "kJ"),
+        (message::impulse(), format::IMPULSE.name()),
+        (message::dissipated(), format::ENERGY.name()),
     ];
     html! {
         @if all == 0 {
@@ -93,13 +93,13 @@ fn cells(impact: &ImpactSummary) -> [String; 9] {
     [
         format::fixed(impact.start_s, 4),
         format::significant((impact.end_s - impact.start_s) * 1e3, 3),
-        format::significant(impact.peak_force_n / 1e3, 4),
-        format::significant(impact.peak_indentation_m * 1e3, 3),
-        format::significant(impact.impact_speed_m_s, 3),
-        format::significant(impact.separation_speed_m_s, 3),
+        format::significant(format::FORCE.of(impact.peak_force_n), 4),
+        format::significant(format::LENGTH.of(impact.peak_indentation_m), 3),
+        format::significant(format::SPEED.of(impact.impact_speed_m_s), 3),
+        format::significant(format::SPEED.of(impact.separation_speed_m_s), 3),
         format::fixed(impact.realised_restitution, 3),
-        format::significant(impact.impulse_n_s / 1e3, 3),
-        format::significant(impact.dissipated_j / 1e3, 3),
+        format::significant(format::IMPULSE.of(impact.impulse_n_s), 3),
+        format::significant(format::ENERGY.of(impact.dissipated_j), 3),
     ]
 }
 
@@ -178,9 +178,9 @@ fn peaks_of(building: &BuildingSummary) -> Markup {
                 thead {
                     tr {
                         th scope="col" rowspan=[compared.then_some("2")] { (message::floor()) }
-                        th.number scope="col" rowspan=[compared.then_some("2")] { (message::height()) br; span.unit { "[m]" } }
+                        th.number scope="col" rowspan=[compared.then_some("2")] { (message::height()) br; span.unit { (format::HEIGHT.bracketed()) } }
                         @for (quantity, shown) in peaks_shown(building) {
-                            th.number scope="colgroup" colspan=[compared.then_some("2")] { (title(quantity, shown)) br; span.unit { "[" (shown.unit) "]" } }
+                            th.number scope="colgroup" colspan=[compared.then_some("2")] { (title(quantity, shown)) br; span.unit { "[" (format::unit_of(shown)) "]" } }
                         }
                     }
                     @if compared {
@@ -191,7 +191,7 @@ fn peaks_of(building: &BuildingSummary) -> Markup {
                     @for floor in building.floors.iter().rev() {
                         tr {
                             th scope="row" { (floor.floor) }
-                            td.number { (format::fixed(floor.height_m, 2)) }
+                            td.number { (format::in_unit(format::HEIGHT, floor.height_m, 2)) }
                             @for (quantity, shown) in peaks_shown(building) {
                                 td.number { (peak_cell(quantity, shown, Some(&floor.response))) }
                                 @if compared {
@@ -219,6 +219,6 @@ fn peak_cell(
 ) -> String {
     let value = floor.and_then(|floor| quantity.value(floor));
     value.map_or(format::NOTHING.into(), |value| {
-        format::fixed(shown.factor * value, shown.decimals)
+        format::shown_peak(shown, value)
     })
 }

@@ -218,7 +218,7 @@ fn roofs(summary: &Summary) -> Vec<Tile> {
         let roof = building.floors.last()?.response;
         let range = format!(
             "{} / +{}",
-            format::fixed(roof.displacement_min_m * 1e3, 1),
+            format::in_unit(format::LENGTH, roof.displacement_min_m, 1),
             format::millimetres(roof.displacement_max_m)
         );
         let peak = format::millimetres(roof.displacement_peak_m());
@@ -237,7 +237,7 @@ fn motion(summary: &Summary) -> String {
     let pga = summary.motion.pga_m_s2;
     message::under_the_motion(
         &summary.motion.name,
-        format::unit(format::significant(pga, 3), "m/s²"),
+        format::short(format::ACCELERATION, pga, 3),
         format::significant(pga / format::STANDARD_GRAVITY * 100.0, 3),
         format::significant(summary.energy.worst_imbalance, 2),
     )

@@ -162,7 +162,7 @@ pub(crate) fn place(contact: &ContactSummary) -> String {
         [Some(0), None] | [None, Some(0)] => message::mat().to_owned(),
         [Some(left), Some(right)] if left == right => message::floor_one(left),
         [Some(left), Some(right)] => message::floors_and(left, right),
-        _ => message::height_m(format::fixed(contact.height_m, 2)),
+        _ => message::height_m(format::in_unit(format::HEIGHT, contact.height_m, 2)),
     }
 }
 

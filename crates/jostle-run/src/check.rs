@@ -19,6 +19,9 @@ use base::{describe_bearing_places, describe_bearings, describe_foundation};
 use frames::{axial_of_columns, diagonals, members, walls};
 use hinges::{describe_hinges, describe_yielding_in_plan};
 use jostle::results::summary::Finding;
+use jostle_io::shown::{
+    FORCE, GROUND_ACCELERATION, HEIGHT, LENGTH, MASS, MOMENT, SPEED, Shown, by_model,
+};
 use jostle_report::{SitePlace, site_svg};
 use losses::losses;
 use motion::{describe_grounds, describe_work};
@@ -26,7 +29,7 @@ use serde::Serialize;
 
 use crate::checks_text::finding_with_remedy;
 use crate::error::RunError;
-use crate::numbers::{counted, grouped, mm};
+use crate::numbers::{counted, grouped, mm, power};
 use crate::opened::Opened;
 use crate::style::{BOLD, LOUD, styled};
 
@@ -88,6 +91,10 @@ pub struct ExpectedWork {
 /// # Errors
 /// The ground motion cannot be used, or a run would lose its digits or need more memory than there is.
 pub fn check(opened: &Opened) -> Result<Check, RunError> {
+    by_model(opened.input.units, || checked(opened))
+}
+
+fn checked(opened: &Opened) -> Result<Check, RunError> {
     let mut text = String::new();
     // Writing to a string cannot fail.
     let _ = describe(
@@ -206,10 +213,11 @@ fn records(
         let steps = steps_of(motion.duration, plan.step);
         let _ = writeln!(
             text,
-            "  {:30} {:>7.2} s {:>8.1} cm/s² {:>8} steps of {:.4} ms",
+            "  {:30} {:>7.2} s {:>8} {} {:>8} steps of {:.4} ms",
             motion.name,
             motion.duration,
-            100.0 * motion.peak(),
+            GROUND_ACCELERATION.number(motion.peak(), 1),
+            GROUND_ACCELERATION.name(),
             grouped(steps),
             plan.step * 1e3
         );
@@ -242,12 +250,13 @@ fn space_frame(tiers: &Tiers) -> String {
     };
     let is_column = |member: &&SpaceMember| matches!(member.place, SpacePlace::Column { .. });
     let columns = frame.members.iter().filter(is_column).count();
+    let unit = HEIGHT.name();
     let lines = |lines: &[f64]| {
-        let all = lines.iter().map(|line| format!("{line}"));
+        let all = lines.iter().map(|line| HEIGHT.stated(*line));
         all.collect::<Vec<_>>().join(", ")
     };
     format!(
-        "space frame, {}, {} and {}\n  grid lines at x = {} m, at y = {} m",
+        "space frame, {}, {} and {}\n  grid lines at x = {} {unit}, at y = {} {unit}",
         counted(tiers.floors.len(), "storey"),
         counted(columns, "column"),
         counted(frame.members.len() - columns, "beam"),
@@ -348,17 +357,22 @@ fn describe(
             (
                 "rocks",
                 model.buildings[index].base.rotational_hinge,
-                "kN.m",
+                MOMENT,
             ),
-            ("slides", model.buildings[index].base.horizontal_hinge, "kN"),
+            (
+                "slides",
+                model.buildings[index].base.horizontal_hinge,
+                FORCE,
+            ),
         ] {
             if let Some(hinge) = hinge {
                 let yielding = hinge.backbone().side(Side::Positive).yielding.force;
                 writeln!(
                     text,
-                    "  base {name} by {}: yields at {:.0} {unit}",
+                    "  base {name} by {}: yields at {} {}",
                     hinge.rule().name(),
-                    yielding * 1e-3
+                    unit.number(yielding, 0),
+                    unit.typed_name()
                 )?;
             }
         }
@@ -387,29 +401,33 @@ fn describe(
         if system.is_in_space() {
             writeln!(
                 text,
-                "  gap {} mm, {} of {} points each",
-                mm(gap.width()),
+                "  gap {}, {} of {} points each",
+                LENGTH.text(gap.width(), 1),
                 counted(faces_among(&contacts), "face"),
                 gap.in_plan.points
             )?;
         } else {
             writeln!(
                 text,
-                "  gap {} mm, {} at {} m",
+                "  gap {} {}, {} at {} {}",
                 if gap.widths.len() > 1 {
                     widths.join(", ")
                 } else {
                     mm(gap.width())
                 },
+                LENGTH.name(),
                 counted(contacts.len(), "contact"),
-                heights.join(", ")
+                heights.join(", "),
+                HEIGHT.name()
             )?;
             for (contact, height) in contacts.iter().zip(&heights) {
                 let farther = contact.width - gap.width();
                 if gap.widths.len() == 1 && farther > 0.0 {
                     writeln!(
                         text,
-                        "  the faces at {height} m stand back: {farther:.2} m more"
+                        "  the faces at {height} {} stand back: {} more",
+                        HEIGHT.name(),
+                        HEIGHT.text(farther, 2)
                     )?;
                 }
             }
@@ -421,9 +439,9 @@ fn describe(
         };
         writeln!(
             text,
-            "  {} with {:.3e} {unit}; {}",
+            "  {} with {}; {}",
             gap.law.kind.name(),
-            gap.law.stiffness,
+            power(gap.law.stiffness, unit),
             losses(gap, &contacts)
         )?;
         if system.is_in_space() {
@@ -433,14 +451,15 @@ fn describe(
         if let Some(contact) = contacts.last() {
             let [left, right] = contact.ports.masses().map(|mass| {
                 if mass.is_finite() {
-                    format!("{:.1} t", mass * 1e-3)
+                    MASS.text(mass, 1)
                 } else {
                     "a rigid wall".to_owned()
                 }
             });
             writeln!(
                 text,
-                "  colliding masses at the top {left} and {right}; an elastic impact at 0.5 m/s lasts {:.1} ms\n",
+                "  colliding masses at the top {left} and {right}; an elastic impact at {} lasts {:.1} ms\n",
+                SPEED.text(0.5, 1),
                 contact.law.elastic_duration(contact.effective_mass(), 0.5) * 1e3
             )?;
         }
@@ -469,9 +488,10 @@ fn describe(
         writeln!(text, "{}", styled(BOLD, &pair))?;
         writeln!(
             text,
-            "  {} at {} m, each with {}\n",
+            "  {} at {} {}, each with {}\n",
             counted(heights.len(), &format!("{law}link")),
             heights.join(", "),
+            HEIGHT.name(),
             parameters(link)
         )?;
     }
@@ -489,11 +509,6 @@ fn parameters(link: &jostle::Link) -> String {
         | LinkLaw::Cable { .. }
         | LinkLaw::Stopper { .. } => 1.0,
     };
-    let per_speed = if exponent == 1.0 {
-        "N.s/m".to_owned()
-    } else {
-        format!("N.(s/m)^{exponent}")
-    };
     let (mut stiffness, mut own) = (link.stiffness, Vec::new());
     match link.law {
         LinkLaw::Linear | LinkLaw::Viscous { .. } | LinkLaw::Maxwell => {}
@@ -502,24 +517,31 @@ fn parameters(link: &jostle::Link) -> String {
             stick_stiffness,
         } => {
             stiffness = stick_stiffness;
-            own.push(format!("slip at {:.1} kN", slip_force * 1e-3));
+            own.push(format!("slip at {}", FORCE.text(slip_force, 1)));
         }
         LinkLaw::Yielding(hysteresis) => {
             let backbone = hysteresis.backbone();
             let yielding = backbone.side(Side::Positive).yielding;
             stiffness = backbone.initial();
             own.push(format!(
-                "yield at {:.1} kN, {}",
-                yielding.force * 1e-3,
+                "yield at {}, {}",
+                FORCE.text(yielding.force, 1),
                 hysteresis.rule().name()
             ));
         }
-        LinkLaw::Cable { slack } => own.push(format!("a slack of {:.1} mm", slack * 1e3)),
-        LinkLaw::Stopper { gap } => own.push(format!("a gap of {:.1} mm", gap * 1e3)),
+        LinkLaw::Cable { slack } => own.push(format!("a slack of {}", LENGTH.text(slack, 1))),
+        LinkLaw::Stopper { gap } => own.push(format!("a gap of {}", LENGTH.text(gap, 1))),
     }
-    let springs = [(stiffness, "N/m"), (link.damping, per_speed.as_str())];
-    let springs = springs.iter().filter(|(value, _)| *value > 0.0);
-    let springs = springs.map(|(value, unit)| format!("{value:.3e} {unit}"));
+    let dashpot = match exponent == 1.0 {
+        true => power(link.damping, "N.s/m"),
+        false => format!("{:.3e} N.(s/m)^{exponent}", link.damping),
+    };
+    let springs = [
+        (stiffness, power(stiffness, "N/m")),
+        (link.damping, dashpot),
+    ];
+    let springs = springs.into_iter().filter(|(value, _)| *value > 0.0);
+    let springs = springs.map(|(_, text)| text);
     springs.chain(own).collect::<Vec<_>>().join(" and ")
 }
 
@@ -552,7 +574,7 @@ fn describe_places(
                 second,
                 place.floors_in_words(),
                 match place.overlap > 0.0 {
-                    true => format!("{:.3} m", place.overlap),
+                    true => HEIGHT.text(place.overlap, 3),
                     false => "–".to_owned(),
                 },
                 place.gap_in_words(),
@@ -595,7 +617,7 @@ fn describe_places(
             .enumerate()
             .filter(|(_, place)| place.gap_index == gap),
     ) {
-        let middle = format!("{:.3} m, {:.3} m", place.middle[0], place.middle[1]);
+        let middle = place.middle.map(|at| HEIGHT.text(at, 3)).join(", ");
         line(text, row.each_ref().map(|cell| &cell[..]), &middle)?;
     }
     writeln!(text)
@@ -615,7 +637,7 @@ fn height(height: f64, floors: [Option<usize>; 2], between: &[Option<usize>; 2])
         [false, true] => " (right column)",
         [true, true] => " (columns)",
     };
-    format!("{height:.2}{column}")
+    format!("{}{column}", HEIGHT.number(height, 2))
 }
 
 fn describe_building(
@@ -634,8 +656,8 @@ fn describe_building(
     writeln!(text, "{}  {kind}", styled(BOLD, &building.name))?;
     writeln!(
         text,
-        "  mass {:.3} t in {}, {} degrees of freedom",
-        equations.total_mass() * 1e-3,
+        "  mass {} in {}, {} degrees of freedom",
+        MASS.text(equations.total_mass(), 3),
         counted(lumps, "lumped mass").replace("masss", "masses"),
         equations.len()
     )?;
@@ -721,7 +743,7 @@ fn special(building: &Building) -> Vec<String> {
     let list = |parts: &[(&str, Option<f64>, &str)]| {
         let known = parts.iter().filter_map(|(name, value, unit)| {
             let value = value.filter(|value| *value > 0.0)?;
-            Some(format!("{name} {} {unit}", short(value)))
+            Some(format!("{name} {}", short(value, unit)))
         });
         known.collect::<Vec<_>>().join(", ")
     };
@@ -743,7 +765,7 @@ fn special(building: &Building) -> Vec<String> {
             lines.push(format!("base with dashpots: {dashpots}"));
         }
         if base.mass > 0.0 {
-            lines.push(format!("footings of {:.2} t", base.mass * 1e-3));
+            lines.push(format!("footings of {}", MASS.text(base.mass, 2)));
         }
     }
     if building.gravity.preload {
@@ -774,9 +796,14 @@ fn special(building: &Building) -> Vec<String> {
     lines
 }
 
-/// A stiffness with three digits.
-fn short(value: f64) -> String {
-    format!("{value:.2e}")
+/// A number with three digits and the unit that is shown for this SI unit, such as a stiffness in `N/m`.
+fn short(si: f64, unit: &str) -> String {
+    match Shown::named(&unit.replace('.', "·")) {
+        Some(own) if own.name() != own.si_name() => {
+            format!("{:.2e} {}", own.of(si), own.typed_name())
+        }
+        _ => format!("{si:.2e} {unit}"),
+    }
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use jostle::contact::{
     RubberBumper, effective_mass, hertz_indentation,
 };
 use jostle::{ContactLaw, LawKind, RestitutionIs};
+use jostle_io::shown::{HERTZ_STIFFNESS, STIFFNESS};
 use jostle_io::{Dimension, LAW_NAMES, parse_quantity};
 use jostle_report::{CollidedLaw, Collisions};
 use serde_json::{Value, json};
@@ -207,8 +208,11 @@ pub fn collide(options: &CollideOptions) -> Result<Collisions, RunError> {
         .map_or_else(String::new, |own| dashpot_words(own, masses));
     let stiffnesses = dashpot
         + &format!(
-            "Stiffness {:.4e} N/m^1.5 for the Hertz family, {:.4e} N/m for the others: the same secant at the greatest elastic Hertz indentation.",
-            stiffness.hertz, stiffness.linear
+            "Stiffness {:.4e} {} for the Hertz family, {:.4e} {} for the others: the same secant at the greatest elastic Hertz indentation.",
+            HERTZ_STIFFNESS.of(stiffness.hertz),
+            HERTZ_STIFFNESS.name(),
+            STIFFNESS.of(stiffness.linear),
+            STIFFNESS.name()
         );
     let by_restitution = laws.iter().any(|own| !own.law.kind.has_given_constants());
     Ok(Collisions {

@@ -8,6 +8,7 @@ use jostle::contact::{
 use jostle::interface::Contact;
 use jostle::statics::stiffness_at;
 use jostle::{Model, Summary, System};
+use jostle_io::shown::MASS;
 use jostle_io::{Dimension, parse_concrete, parse_quantity};
 use jostle_report::ContactBox;
 use jostle_section::StrengthLevel;
@@ -355,10 +356,10 @@ impl Known {
                     && mass < own
                 {
                     notes.push(format!(
-                        "The mass of {} is {:.1} t, less than the {:.1} t of its slab alone: check the size.",
+                        "The mass of {} is {}, less than the {} of its slab alone: check the size.",
                         between[side],
-                        1e-3 * mass,
-                        1e-3 * own
+                        MASS.text(mass, 1),
+                        MASS.text(own, 1)
                     ));
                 }
             }

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use jostle::results::floor_spectra::{FloorSpectra, FloorSpectrum};
+use jostle_io::shown::ACCELERATION;
 
 /// For every building the floor with the greatest spectrum, and for the first damping ratio.
 pub(crate) fn write_floor_spectra(text: &mut String, found: &FloorSpectra) -> std::fmt::Result {
@@ -23,8 +24,13 @@ pub(crate) fn write_floor_spectra(text: &mut String, found: &FloorSpectra) -> st
         "floor spectra", "peak acceleration", "greatest pseudo-acceleration", "ratio at most"
     )?;
     let pair = |with: f64, before: Option<f64>| match before {
-        Some(before) => format!("{with:.2} ({before:.2}) m/s²"),
-        None => format!("{with:.2} m/s²"),
+        Some(before) => format!(
+            "{} ({}) {}",
+            ACCELERATION.number(with, 2),
+            ACCELERATION.number(before, 2),
+            ACCELERATION.name()
+        ),
+        None => ACCELERATION.text(with, 2),
     };
     for name in names {
         let own = found.floors.iter().filter(|floor| floor.building == name);
@@ -61,7 +67,7 @@ pub(crate) fn write_floor_spectra(text: &mut String, found: &FloorSpectra) -> st
                         .and_then(|b| b.spectra.first())
                         .map(|b| b.pseudo_acceleration_m_s2[index])
                 )
-                .replace(" m/s²", ""),
+                .replace(&format!(" {}", ACCELERATION.name()), ""),
                 found.periods_s[index],
                 100.0 * curve.damping
             ),

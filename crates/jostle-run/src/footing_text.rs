@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use jostle::results::summary::BuildingSummary;
+use jostle_io::shown::{ENERGY, FORCE, LENGTH, PRESSURE};
 
 /// Foundations and feet of columns that can lift off, one line each.
 pub(crate) fn write(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::Result {
@@ -11,23 +12,23 @@ pub(crate) fn write(text: &mut String, buildings: &[BuildingSummary]) -> std::fm
             continue;
         };
         let pressure = own.pressure_max_pa.map_or_else(String::new, |pressure| {
-            format!(", {:.0} kPa", pressure / 1e3)
+            format!(", {}", PRESSURE.text(pressure, 0))
         });
         let settled = own.settlement_m.filter(|settled| *settled > 0.0);
         let settled = settled.map_or_else(String::new, |settled| {
             format!(
-                "; the ground settles by {:.2} mm and dissipates {:.1} kJ",
-                settled * 1e3,
-                own.dissipated_j / 1e3
+                "; the ground settles by {} and dissipates {}",
+                LENGTH.text(settled, 2),
+                ENERGY.text(own.dissipated_j, 1)
             )
         });
         writeln!(
             text,
-            "\n{}: rises by up to {:.2} mm, off the ground {:.1} % of the time; a spring bears up to {:.0} kN{pressure}{settled}",
+            "\n{}: rises by up to {}, off the ground {:.1} % of the time; a spring bears up to {}{pressure}{settled}",
             own.name,
-            own.deformation_max * 1e3,
+            LENGTH.text(own.deformation_max, 2),
             100.0 * share,
-            -own.force_min_n / 1e3
+            FORCE.text(-own.force_min_n, 0)
         )?;
     }
     Ok(())

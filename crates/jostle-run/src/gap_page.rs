@@ -10,6 +10,7 @@ use crate::critical_gap::CriticalGap;
 use crate::error::RunError;
 use crate::numbers::{counted, kn, mm};
 use crate::replace::{FileKind, may_write};
+use jostle_io::shown::{FORCE, GROUND_ACCELERATION, LENGTH};
 use jostle_report::message;
 
 /// Page of the curves.
@@ -116,7 +117,7 @@ fn headline(gap: &CriticalGap) -> String {
     });
     message::under_with_cm_s_do(
         &gap.motion,
-        format_args!("{:.1}", 100.0 * gap.pga_m_s2),
+        GROUND_ACCELERATION.number(gap.pga_m_s2, 1),
         &pair,
         mm(gap.gap_m),
         strongest.unwrap_or_default(),
@@ -138,7 +139,11 @@ fn sections_of(pair: &[String; 2], gaps: &[&CriticalGap]) -> Vec<Section> {
             .enumerate()
             .map(|(colour, gap)| Series {
                 name: gap.motion.clone(),
-                points: gap.curve.iter().map(|p| [1e3 * p.width_m, of(p)]).collect(),
+                points: gap
+                    .curve
+                    .iter()
+                    .map(|p| [LENGTH.of(p.width_m), of(p)])
+                    .collect(),
                 band: Vec::new(),
                 stroke: Stroke::Line,
                 colour,
@@ -148,7 +153,7 @@ fn sections_of(pair: &[String; 2], gaps: &[&CriticalGap]) -> Vec<Section> {
             for (index, gap) in gaps.iter().enumerate() {
                 let rules = gap.rules.iter().filter(|rule| rule.gap_m <= gap.gap_m);
                 let points: Vec<[f64; 2]> = rules
-                    .filter_map(|rule| Some([1e3 * rule.gap_m, 1e-3 * rule.peak_force_n?]))
+                    .filter_map(|rule| Some([LENGTH.of(rule.gap_m), FORCE.of(rule.peak_force_n?)]))
                     .collect();
                 if !points.is_empty() {
                     series.push(Series {
@@ -163,7 +168,7 @@ fn sections_of(pair: &[String; 2], gaps: &[&CriticalGap]) -> Vec<Section> {
         }
         Chart {
             title: y.name.clone(),
-            x: axis(message::gap(), "mm"),
+            x: axis(message::gap(), LENGTH.name()),
             y,
             series,
             levels: Vec::new(),
@@ -186,8 +191,8 @@ fn sections_of(pair: &[String; 2], gaps: &[&CriticalGap]) -> Vec<Section> {
         remark: message::greatest_contact_force_and_number(&warning),
         charts: vec![
             chart(
-                axis(message::greatest_contact_force(), "kN"),
-                &|p| 1e-3 * p.peak_force_n,
+                axis(message::greatest_contact_force(), FORCE.name()),
+                &|p| FORCE.of(p.peak_force_n),
                 true,
             ),
             chart(

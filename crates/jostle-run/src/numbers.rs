@@ -1,5 +1,7 @@
 //! Number formats.
 
+use jostle_io::shown::{FORCE, LENGTH, Shown};
+
 /// A whole number with thin spaces between thousands.
 #[must_use]
 pub fn grouped(number: u64) -> String {
@@ -14,16 +16,37 @@ pub fn grouped(number: u64) -> String {
     text
 }
 
-/// Metres as millimetres with one decimal.
+/// Metres as millimetres with one decimal, or as inches; [`LENGTH`] names the unit.
 #[must_use]
 pub fn mm(metres: f64) -> String {
-    format!("{:.1}", metres * 1e3)
+    LENGTH.number(metres, 1)
 }
 
-/// Newtons as kilonewtons with one decimal.
+/// Newtons as kilonewtons or kip with one decimal; [`FORCE`] names the unit.
 #[must_use]
 pub fn kn(newtons: f64) -> String {
-    format!("{:.1}", newtons * 1e-3)
+    FORCE.number(newtons, 1)
+}
+
+/// A width that is at least as large: whole millimetres, or hundredths of an inch \[m\].
+#[must_use]
+pub fn rounded_up(width: f64) -> String {
+    let decimals = LENGTH.decimals(0);
+    let steps = if decimals == 0 { 1.0 } else { 100.0 };
+    format!(
+        "{:.decimals$}",
+        (LENGTH.of(width) * steps - 1e-6).ceil() / steps
+    )
+}
+
+/// A number with three decimals and a power of ten, with the unit that is shown for this SI unit, such as `N/m`.
+pub(crate) fn power(si: f64, unit: &str) -> String {
+    match Shown::named(&unit.replace('.', "·")).or_else(|| Shown::named(unit)) {
+        Some(own) if own.name() != own.si_name() => {
+            format!("{:.3e} {}", own.of(si), own.typed_name())
+        }
+        _ => format!("{si:.3e} {unit}"),
+    }
 }
 
 /// One thing or several.

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use jostle::results::summary::{BuildingSummary, PartSummary};
+use jostle_io::shown::{ENERGY, FORCE, MOMENT};
 
 /// The greatest forces of braces, struts, walls and coupling beams of every building.
 pub(crate) fn write_parts(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::Result {
@@ -15,19 +16,19 @@ pub(crate) fn write_parts(text: &mut String, buildings: &[BuildingSummary]) -> s
             };
             let dissipated: f64 = own().map(|own| own.dissipated_j).sum();
             let spent = match dissipated > 0.0 {
-                true => format!("; {:.1} kJ dissipated in all", dissipated / 1e3),
+                true => format!("; {} dissipated in all", ENERGY.text(dissipated, 1)),
                 false => String::new(),
             };
             // Struts have no tension.
             let tension = match kind {
                 "infill" => String::new(),
-                _ => format!("{:.0} kN of tension and ", worst.force_max_n / 1e3),
+                _ => format!("{} of tension and ", FORCE.text(worst.force_max_n, 0)),
             };
             writeln!(
                 text,
-                "\n{noun} of {}: up to {tension}{:.0} kN of compression in {}{spent}{}",
+                "\n{noun} of {}: up to {tension}{} of compression in {}{spent}{}",
                 building.name,
-                -worst.force_min_n / 1e3,
+                FORCE.text(-worst.force_min_n, 0),
                 worst.name,
                 buckled(&own().collect::<Vec<_>>())
             )?;
@@ -87,9 +88,9 @@ fn write_walls(text: &mut String, building: &BuildingSummary) -> std::fmt::Resul
             });
         writeln!(
             text,
-            "\nWalls of {}: up to {:.0} kN·m at the foot of {}{hinge}{coupled}",
+            "\nWalls of {}: up to {} at the foot of {}{hinge}{coupled}",
             building.name,
-            moment(worst) / 1e3,
+            MOMENT.text(moment(worst), 0),
             worst.name
         )?;
     }
@@ -103,9 +104,9 @@ fn write_walls(text: &mut String, building: &BuildingSummary) -> std::fmt::Resul
             [worst.rotation_max_rad, worst.rotation_min_rad].map(Option::unwrap_or_default);
         writeln!(
             text,
-            "Coupling beams of {}: up to {:.0} kN of shear in {}, whose chord turns by {:.2} mrad",
+            "Coupling beams of {}: up to {} of shear in {}, whose chord turns by {:.2} mrad",
             building.name,
-            force(worst) / 1e3,
+            FORCE.text(force(worst), 0),
             worst.name,
             turned[0].max(turned[1]) * 1e3
         )?;

@@ -3,6 +3,7 @@
 use jostle::method::MethodSurvey;
 use jostle::{History, Outcome, RunEnd, Summary};
 use jostle_io::Input;
+use jostle_io::shown::by_model;
 use jostle_report::{Page, ReinforcedSection};
 
 use crate::contact_advice::contact_boxes;
@@ -49,7 +50,7 @@ impl<'a> Results<'a> {
             &self.prepared.system,
             self.summary,
         );
-        Some(show(&Page {
+        let page = Page {
             model: &self.prepared.input.model,
             motion: &self.prepared.motion,
             summary: self.summary,
@@ -62,7 +63,9 @@ impl<'a> Results<'a> {
             contacts: &contacts,
             methods: self.methods,
             calculation: Some(&calculation),
-        }))
+        };
+        let asked = self.prepared.input.units;
+        Some(by_model(asked, || show(&page)))
     }
 }
 

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use jostle::hysteresis::Side;
+use jostle_io::shown::{FORCE, HEIGHT, LENGTH, MODULUS, MOMENT, ROTATIONAL_STIFFNESS, STRESS};
 use jostle_io::{Dimension, Input, parse_concrete, parse_quantity, parse_steel};
 use jostle_section::formula::Member;
 use jostle_section::{
@@ -197,6 +198,7 @@ pub fn sections_text(surveys: &[SectionSurvey]) -> String {
 }
 
 fn describe(text: &mut String, surveys: &[SectionSurvey]) -> std::fmt::Result {
+    let moment = MOMENT.typed_name();
     let mut last: Option<&Section> = None;
     for survey in surveys {
         let section = &survey.section;
@@ -207,11 +209,12 @@ fn describe(text: &mut String, surveys: &[SectionSurvey]) -> std::fmt::Result {
         writeln!(text, "\n  {}", styled(BOLD, &survey.name))?;
         writeln!(
             text,
-            "  N = {:.0} kN, {:.2} of the concrete; length {:.2} m; gross 6EI/L = {:.1} MN.m/rad",
-            survey.compression * 1e-3,
+            "  N = {}, {:.2} of the concrete; length {}; gross 6EI/L = {} {}",
+            FORCE.text(survey.compression, 0),
             section.axial_ratio(survey.compression),
-            survey.length,
-            survey.gross_stiffness() * 1e-6
+            HEIGHT.text(survey.length, 2),
+            ROTATIONAL_STIFFNESS.number(survey.gross_stiffness(), 1),
+            ROTATIONAL_STIFFNESS.typed_name()
         )?;
         writeln!(
             text,
@@ -226,7 +229,7 @@ fn describe(text: &mut String, surveys: &[SectionSurvey]) -> std::fmt::Result {
             "  {}",
             styled(
                 DIM,
-                "              kN.m      mrad      kN.m      mrad      ×K       ×K"
+                &format!("  {moment:>16}      mrad    {moment:>6}      mrad      ×K       ×K")
             )
         )?;
         for &side in survey.sides() {
@@ -249,13 +252,14 @@ fn describe(text: &mut String, surveys: &[SectionSurvey]) -> std::fmt::Result {
                         .events
                         .iter()
                         .map(|event| {
-                            format!("{} {:.1}", event.kind.describe(), event.moment * 1e-3)
+                            let moment = MOMENT.number(event.moment, 1);
+                            format!("{} {moment}", event.kind.describe())
                         })
                         .collect();
                     writeln!(
                         text,
                         "  {}",
-                        styled(DIM, &format!("          {} kN.m", events.join(" → ")))
+                        styled(DIM, &format!("          {} {moment}", events.join(" → ")))
                     )?;
                 }
                 Err(error) => {
@@ -281,25 +285,25 @@ fn heading(text: &mut String, section: &Section) -> std::fmt::Result {
         styled(
             BOLD,
             &format!(
-                "{:.0} × {:.0} mm, {bars} bars ({:.2} %)",
-                section.width * 1e3,
-                section.depth * 1e3,
+                "{} × {}, {bars} bars ({:.2} %)",
+                LENGTH.number(section.width, 0),
+                LENGTH.text(section.depth, 0),
                 share * 100.0
             )
         )
     )?;
     writeln!(
         text,
-        "  concrete {:.1} MPa, tension {:.2} MPa, E {:.1} GPa; steel {:.0} MPa; {}",
-        section.concrete.strength * 1e-6,
-        section.concrete.tensile_strength * 1e-6,
-        section.concrete.modulus * 1e-9,
-        section.steel.yield_strength * 1e-6,
+        "  concrete {}, tension {}, E {}; steel {}; {}",
+        STRESS.text(section.concrete.strength, 1),
+        STRESS.text(section.concrete.tensile_strength, 2),
+        MODULUS.text(section.concrete.modulus, 1),
+        STRESS.text(section.steel.yield_strength, 0),
         match section.ties {
             Some(ties) => format!(
-                "core confined by ties of {:.0} mm every {:.0} mm, {} legs",
-                ties.diameter * 1e3,
-                ties.spacing * 1e3,
+                "core confined by ties of {} every {}, {} legs",
+                LENGTH.text(ties.diameter, 0),
+                LENGTH.text(ties.spacing, 0),
                 ties.legs
             ),
             None => "no confinement".to_owned(),
@@ -322,10 +326,10 @@ fn row(
     let gross = survey.gross_stiffness();
     writeln!(
         text,
-        "  {name:10}{:8.1} {:9.3} {:9.1} {:9.3} {:8.3} {:8.4}",
-        cracking.force * 1e-3,
+        "  {name:10}{:>8} {:9.3} {:>9} {:9.3} {:8.3} {:8.4}",
+        MOMENT.number(cracking.force, 1),
         cracking.deformation * 1e3,
-        yielding.force * 1e-3,
+        MOMENT.number(yielding.force, 1),
         yielding.deformation * 1e3,
         yielding.force / yielding.deformation / gross,
         post_yield / gross

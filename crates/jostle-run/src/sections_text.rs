@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use jostle::results::summary::{BuildingSummary, FibreSummary};
+use jostle_io::shown::FORCE;
 
 use crate::numbers::counted;
 
@@ -19,15 +20,15 @@ pub(crate) fn write_sections(text: &mut String, buildings: &[BuildingSummary]) -
         let count = |has: fn(&FibreSummary) -> bool| all.iter().filter(|own| has(own)).count();
         writeln!(
             text,
-            "\nColumns of {}: bars yielded at {} of {}, concrete passed its strength at {}; {:.2} ‰ of compression in {}, under {:.0} to {:.0} kN",
+            "\nColumns of {}: bars yielded at {} of {}, concrete passed its strength at {}; {:.2} ‰ of compression in {}, under {} to {}",
             building.name,
             count(|own| own.yielded_s.is_some()),
             counted(all.len(), "end"),
             count(|own| own.crushed_s.is_some()),
             1e3 * worst.concrete_strain.unwrap_or(0.0),
             worst.name,
-            -worst.axial_max_n / 1e3,
-            -worst.axial_min_n / 1e3,
+            FORCE.number(-worst.axial_max_n, 0),
+            FORCE.text(-worst.axial_min_n, 0),
         )?;
     }
     Ok(())

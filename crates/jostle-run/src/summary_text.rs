@@ -13,11 +13,15 @@ use jostle::results::summary::{
 };
 use jostle::separation::{Requirement, Requirements};
 use jostle_io::Input;
+use jostle_io::shown::{
+    ACCELERATION, ENERGY, FORCE, GROUND_ACCELERATION, IMPULSE, LENGTH, MASS, MOMENT, Shown,
+    by_model,
+};
 
 use crate::checks_text::write_findings;
 use crate::floor_spectra::low_pass;
 use crate::floor_spectra_text::write_floor_spectra;
-use crate::numbers::{counted, counted_grouped, grouped, kn, mm};
+use crate::numbers::{counted, counted_grouped, grouped, kn, mm, rounded_up};
 use crate::parts_text::write_parts;
 use crate::sections_text::write_sections;
 use crate::style::{BOLD, DIM, LOUD, styled};
@@ -38,7 +42,7 @@ pub fn summary_text(summary: &Summary, input: &Input) -> String {
 pub fn describe_summary(summary: &Summary, input: &Input, result: Option<&Path>) -> String {
     let mut text = String::new();
     // Writing to a string cannot fail.
-    let _ = write_all(&mut text, summary, input, result);
+    let _ = by_model(input.units, || write_all(&mut text, summary, input, result));
     text
 }
 
@@ -53,9 +57,9 @@ fn write_all(
     let reversed = if motion.scale < 0.0 { ", reversed" } else { "" };
     writeln!(
         text,
-        "{}{reversed}, peak {:.1} cm/s² ({:.3} g), {:.2} s",
+        "{}{reversed}, peak {} ({:.3} g), {:.2} s",
         motion.name,
-        motion.pga_m_s2 * 100.0,
+        GROUND_ACCELERATION.text(motion.pga_m_s2, 1),
         motion.pga_m_s2 / jostle_io::STANDARD_GRAVITY,
         motion.duration_s
     )?;
@@ -141,10 +145,13 @@ fn accelerations(building: &BuildingSummary) -> String {
     let response = &building.response;
     let filtered = response
         .filtered_acceleration_peak_m_s2
-        .map_or_else(String::new, |value| format!(" ({value:.1})"));
+        .map_or_else(String::new, |value| {
+            format!(" ({})", ACCELERATION.number(value, 1))
+        });
     format!(
-        "{:.1}{filtered} m/s²",
-        response.total_acceleration_peak_m_s2
+        "{}{filtered} {}",
+        ACCELERATION.number(response.total_acceleration_peak_m_s2, 1),
+        ACCELERATION.name()
     )
 }
 
@@ -162,6 +169,7 @@ fn write_in_plan(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::
         "\n{:width$}  {:>18}  {:>18}  {:>9}  {:>12}  {:>12}  {:>13}",
         "", "roof across", "rotation", "corner", "corner drift", "shear across", "base torque"
     )?;
+    let [length, force, moment] = [LENGTH, FORCE, MOMENT].map(Shown::name);
     for building in buildings {
         let roof = building.floors.last().and_then(|floor| floor.in_plan);
         let (Some(own), Some(roof)) = (building.in_plan, roof) else {
@@ -169,16 +177,16 @@ fn write_in_plan(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::
         };
         writeln!(
             text,
-            "{:width$}  {:>+6.1} / {:>+6.1} mm  {:>+5.2} / {:>+5.2} mrad  {:6.1} mm  {:>10.2} %  {:>9} kN  {:>8} kN·m",
+            "{:width$}  {:>6} / {:>6} {length}  {:>+5.2} / {:>+5.2} mrad  {:>6} {length}  {:>10.2} %  {:>9} {force}  {:>8} {moment}",
             building.name,
-            roof.displacement_across_max_m * 1e3,
-            roof.displacement_across_min_m * 1e3,
+            LENGTH.signed(roof.displacement_across_max_m, 1),
+            LENGTH.signed(roof.displacement_across_min_m, 1),
             roof.rotation_max_rad * 1e3,
             roof.rotation_min_rad * 1e3,
-            roof.corner_displacement_peak_m * 1e3,
+            mm(roof.corner_displacement_peak_m),
             own.drift_corner_peak * 100.0,
             kn(own.base_shear_across_peak_n),
-            kn(own.base_torque_peak_n_m)
+            MOMENT.number(own.base_torque_peak_n_m, 1)
         )?;
     }
     Ok(())
@@ -204,6 +212,7 @@ fn write_buildings(
         "base shear",
         format!("acceleration (< {corner} Hz)")
     )?;
+    let [mass, length, force] = [MASS, LENGTH, FORCE].map(Shown::name);
     for building in buildings {
         let periods: Vec<String> = building
             .periods_s
@@ -216,13 +225,13 @@ fn write_buildings(
         };
         writeln!(
             text,
-            "{:width$}  {:6}  {:5.0} t  {:15} s  {:>+6.1} / {:>+5.1} mm  {:4.2} %  {:>7} kN  {:>24}",
+            "{:width$}  {:6}  {:>5} {mass}  {:15} s  {:>6} / {:>5} {length}  {:4.2} %  {:>7} {force}  {:>24}",
             building.name,
             building.floors.len(),
-            building.mass_kg * 1e-3,
+            MASS.number(building.mass_kg, 0),
             periods.join(" "),
-            roof.response.displacement_max_m * 1e3,
-            roof.response.displacement_min_m * 1e3,
+            LENGTH.signed(roof.response.displacement_max_m, 1),
+            LENGTH.signed(roof.response.displacement_min_m, 1),
             building.response.drift_peak * 100.0,
             kn(building.response.base_shear_peak_n),
             accelerations(building)
@@ -301,9 +310,9 @@ fn write_foundations(text: &mut String, summary: &Summary) -> std::fmt::Result {
         };
         writeln!(
             text,
-            "{between}foundation of {}: {:.2} mm sway, {:.3} mrad rocking; the soil makes the first period {:.3} times as long and its damping {:.2} % instead of {:.2} %",
+            "{between}foundation of {}: {} sway, {:.3} mrad rocking; the soil makes the first period {:.3} times as long and its damping {:.2} % instead of {:.2} %",
             building.name,
-            own.sway_peak_m * 1e3,
+            LENGTH.text(own.sway_peak_m, 2),
             own.rocking_peak_rad * 1e3,
             own.period_ratio,
             100.0 * own.damping_ratio,
@@ -321,35 +330,35 @@ fn write_isolation(text: &mut String, summary: &Summary) -> std::fmt::Result {
             continue;
         };
         let stop = own.stop_force_peak_n.map_or_else(String::new, |force| {
-            format!(", {:.0} kN on a stop", force * 1e-3)
+            format!(", {} on a stop", FORCE.text(force, 0))
         });
         if let Some(plan) = &own.in_plan {
             writeln!(
                 text,
-                "\nmat of {}: bearing {} of {} moves {:.1} mm, {:.0} kN in the bearings along x and {:.0} kN across{stop}, {:.1} mm at the end",
+                "\nmat of {}: bearing {} of {} moves {}, {} in the bearings along x and {} across{stop}, {} at the end",
                 building.name,
                 plan.stroke_bearing,
                 plan.bearings,
-                plan.stroke_peak_m * 1e3,
-                own.force_peak_n * 1e-3,
-                plan.force_across_peak_n * 1e-3,
-                plan.residual_stroke_m * 1e3
+                LENGTH.text(plan.stroke_peak_m, 1),
+                FORCE.text(own.force_peak_n, 0),
+                FORCE.text(plan.force_across_peak_n, 0),
+                LENGTH.text(plan.residual_stroke_m, 1)
             )?;
             continue;
         }
         writeln!(
             text,
-            "\nmat of {}: {:.1} mm, {:.0} kN in the bearings{stop}, {:.1} mm at the end",
+            "\nmat of {}: {}, {} in the bearings{stop}, {} at the end",
             building.name,
-            own.displacement_peak_m() * 1e3,
-            own.force_peak_n * 1e-3,
-            own.residual_m * 1e3
+            LENGTH.text(own.displacement_peak_m(), 1),
+            FORCE.text(own.force_peak_n, 0),
+            LENGTH.text(own.residual_m, 1)
         )?;
         if !own.stages.is_empty() {
             let travels = own.stages.iter();
             let travels = travels.map(|stage| {
-                let [went, travel] = [stage.travel_peak_m, stage.travel_m].map(|m| m * 1e3);
-                format!("{} {went:.1} of {travel:.0} mm", stage.name)
+                let travel = LENGTH.text(stage.travel_m, 0);
+                format!("{} {} of {travel}", stage.name, mm(stage.travel_peak_m))
             });
             let travels = travels.collect::<Vec<_>>().join(", ");
             let rims = match own.reached_rims() {
@@ -362,10 +371,10 @@ fn write_isolation(text: &mut String, summary: &Summary) -> std::fmt::Result {
     for wall in &summary.walls {
         writeln!(
             text,
-            "wall {}: {:.1} mm, {:.0} kN of contact",
+            "wall {}: {}, {} of contact",
             wall.name,
-            wall.displacement_peak_m * 1e3,
-            wall.force_peak_n * 1e-3
+            LENGTH.text(wall.displacement_peak_m, 1),
+            FORCE.text(wall.force_peak_n, 0)
         )?;
     }
     Ok(())
@@ -523,10 +532,10 @@ fn write_friction(text: &mut String, gap: &GapSummary) -> std::fmt::Result {
     if peak > 0.0 {
         writeln!(
             text,
-            "  Friction: peak {} kN along a face, slip up to {} mm, {:.1} kJ dissipated.",
-            kn(peak),
-            mm(slip),
-            1e-3 * energy
+            "  Friction: peak {} along a face, slip up to {}, {} dissipated.",
+            FORCE.text(peak, 1),
+            LENGTH.text(slip, 1),
+            ENERGY.text(energy, 1)
         )?;
     }
     Ok(())
@@ -541,19 +550,22 @@ fn write_gap(
     let [left, right] = &gap.between;
     let verdict = match gap.first_impact_s {
         Some(first) => format!(
-            "{}, peak {} kN{}, first at {first:.3} s",
+            "{}, peak {}{}, first at {first:.3} s",
             counted(gap.impact_count, "impact"),
-            kn(gap.peak_force_n),
+            FORCE.text(gap.peak_force_n, 1),
             range_beside(gap, summary)
         ),
         None => {
-            format!("no contact; smallest clearance {} mm", mm(gap.clearance_m))
+            format!(
+                "no contact; smallest clearance {}",
+                LENGTH.text(gap.clearance_m, 1)
+            )
         }
     };
     writeln!(
         text,
-        "\n{left} ↔ {right}, {} mm apart: {}",
-        mm(gap.width_m),
+        "\n{left} ↔ {right}, {} apart: {}",
+        LENGTH.text(gap.width_m, 1),
         styled(BOLD, &verdict)
     )?;
     let mut hit: Vec<&ContactSummary> = gap
@@ -568,6 +580,7 @@ fn write_gap(
             "  floors   impacts   peak force    impulse   closing    first"
         )?;
     }
+    let [force, impulse, length] = [FORCE, IMPULSE, LENGTH].map(Shown::name);
     for contact in hit.iter().take(LISTED) {
         // Neither a floor nor a wall: a column between its floors.
         let point = |side: usize| match contact.floors[side] {
@@ -577,11 +590,11 @@ fn write_gap(
         };
         writeln!(
             text,
-            "{:>9}  {:7}  {:>8} kN  {:>5.1} kN·s  {:>5} mm  {:>7.3} s",
+            "{:>9}  {:7}  {:>8} {force}  {:>5} {impulse}  {:>5} {length}  {:>7.3} s",
             format!("{} | {}", point(0), point(1)),
             contact.impact_count,
             kn(contact.peak_force_n),
-            contact.impulse_n_s * 1e-3,
+            IMPULSE.number(contact.impulse_n_s, 1),
             mm(contact.closing_peak_m),
             contact.impacts.first().map_or(0.0, |impact| impact.start_s)
         )?;
@@ -604,8 +617,8 @@ fn write_gap(
         if let Some(at) = gap.total_force_peak_at_s {
             writeln!(
                 text,
-                "  All contacts together: peak {} kN at {at:.3} s.",
-                kn(gap.total_force_peak_n)
+                "  All contacts together: peak {} at {at:.3} s.",
+                FORCE.text(gap.total_force_peak_n, 1)
             )?;
         }
     }
@@ -613,8 +626,8 @@ fn write_gap(
     if let Some(closing) = gap.closing_without_contact_m {
         writeln!(
             text,
-            "  Gap needed under this motion: {} mm (from a run without contact).",
-            mm(closing)
+            "  Gap needed under this motion: {} (from a run without contact).",
+            LENGTH.text(closing, 1)
         )?;
     }
     let floors = summary.buildings.iter().flat_map(|own| own.floors.iter());
@@ -630,7 +643,7 @@ fn range_beside(gap: &GapSummary, summary: &Summary) -> String {
     let own = spread.and_then(|all| all.gaps.iter().find(|own| own.between == gap.between));
     own.map_or_else(String::new, |own| {
         let [least, most] = [own.peak_force_min_n, own.peak_force_max_n].map(kn);
-        format!(" ({least} to {most} kN)")
+        format!(" ({least} to {most} {})", FORCE.name())
     })
 }
 
@@ -650,10 +663,10 @@ fn write_bounds(text: &mut String, bounds: &IsolationBounds) -> std::fmt::Result
     for own in &bounds.buildings {
         let (name, drift) = (&own.name, |x: f64| format!("{:.2} %", 100.0 * x));
         if let Some(stroke) = &own.stroke_m {
-            line(name, "stroke", stroke, &|x| format!("{} mm", mm(x)))?;
+            line(name, "stroke", stroke, &|x| LENGTH.text(x, 1))?;
         }
         if let Some(force) = &own.force_n {
-            line(name, "force", force, &|x| format!("{} kN", kn(x)))?;
+            line(name, "force", force, &|x| FORCE.text(x, 1))?;
         }
         line(name, "drift", &own.drift, &drift)?;
     }
@@ -663,7 +676,7 @@ fn write_bounds(text: &mut String, bounds: &IsolationBounds) -> std::fmt::Result
             &format!("{left} ↔ {right}"),
             "contact force",
             &own.peak_force_n,
-            &|x| format!("{} kN", kn(x)),
+            &|x| FORCE.text(x, 1),
         )?;
     }
     Ok(())
@@ -708,19 +721,19 @@ fn write_spread(text: &mut String, spread: &ContactSensitivity) -> std::fmt::Res
         };
         writeln!(
             text,
-            "{left} ↔ {right}: peak {} to {} kN, {impacts}",
+            "{left} ↔ {right}: peak {} to {}, {impacts}",
             kn(gap.peak_force_min_n),
-            kn(gap.peak_force_max_n)
+            FORCE.text(gap.peak_force_max_n, 1)
         )?;
     }
     for building in &spread.buildings {
         let percent = |share: f64| format!("{:.1} %", 100.0 * share);
         writeln!(
             text,
-            "{}: floor accelerations {:.1} to {:.1} m/s²; displacements change by up to {}, drifts {}, storey shears {}",
+            "{}: floor accelerations {} to {}; displacements change by up to {}, drifts {}, storey shears {}",
             building.name,
-            building.total_acceleration_min_m_s2,
-            building.total_acceleration_max_m_s2,
+            ACCELERATION.number(building.total_acceleration_min_m_s2, 1),
+            ACCELERATION.text(building.total_acceleration_max_m_s2, 1),
             percent(building.displacement),
             percent(building.storey_drift),
             percent(building.storey_shear)
@@ -749,11 +762,11 @@ fn write_link(text: &mut String, link: &LinkSummary) -> std::fmt::Result {
     let stroke = link.floors.iter().map(|floor| floor.peak_stroke_m);
     writeln!(
         text,
-        "\n{pair}, {}: {}, stroke {} mm, {:.1} kJ dissipated",
+        "\n{pair}, {}: {}, stroke {}, {} dissipated",
         counted(link.floors.len(), &format!("{law}link")),
-        styled(BOLD, &format!("peak {} kN", kn(link.peak_force_n))),
-        mm(stroke.fold(0.0, f64::max)),
-        dissipated * 1e-3
+        styled(BOLD, &format!("peak {}", FORCE.text(link.peak_force_n, 1))),
+        LENGTH.text(stroke.fold(0.0, f64::max), 1),
+        ENERGY.text(dissipated, 1)
     )
 }
 
@@ -785,18 +798,21 @@ fn write_codes(
     let short: Vec<&str> = rules.iter().filter(short).map(|rule| &*rule.name).collect();
     if let (Some(computed), false) = (computed, short.is_empty()) {
         let codes = short.join(", ");
-        let computed = mm(computed);
+        let computed = LENGTH.text(computed, 1);
         writeln!(
             text,
-            "  The minimum by {codes} is less than the {computed} mm computed."
+            "  The minimum by {codes} is less than the {computed} computed."
         )?;
     }
     let widths = rules.iter();
-    let widths =
-        widths.map(|rule| format!("{} {:.0}", rule.name, (rule.width * 1e3 - 1e-6).ceil()));
+    let widths = widths.map(|rule| format!("{} {}", rule.name, rounded_up(rule.width)));
     let widths: Vec<String> = widths.collect();
     if !widths.is_empty() {
-        write_list(text, &format!("  Minimum by codes{from} [mm]: "), &widths)?;
+        write_list(
+            text,
+            &format!("  Minimum by codes{from} [{}]: ", LENGTH.name()),
+            &widths,
+        )?;
     }
     let left_out = required.left_out.iter();
     let left_out = left_out.map(|rule| format!("{} needs {}", rule.name, rule.needs));

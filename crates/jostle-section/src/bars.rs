@@ -61,7 +61,7 @@ const MOST_BARS: usize = 400;
 const MOST_LEGS: usize = 12;
 
 impl Reinforcement {
-    /// Reads `"12 d20"`, `"4 d25 top, 4 d25 bottom"`, `"2 d25 + 2 d20 top, 4 d20 bottom, 4 d12 sides"`. A place may
+    /// Reads `"12 d20"`, `"8 #8"`, `"4 d25 top, 4 d25 bottom"`, `"2 d25 + 2 d20 top, 4 d20 bottom, 4 d12 sides"`. A place may
     /// stand in brackets: `"12 d20 (around)"`.
     ///
     /// Bars without a place go around the section, evenly, with one in each corner. Diameters are in mm. Bars at
@@ -258,19 +258,54 @@ fn parse_groups(text: &str) -> Result<Vec<Group>, BarsError> {
         .collect()
 }
 
-/// Reads `"4 d25"`.
+/// What a diameter in millimetres begins with, and the number of a US bar.
+const MARKS: [char; 7] = ['d', 'D', 'φ', 'Φ', 'Ø', 'ø', '#'];
+
+/// Numbers of US bars and their diameters \[in\] (ASTM A615).
+const US_BARS: [(&str, f64); 11] = [
+    ("3", 0.375),
+    ("4", 0.5),
+    ("5", 0.625),
+    ("6", 0.75),
+    ("7", 0.875),
+    ("8", 1.0),
+    ("9", 1.128),
+    ("10", 1.27),
+    ("11", 1.41),
+    ("14", 1.693),
+    ("18", 2.257),
+];
+
+/// An inch \[mm\].
+const INCH: f64 = 25.4;
+
+/// Reads `"d25"` or `"#8"`: its diameter \[mm\]; `None` if it is neither.
+fn parse_diameter(text: &str) -> Result<Option<f64>, BarsError> {
+    if let Some(number) = text.strip_prefix('#') {
+        let number = number.trim();
+        let known = US_BARS.iter().find(|(name, _)| *name == number);
+        return match known {
+            Some((_, inches)) => Ok(Some(INCH * inches)),
+            None => Err(BarsError(format!(
+                "\"{text}\": expected a US bar from #3 to #11, #14 or #18"
+            ))),
+        };
+    }
+    let own = text.strip_prefix(MARKS).map(str::trim);
+    let own = own.map(|own| own.strip_suffix("mm").unwrap_or(own).trim());
+    Ok(own.and_then(|own| own.parse().ok()))
+}
+
+/// Reads `"4 d25"` or `"4 #8"`.
 fn parse_group(text: &str) -> Result<Group, BarsError> {
     let fault = || {
         let shown: String = text.chars().take(40).collect();
         BarsError(format!("\"{shown}\" is not understood; {EXAMPLE}"))
     };
-    let (count, diameter) = text
-        .split_once(['d', 'D', 'φ', 'Φ', 'Ø', 'ø'])
-        .ok_or_else(fault)?;
-    let diameter = diameter.trim();
-    let diameter = diameter.strip_suffix("mm").unwrap_or(diameter).trim();
+    let at = text.find(MARKS).ok_or_else(fault)?;
+    let (count, bar) = text.split_at(at);
     let count: usize = count.trim().parse().map_err(|_| fault())?;
-    let millimetres: f64 = diameter.parse().map_err(|_| fault())?;
+    let millimetres = parse_diameter(bar)?.ok_or_else(fault)?;
     if count == 0 || count > MOST_BARS || !(4.0..=80.0).contains(&millimetres) {
         return Err(BarsError(format!(
             "\"{text}\": expected 1 to {MOST_BARS} bars of 4 to 80 mm; {EXAMPLE}"
@@ -283,7 +318,7 @@ fn parse_group(text: &str) -> Result<Group, BarsError> {
 }
 
 impl Ties {
-    /// Reads `"d10 @ 100 mm"` or `"d10 @100"`: two legs in either direction; `"4 d10 @ 100 mm"` has four.
+    /// Reads `"d10 @ 100 mm"`, `"d10 @100"` or `"#4 @ 4 in"`: two legs in either direction; `"4 d10 @ 100 mm"` has four.
     ///
     /// # Errors
     /// [`BarsError`] with the part that is not understood.
@@ -303,16 +338,13 @@ impl Ties {
         } else {
             legs.parse::<usize>().map_err(|_| fault())?
         };
-        let bar = bar
-            .trim_start()
-            .strip_prefix(['d', 'D', 'φ', 'Φ', 'Ø', 'ø'])
-            .ok_or_else(fault)?;
-        let number = |text: &str| {
-            let text = text.trim();
-            let text = text.strip_suffix("mm").unwrap_or(text).trim();
-            text.parse::<f64>().map_err(|_| fault())
+        let diameter = parse_diameter(bar.trim())?.ok_or_else(fault)?;
+        let spacing = spacing.trim();
+        let (spacing, unit) = match spacing.strip_suffix("in") {
+            Some(inches) => (inches, INCH),
+            None => (spacing.strip_suffix("mm").unwrap_or(spacing), 1.0),
         };
-        let (diameter, spacing) = (number(bar)?, number(spacing)?);
+        let spacing = unit * spacing.trim().parse::<f64>().map_err(|_| fault())?;
         if !(4.0..=40.0).contains(&diameter) || !(20.0..=1000.0).contains(&spacing) {
             return Err(BarsError(format!(
                 "\"{text}\": expected ties of 4 to 40 mm every 20 to 1000 mm"
@@ -376,6 +408,37 @@ mod tests {
         // The thick bars of the top row are its outermost.
         assert_eq!(bars[0].diameter, 0.025);
         assert_eq!(bars[3].diameter, 0.025);
+    }
+
+    /// A No. 8 bar has a diameter of one inch; areas of ASTM A615 are rounded to 0.01 in².
+    #[test]
+    fn us_bars_have_the_areas_of_their_standard() {
+        let inch = 0.0254;
+        for (number, area) in [
+            (3, 0.11),
+            (4, 0.20),
+            (8, 0.79),
+            (9, 1.0),
+            (11, 1.56),
+            (18, 4.0),
+        ] {
+            let bars = Reinforcement::parse(&format!("8 #{number}")).expect("understood");
+            let own = bars.lay(0.6, 0.6, 0.04);
+            assert_eq!(own.len(), 8);
+            assert!(
+                (own[0].area() / (inch * inch) - area).abs() < 0.006,
+                "#{number}"
+            );
+        }
+        let ties = Ties::parse("4 #4 @ 4 in").expect("understood");
+        assert_eq!(ties.legs, 4);
+        assert!(
+            (ties.diameter - 0.5 * inch).abs() < 1e-15 && (ties.spacing - 4.0 * inch).abs() < 1e-15
+        );
+        for text in ["8 #2", "8 #12", "8 #"] {
+            let error = Reinforcement::parse(text).expect_err(text).to_string();
+            assert!(error.contains("#3 to #11"), "{text}: {error}");
+        }
     }
 
     #[test]

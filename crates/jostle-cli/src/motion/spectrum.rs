@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use jostle_io::shown::{ACCELERATION, LENGTH, SMALL_SPEED, Shown};
 use jostle_io::{Dimension, write_columns_parquet};
 use jostle_motion::{
     Reading, ResponseSpectrum, ductility_spectrum, response_spectrum, spaced_periods,
@@ -103,15 +104,23 @@ fn table(name: &str, elastic: &ResponseSpectrum, inelastic: &[Inelastic]) -> Str
             styled(BOLD, name),
             100.0 * curve.damping
         );
-        let _ = writeln!(text, "  period s     SD mm   PSV mm/s  PSA m/s²   SA m/s²");
+        let [length, speed, acceleration] = [LENGTH, SMALL_SPEED, ACCELERATION].map(Shown::name);
+        let _ = writeln!(
+            text,
+            "  period s{:>10}{:>11}{:>10}{:>10}",
+            format!("SD {length}"),
+            format!("PSV {speed}"),
+            format!("PSA {acceleration}"),
+            format!("SA {acceleration}")
+        );
         for (k, period) in elastic.periods.iter().enumerate() {
             let _ = writeln!(
                 text,
-                "  {period:8.4} {:9.3} {:10.2} {:9.4} {:9.4}",
-                1e3 * curve.displacement[k],
-                1e3 * curve.pseudo_velocity[k],
-                curve.pseudo_acceleration[k],
-                curve.total_acceleration[k]
+                "  {period:8.4} {:>9} {:>10} {:>9} {:>9}",
+                LENGTH.number(curve.displacement[k], 3),
+                SMALL_SPEED.number(curve.pseudo_velocity[k], 2),
+                ACCELERATION.number(curve.pseudo_acceleration[k], 4),
+                ACCELERATION.number(curve.total_acceleration[k], 4)
             );
         }
     }
@@ -123,14 +132,19 @@ fn table(name: &str, elastic: &ResponseSpectrum, inelastic: &[Inelastic]) -> Str
             100.0 * damping,
             spectrum.ductility
         );
-        let _ = writeln!(text, "  period s  yield m/s²  reduction     SD mm");
+        let _ = writeln!(
+            text,
+            "  period s{:>12}  reduction{:>10}",
+            format!("yield {}", ACCELERATION.name()),
+            format!("SD {}", LENGTH.name())
+        );
         for (k, period) in spectrum.periods.iter().enumerate() {
             let _ = writeln!(
                 text,
-                "  {period:8.4} {:11.4} {:10.3} {:9.3}",
-                spectrum.yield_acceleration[k],
+                "  {period:8.4} {:>11} {:10.3} {:>9}",
+                ACCELERATION.number(spectrum.yield_acceleration[k], 4),
                 spectrum.reduction[k],
-                1e3 * spectrum.displacement[k]
+                LENGTH.number(spectrum.displacement[k], 3)
             );
         }
     }

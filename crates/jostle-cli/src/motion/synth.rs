@@ -1,6 +1,7 @@
 //! `jostle motion synth`: artificial motions.
 
 use jostle_io::Dimension;
+use jostle_io::shown::Shown;
 use jostle_motion::{Measures, measures};
 use jostle_run::{Noise, Pulse, SpectrumMatch, made_by_recipe, motion_in_short};
 
@@ -66,8 +67,11 @@ fn strength(before: Option<&Measures>, after: &Measures) -> String {
         )],
     };
     for (what, unit, decimals, value) in MEASURES {
-        let after = value(after);
-        let row = match before.map(value) {
+        let own = Shown::named(unit);
+        let unit = own.map_or(unit, Shown::name);
+        let shown = |m: &Measures| own.map_or(value(m), |own| own.of(value(m)));
+        let after = shown(after);
+        let row = match before.map(shown) {
             None => format!("  {what:<26}{after:>12.decimals$} {unit}"),
             Some(before) => format!(
                 "  {:<26}{before:>12.decimals$}{after:>12.decimals$}{:>9.2}",

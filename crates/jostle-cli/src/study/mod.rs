@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
+use jostle_io::shown::follow;
 use jostle_io::{Dimension, ModelTree, StudyFile, parse_option};
 use jostle_study::{
     Done, Incidence, RunSettings, Study, StudyError, of_folder, run, run_case, run_folder, settle,
@@ -89,6 +90,7 @@ pub(crate) fn shard(text: &str) -> Result<(u64, u64), String> {
 pub(crate) fn study(args: &StudyArgs) -> Result<(), Failure> {
     let (mut study, out) = open(args)?;
     study.any_build = args.any_build;
+    follow(study.file.base.units());
     for text in &study.warnings {
         terminal::remark(&warning(text));
     }

@@ -31,6 +31,7 @@ mod short_openings;
 mod space;
 mod study;
 mod suite;
+mod units;
 mod unusual_models;
 mod work_counts;
 mod workbook;

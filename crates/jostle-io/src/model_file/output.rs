@@ -5,9 +5,10 @@ use jostle::{Building, MemberRequest};
 use super::capacity::{self, CapacityRequest};
 use super::floor_spectra::{self, FloorSpectraRequest};
 use super::reinforced::ReinforcedMember;
-use crate::keys::Section;
+use crate::keys::{Section, UNIT_SYSTEMS};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader};
+use crate::shown::Units;
 use crate::tree::Value;
 
 /// Reads which forces of columns and beams, which spectra of floors and which capacities are asked for. `read`: buildings
@@ -39,6 +40,14 @@ pub(super) fn link_motion(reader: &mut Reader<'_>, field: &Field<'_>) -> bool {
     let view = reader.reopen(field, &[Section::Output]);
     let links = view.and_then(|view| reader.get(&view, "links"));
     links.is_some_and(|field| reader.flag(&field).unwrap_or(false))
+}
+
+/// The system of units that texts and pages are asked for in.
+pub(super) fn units(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Units> {
+    let view = reader.reopen(field, &[Section::Output])?;
+    let field = reader.get(&view, "units")?;
+    let word = reader.choice(&field, UNIT_SYSTEMS, &[])?;
+    Units::named(word)
 }
 
 /// Time between rows of histories \[s\], if it is given.

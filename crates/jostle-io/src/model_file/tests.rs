@@ -92,6 +92,7 @@ law = "stopper"
 integrator = { method = "hht" }
 [output]
 members = true
+units = "us"
 floor_spectra = { floors = ["A.1"], damping = 0.05, periods = 1, low_pass = 25, order = 4 }
 [report]
 project = "Old town"

@@ -109,9 +109,13 @@ pub(super) fn figure(page: &Page) -> Markup {
         left += scale * outline.width();
     }
     html! {
+        @let dimensions = message::elevation_to_scale_dimensions(match format::units() {
+            format::Units::Si => message::in_metres(),
+            format::Units::Us => message::in_feet(),
+        });
         figure.static-plot.elevation {
-            figcaption { span.chart-title { (message::elevation_to_scale_dimensions()) } }
-            svg viewBox=(format!("0 0 {WIDTH} {height:.0}")) role="img" aria-label=(message::elevation_to_scale_dimensions()) {
+            figcaption { span.chart-title { (dimensions) } }
+            svg viewBox=(format!("0 0 {WIDTH} {height:.0}")) role="img" aria-label=(dimensions) {
                 line.ground x1="8" x2=(WIDTH - 8.0) y1=(round(ground)) y2=(round(ground)) {}
                 @for (index, (outline, left)) in outlines.iter().zip(&places).enumerate() {
                     @let own = ground - scale * outline.foot;
@@ -211,13 +215,16 @@ fn drawing(
         .all(|pair| (pair[0].0 - pair[1].0).abs() < 1e-9);
     let written = match (equal, storeys.len()) {
         (true, count) if count > 1 => vec![(
-            format!("{count} × {}", format::plain(storeys[0].0, 4)),
+            format!(
+                "{count} × {}",
+                format::plain(format::HEIGHT.of(storeys[0].0), 4)
+            ),
             0.5 * (outline.foot + outline.height()),
         )],
         (_, count) if count > LISTED => Vec::new(),
         _ => storeys
             .iter()
-            .map(|(h, at)| (format::plain(*h, 4), *at))
+            .map(|(h, at)| (format::plain(format::HEIGHT.of(*h), 4), *at))
             .collect(),
     };
     html! {
@@ -257,10 +264,10 @@ fn drawing(
         }
         @if is_frame {
             @for pair in outline.lines.windows(2) {
-                text x=(round(0.5 * (x(pair[0]) + x(pair[1])))) y=(round(ground + pit + 15.0)) text-anchor="middle" { (format::plain(pair[1] - pair[0], 4)) }
+                text x=(round(0.5 * (x(pair[0]) + x(pair[1])))) y=(round(ground + pit + 15.0)) text-anchor="middle" { (format::plain(format::HEIGHT.of(pair[1] - pair[0]), 4)) }
             }
         }
-        text x=(round(middle)) y=(round(ground + pit + 30.0)) text-anchor="middle" { "H = " (format::plain(outline.height() - outline.foot, 4)) }
+        text x=(round(middle)) y=(round(ground + pit + 30.0)) text-anchor="middle" { "H = " (format::plain(format::HEIGHT.of(outline.height() - outline.foot), 4)) }
     }
 }
 

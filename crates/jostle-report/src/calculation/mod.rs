@@ -84,14 +84,18 @@ pub(crate) fn motion_section(page: &Page) -> Markup {
             page.summary.motion.name
         ),
         x_label: format!("{} [s]", message::time()),
-        y_label: format!("{} [m/s²]", message::ground_acceleration()),
+        y_label: format!(
+            "{} {}",
+            message::ground_acceleration(),
+            format::ACCELERATION.bracketed()
+        ),
         logarithmic: false,
         aspect: 0.42,
         lines: vec![Line {
             name: String::new(),
             points: time
                 .zip(motion.acceleration())
-                .map(|(t, a)| [t, *a])
+                .map(|(t, a)| [t, format::ACCELERATION.of(*a)])
                 .collect(),
             colour: 6,
             dashed: false,
@@ -115,7 +119,11 @@ fn spectrum(calculation: &Calculation<'_>, motion: &Accelerogram, name: &str) ->
     let values = found.curves.first()?.pseudo_acceleration.iter();
     let mut lines = vec![Line {
         name: name.to_owned(),
-        points: periods.iter().zip(values).map(|(t, a)| [*t, *a]).collect(),
+        points: periods
+            .iter()
+            .zip(values)
+            .map(|(t, a)| [*t, format::ACCELERATION.of(*a)])
+            .collect(),
         colour: 6,
         dashed: false,
     }];
@@ -124,7 +132,7 @@ fn spectrum(calculation: &Calculation<'_>, motion: &Accelerogram, name: &str) ->
             let [first, last] = target.range();
             let inside = (first..=last).contains(period);
             let value = target.acceleration(*period, damping).ok()?;
-            inside.then_some([*period, value])
+            inside.then_some([*period, format::ACCELERATION.of(value)])
         });
         lines.push(Line {
             name: message::code().into(),
@@ -136,7 +144,11 @@ fn spectrum(calculation: &Calculation<'_>, motion: &Accelerogram, name: &str) ->
     Some(Plot {
         title: message::response_spectrum_at(format::plain(100.0 * damping, 3)),
         x_label: format!("{} [s]", message::period()),
-        y_label: format!("{} [m/s²]", message::pseudo_acceleration()),
+        y_label: format!(
+            "{} {}",
+            message::pseudo_acceleration(),
+            format::ACCELERATION.bracketed()
+        ),
         logarithmic: true,
         aspect: 0.42,
         lines,
@@ -179,7 +191,10 @@ fn shape_plot(building: &Building, shapes: &[(f64, Vec<f64>)]) -> Plot {
     let (ground, mat) = (stands.then_some([0.0; 2]), isolated.then_some(0.0));
     let lines = shapes.iter().enumerate().map(|(index, (period, shape))| {
         let levels = mat.into_iter().chain(heights.iter().copied());
-        let floors = shape.iter().zip(levels).map(|(x, y)| [*x, y]);
+        let floors = shape
+            .iter()
+            .zip(levels)
+            .map(|(x, y)| [*x, format::HEIGHT.of(y)]);
         Line {
             name: format!("T{} = {} s", index + 1, format::fixed(*period, 3)),
             points: ground.into_iter().chain(floors).collect(),
@@ -190,7 +205,7 @@ fn shape_plot(building: &Building, shapes: &[(f64, Vec<f64>)]) -> Plot {
     Plot {
         title: format!("{}, {}", message::lateral_mode_shapes(), building.name),
         x_label: message::horizontal_displacement_greatest_1().into(),
-        y_label: format!("{} [m]", message::height()),
+        y_label: format!("{} {}", message::height(), format::HEIGHT.bracketed()),
         logarithmic: false,
         aspect: 0.56,
         lines: lines.collect(),

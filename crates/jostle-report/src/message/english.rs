@@ -46,15 +46,15 @@ messages! {
     classes_storeys_of_class = "storeys of the class";
     classes_storeys_of_neighbour = "storeys of the neighbour";
     classes_no_curve = "no curve";
-    classes_chosen = "{class}, {storeys} storeys, beside {neighbour}, {beside} storeys; gap {gap} mm";
+    classes_chosen = "{class}, {storeys} storeys, beside {neighbour}, {beside} storeys; gap {gap} {mm}";
     classes_probability = "Probability of damage over intensity";
     classes_interval = "90 % interval [g]";
     classes_note = "note";
 
     // collisions
     time_ms = "time [ms]";
-    indentation_mm = "indentation [mm]";
-    against_at_m_s(m1, m2, speed) = "{m1} against {m2} at {speed} m/s";
+    indentation_mm = "indentation [{mm}]";
+    against_at_m_s(m1, m2, speed) = "{m1} against {m2} at {speed} {m/s}";
     collision_of_two_free_masses = "Collision of two free masses";
     input_restitution(restitution, stiffnesses) = "Input restitution: {restitution}. {stiffnesses}";
     numbers = "Numbers";
@@ -112,17 +112,17 @@ messages! {
     contact_stiffness_and_restitution_values = "Contact stiffness and restitution: values used, and how far they are known";
     gap = "gap";
     stiffness_used = "stiffness used";
-    stiffness_units = "[N/m^1.5 or N/m]";
+    stiffness_units = "[{N/m^1.5} or {N/m}]";
     hertz_effective_radius = "Hertz, effective radius";
     plausible_range = "plausible range";
     restitution_used = "restitution used";
     masses = "masses";
     greatest_impact_speed = "greatest impact speed";
     wall = "wall";
-    hertz_k_4_3_h = "Hertz: k = 4/[3π (h₁ + h₂)] √[R₁R₂/(R₁ + R₂)] with spheres of the masses of the floors (Goldsmith 1960; Muthukumar and DesRoches 2006), concrete of 30 GPa. The peak force of free masses grows with k^0.4, under linear laws with k^0.5:";
+    hertz_k_4_3_h(modulus) = "Hertz: k = 4/[3π (h₁ + h₂)] √[R₁R₂/(R₁ + R₂)] with spheres of the masses of the floors (Goldsmith 1960; Muthukumar and DesRoches 2006), concrete of {modulus}. The peak force of free masses grows with k^0.4, under linear laws with k^0.5:";
     repeats_the_run_with_half = "repeats the run with both ends of the advised stiffness and restitution ± 0.15.";
     adds_the_axial_stiffness = "adds the axial stiffness and the waves of slabs whose size is given.";
-    stiffnesses_in_n_m = "Stiffnesses in N/m and N/m^1.5 cannot be compared directly.";
+    stiffnesses_in_n_m = "Stiffnesses in {N/m} and {N/m^1.5} cannot be compared directly.";
 
     // describe
     grid_lines_at_x = "lines at x";
@@ -135,7 +135,7 @@ messages! {
     analysis = "Analysis";
     energy_at_the_end = "Energy at the end";
     storeys = "storeys";
-    of_m_m_high(floors, storey_heights, copied) = "{floors} of {storey_heights} m, {copied} m high";
+    of_m_m_high(floors, storey_heights, copied) = "{floors} of {storey_heights} {m}, {copied} {m} high";
     mass_at_the_floors = "mass at the floors";
     stiffness = "stiffness";
     given_as_a_matrix(size) = "given as a matrix of {size} rows";
@@ -161,7 +161,7 @@ messages! {
     columns_ei = "columns, EI";
     beams_ei = "beams, EI";
     line_mass = "line mass";
-    columns_beams_kg_m(columns, beam_mass) = "columns {columns}, beams {beam_mass} kg/m";
+    columns_beams_kg_m(columns, beam_mass) = "columns {columns}, beams {beam_mass} {kg/m}";
     floor_mass = "floor mass";
     segments = "segments";
     per_column_storey_per_span(column_segments, segments) = "{column_segments} per column storey, {segments} per span";
@@ -246,7 +246,7 @@ messages! {
     moved_dissipated_dissipated(moved, dissipated) = "{moved}, {dissipated} dissipated";
     floors_left_right(left, right) = "floors {left}–{right}";
     floor_one(one) = "floor {one}";
-    force_over_displacement_bearings = "Force over displacement; bearings with their dashpots, without stops. Links: positive where they are shorter and push. Dashed: first loading; dotted: stops and limits. Cables and stoppers: force over time. Path of a mat: y over x, both in mm; dashed: its ring, or the limit of its bearings.";
+    force_over_displacement_bearings = "Force over displacement; bearings with their dashpots, without stops. Links: positive where they are shorter and push. Dashed: first loading; dotted: stops and limits. Cables and stoppers: force over time. Path of a mat: y over x, both in {mm}; dashed: its ring, or the limit of its bearings.";
     where_word = "where";
     the_that_dissipate_most(most_rows, all) = "The {most_rows} that dissipate most, of {all}; summary.json has all of them.";
     capacity = "capacity";
@@ -305,11 +305,11 @@ messages! {
     the_faces_with_the_greatest(most, faces) = "The {most} faces with the greatest forces of {faces}.";
     floor_floor_part(floor, part) = "floor {floor}, {part}";
     at_at(at) = "at {at}";
-    centre_of_pressure_m(length) = ", centre of pressure {length} m from the middle";
+    centre_of_pressure_m(length) = ", centre of pressure {length} {m} from the middle";
     force_per_length_along = "Force per length along the face";
     of_the_force_share(point, share, share_2) = "{point}, {share} % of the force; share of the stiffness {share_2} %";
-    along_the_face_m = "along the face [m]";
-    force_per_length_kn_m = "force per length [kN/m]; shares of the force in %";
+    along_the_face_m = "along the face [{m}]";
+    force_per_length_kn_m = "force per length [{kN/m}]; shares of the force in %";
 
     // floor_spectra
     floor_response_spectra = "Floor response spectra";
@@ -319,7 +319,7 @@ messages! {
     peak_accelerations_beside_impacts_depend(name, order, corner, row_interval, resolution) = "Peak accelerations beside impacts depend on the contact stiffness. Filtered: {name} of order {order}, run forwards and backwards, with a gain of one half at {corner}\u{a0}Hz. Instants of the floor motion are at most {row_interval} apart in free vibration, and every step in contact is one; the estimated error of the spectra from their distance is {resolution}\u{a0}%.";
     damping_damping(damping) = ", damping {damping} %";
     building_floor_floor_damping(building, floor, damping) = "{building}, floor {floor}{damping}";
-    pseudo_acceleration_m_s = "pseudo-acceleration [m/s²]";
+    pseudo_acceleration_m_s = "pseudo-acceleration [{m/s²}]";
     floor = "floor";
     peak_acceleration = "peak acceleration";
     filtered = "filtered";
@@ -331,15 +331,15 @@ messages! {
     // grounds
     displacement_of_the_grounds = "Displacement of the grounds";
     displacement_of_the_grounds_across = "Displacement of the grounds across";
-    displacement_mm = "displacement [mm]";
+    displacement_mm = "displacement [{mm}]";
     part_of_the_closing = "Part of the closing of neighbours that the grounds contribute";
-    d_left_d_right_mm = "d left − d right [mm]";
+    d_left_d_right_mm = "d left − d right [{mm}]";
     ground_under_the_buildings = "Ground under the buildings";
     displacements_of_the_ground = "Displacements of the ground are exact integrals, from rest, of the accelerations that shake. Displacements of floors are relative to the ground of their own building, also in the animation; closings of contacts include those of the grounds.";
     building = "building";
     arrival_s = "arrival [s]";
-    greatest_displacement_mm = "greatest displacement [mm]";
-    at_the_end_mm = "at the end [mm]";
+    greatest_displacement_mm = "greatest displacement [{mm}]";
+    at_the_end_mm = "at the end [{mm}]";
 
     // hinges
     cracking_and_yielding_title = "Cracking and yielding";
@@ -360,7 +360,7 @@ messages! {
 
     // joints
     one_and_other(left, right) = "{left} and {right}";
-    lower_building_m_high(height) = "· lower building {height} m high";
+    lower_building_m_high(height) = "· lower building {height} {m} high";
     the_line_marks_the_gap = "The line marks the gap.";
     srss_and_abs_combine = "SRSS and ABS combine the peak displacements where the buildings can touch,";
     of_the_run_without_contact = "of the run without contact.";
@@ -529,10 +529,10 @@ messages! {
     lower_bounds = "lower bounds";
     upper_bounds = "upper bounds";
     envelope = "envelope";
-    stroke_mm(name) = "{name}: stroke of the bearings [mm]";
-    force_of_bearings_kn(name) = "{name}: force of the bearings [kN]";
+    stroke_mm(name) = "{name}: stroke of the bearings [{mm}]";
+    force_of_bearings_kn(name) = "{name}: force of the bearings [{kN}]";
     drift_percent(name) = "{name}: peak drift [%]";
-    peak_force_between_kn(between) = "{between}: peak contact force [kN]";
+    peak_force_between_kn(between) = "{between}: peak contact force [{kN}]";
     impacts_between(between) = "{between}: impacts";
     all_bearings_at_one_bound = "Three runs: all bearings at their nominal properties, at their lower and at their upper bounds. The envelope is the greatest of the three. The rest of this report shows the nominal run.";
     all_checks_are_passed = "No check found anything.";
@@ -570,8 +570,8 @@ messages! {
 
     // pushover/chart
     base_shear_of_against(name) = "Base shear of {name} against the displacement of its roof";
-    roof_displacement_mm_above = "roof displacement [mm]; above: over the height";
-    base_shear_kn = "base shear [kN]";
+    roof_displacement_mm_above = "roof displacement [{mm}]; above: over the height";
+    base_shear_kn = "base shear [{kN}]";
     of_weight = "of weight [%]";
     first_crack = "first crack";
     first_yield = "first yield";
@@ -589,8 +589,8 @@ messages! {
     beyond_the_end = ", beyond the end of the curve";
     t_s_under_the_roof(shape, period, name, roof, height, beyond, at_yield) = "{shape}, T* = {period} s. Under {name} the roof moves {roof}, {height} % of the height{beyond}; ductility {at_yield}.";
     spectral_acceleration_of_against_spectral(name) = "Spectral acceleration of {name} against spectral displacement";
-    spectral_displacement_mm = "spectral displacement [mm]";
-    spectral_acceleration_m_s = "spectral acceleration [m/s²]";
+    spectral_displacement_mm = "spectral displacement [{mm}]";
+    spectral_acceleration_m_s = "spectral acceleration [{m/s²}]";
 
     // pushover
     title_pushover(title) = "{title} – pushover";
@@ -655,7 +655,7 @@ messages! {
     the_curve_is_too_close = "The curve is too close to linear for a bilinear discretization.";
     and_more(events) = "and {events} more";
     what_happened_in_order(curve) = "What happened, in order{curve}";
-    roof_mm = "roof [mm]";
+    roof_mm = "roof [{mm}]";
     drift = "drift [%]";
     the_load_pattern_is_constant = "The load pattern is constant and the roof displacement is prescribed; base shear is the sum of the load. Displacements are relative to the state at rest and positive in the direction of the load.";
     hinges_are_linear_between = "Hinges are linear between their corners, so the curve is linear between events and independent of any step size.";
@@ -668,13 +668,13 @@ messages! {
     from_reinforcement_to_hinge = "From reinforcement to hinge";
     cracking_and_yield_of_members = "Cracking and yield of members: by formulas, and by fibre analysis of the section.";
     rotations_of_a_member_end = "Rotations of a member end from its chord, in double curvature. Formula: cracking and yield moments of AIJ, secant stiffness at yield after Sugano, 1 % after yield. Fibre: trilinear curve of the same area as moment and curvature, integrated along the member, with bar slip at its end. K = 6EI/L of the gross section.";
-    section_in_words(width, depth, bars, area, strength, yield_strength, compression, compression_2, length) = "{width} × {depth} mm, {bars} bars ({area} %); concrete {strength} MPa, steel {yield_strength} MPa; axial compression {compression} kN, {compression_2} of the concrete; length {length} m.";
+    section_in_words(width, depth, bars, area, strength, yield_strength, compression, compression_2, length) = "{width} × {depth} {mm}, {bars} bars ({area} %); concrete {strength} {MPa}, steel {yield_strength} {MPa}; axial compression {compression} {kN}, {compression_2} of the concrete; length {length} {m}.";
     positive_moment_the_bottom = "Positive moment: the bottom is in tension.";
     no_moment_curvature_analysis(error) = "No moment–curvature analysis: {error}.";
     method = "method";
-    cracking_kn_m = "cracking [kN·m]";
+    cracking_kn_m = "cracking [{kN·m}]";
     at_mrad = "at [mrad]";
-    yield_kn_m = "yield [kN·m]";
+    yield_kn_m = "yield [{kN·m}]";
     secant_at_yield_k = "secant at yield / K";
     after_yield_k = "after yield / K";
     formula = "formula";
@@ -685,7 +685,7 @@ messages! {
     cross_section_with_its_bars = "Cross-section with its bars";
     moment_against_curvature(side) = "Moment against curvature{side}";
     curvature_1_km = "curvature [1/km]";
-    moment_kn_m = "moment [kN·m]";
+    moment_kn_m = "moment [{kN·m}]";
 
     // selection
     code = "code";
@@ -718,7 +718,7 @@ messages! {
     // site_drawing
     element_number(number) = "element {number}";
     wall_can_yield(name) = "{name} can yield";
-    grid_line(name, number, place) = "grid line {name} = {number}, at {place} m";
+    grid_line(name, number, place) = "grid line {name} = {number}, at {place} {m}";
     the_site_from_above_plans = "The site from above: plans of the buildings, gaps, and the direction of shaking";
     frame_name(name) = "frame {name}";
     centre_of_stiffness = "centre of stiffness of the lowest storey";
@@ -733,7 +733,7 @@ messages! {
     across_it_thin(name) = "across it (thin): {name}";
 
     // site_places
-    to_mm(least, most) = "{least} to {most} mm";
+    to_mm(least, most) = "{least} to {most} {mm}";
     face = "face";
     side = "side";
     end = "end";
@@ -751,7 +751,7 @@ messages! {
     view = "View";
     from_the_side = "From the side";
     from_above = "From above";
-    forces_in_kn = "forces in kN";
+    forces_in_kn = "forces in {kN}";
     drag_to_turn_the_view = "Drag to turn the view, also by touch or with the arrow keys; the wheel zooms. To scale; displacements, rotations and gaps are exaggerated by the same factor. Dots: ends of faces and corners, with thin arrows along their normals; red arrows: contact forces on either building, along the normal and at the centre of pressure of the impact; the bar across them: slip along the face since rest. The black arrow on the ground is the ground acceleration.";
     faces_and_corners = "Faces and corners";
     between = "between";
@@ -781,7 +781,7 @@ messages! {
     columns_ga = "columns, GA";
     beams_ga = "beams, GA";
     mat = "mat";
-    m_deep(embedment) = ", {embedment} m deep";
+    m_deep(embedment) = ", {embedment} {m} deep";
     size_of_the_foundation = "size of the foundation";
     mass_of_the_foundation = "mass of the foundation";
     lifts_off(springs) = ", lifts off, {springs} contact springs";
@@ -797,8 +797,8 @@ messages! {
     footing_mass = "footing mass";
     column_section = "column section";
     beam_section = "beam section";
-    section_on_floors(floors, width, depth, section, area, strength, yield_strength) = "{floors}{width} × {depth}\u{a0}mm, {section} ({area}\u{a0}%), concrete {strength}\u{a0}MPa, steel {yield_strength}\u{a0}MPa";
-    ties_d_at_mm_legs(diameter, spacing, legs) = ", ties d{diameter} at {spacing}\u{a0}mm, {legs} legs";
+    section_on_floors(floors, width, depth, section, area, strength, yield_strength) = "{floors}{width} × {depth}\u{a0}{mm}, {section} ({area}\u{a0}%), concrete {strength}\u{a0}{MPa}, steel {yield_strength}\u{a0}{MPa}";
+    ties_d_at_mm_legs(diameter, spacing, legs) = ", ties d{diameter} at {spacing}\u{a0}{mm}, {legs} legs";
     axial_compression(range) = ", axial compression {range}";
     top_bottom(top, bottom) = "{top} top, {bottom} bottom";
 
@@ -810,7 +810,7 @@ messages! {
     this_run = "this run";
     least = "least";
     from_zero_to_the_greatest = "from zero to the greatest";
-    peak_force_kn = "peak force [kN]";
+    peak_force_kn = "peak force [{kN}]";
     of_this_run = "of this run";
     changes_of_peaks_by_up = "changes of peaks by up to";
     changes_are_those_of_any = "Changes are those of any floor or storey, relative to the greatest peak of their kind in the building.";
@@ -819,7 +819,7 @@ messages! {
     the_filter_of_floor_spectra = " Filtered: after the low-pass filter of floor spectra, 25 Hz unless the model states another; impacts are mostly above.";
     softest_advised_contacts = "softest advised contacts";
     stiffest_advised_contacts = "stiffest advised contacts";
-    total_acceleration_of(building) = "{building}, total acceleration [m/s²]";
+    total_acceleration_of(building) = "{building}, total acceleration [{m/s²}]";
     restitution_minus(change) = "restitution − {change}";
     restitution_plus(change) = "restitution + {change}";
 
@@ -902,7 +902,7 @@ messages! {
     no_contact = "No contact.";
     mats = "mats";
     floors_and(left, right) = "floors {left} and {right}";
-    height_m(height) = "height {height}\u{a0}m";
+    height_m(height) = "height {height}\u{a0}{m}";
     once = "once";
     twice = "twice";
     number_of_times(number) = "{number} times";
@@ -910,18 +910,18 @@ messages! {
     // jostle-run/gap_page
     force_over_gap = "Force over gap";
     one_row_per_width = "one row per width";
-    the_greatest_force_kn_comes(peak_force, width) = " The greatest force, {peak_force} kN, comes at a gap of {width} mm.";
-    under_with_cm_s_do(motion, pga, pair, gap, strongest) = "Under {motion} with {pga} cm/s², {pair} do not touch from {gap} mm on.{strongest}";
+    the_greatest_force_kn_comes(peak_force, width) = " The greatest force, {peak_force} {kN}, comes at a gap of {width} {mm}.";
+    under_with_cm_s_do(motion, pga, pair, gap, strongest) = "Under {motion} with {pga} {cm/s²}, {pair} do not touch from {gap} {mm} on.{strongest}";
     gaps_of_rules = "gaps of rules";
     did_not_meet_the_tolerance(unmet) = " {unmet} did not meet the tolerance (column met).";
     point = "point";
     greatest_contact_force_and_number(warning) = "Greatest contact force and number of impacts over the width of the gap, all other gaps out of reach. Dots: the gaps of rules that are narrower than needed. Where neighbouring points jump, a slightly different gap leads to other impacts.{warning}";
     greatest_contact_force = "greatest contact force";
-    gap_mm = "gap mm";
+    gap_mm = "gap {mm}";
     smallest = "÷ smallest";
-    greatest_force_kn = "greatest force kN";
+    greatest_force_kn = "greatest force {kN}";
     rules_under(motion) = "Rules under {motion}";
-    smallest_gap_without_pounding_mm(gap) = "Smallest gap without pounding: {gap} mm. Sources: jostle gap --json.";
+    smallest_gap_without_pounding_mm(gap) = "Smallest gap without pounding: {gap} {mm}. Sources: jostle gap --json.";
 
     // jostle-live/page
     runs_on_this_machine = "runs on this machine. This page uses no network.";
@@ -979,7 +979,9 @@ messages! {
     time = "time";
     lateral_mode_shapes = "Lateral mode shapes";
     horizontal_displacement_greatest_1 = "horizontal displacement, greatest 1 [–]";
-    elevation_to_scale_dimensions = "Elevation to scale, dimensions in metres";
+    elevation_to_scale_dimensions(unit) = "Elevation to scale, dimensions in {unit}";
+    in_metres = "metres";
+    in_feet = "feet";
     what_it_was_computed = "What it was computed from";
     program = "program";
     model_file_sha_256 = "model file, SHA-256";
@@ -995,7 +997,7 @@ messages! {
     slip_since_rest = "since rest";
     while_the_face_is_pressed = "while pressed";
     slip_of_face(left, right, side, other_side) = "Slip of {left} against {right}: {side}, {other_side}";
-    slip_mm = "slip [mm]";
+    slip_mm = "slip [{mm}]";
     and_slip(slip) = ", slip {slip}";
     arrows_beside_faces = "Arrows beside faces: slip in both directions, the longest for the greatest.";
     faces_word = "faces";
@@ -1010,15 +1012,15 @@ messages! {
     not_cracked = "not cracked";
     yielded_greatest_ductility = "yielded, greatest ductility:";
     over_value(value) = "over {value}";
-    loop_numbers(ductility, dissipated) = "ductility {ductility}, {dissipated} kJ";
+    loop_numbers(ductility, dissipated) = "ductility {ductility}, {dissipated} {kJ}";
     loop_of(force, deformation, name) = "{force} over {deformation}, {name}";
     the_buildings_at_the_current_instant = "The buildings at the current instant";
     ground = "ground";
-    roof_and_storeys(height, storeys) = "{height} m, {storeys} storeys";
+    roof_and_storeys(height, storeys) = "{height} {m}, {storeys} storeys";
     ground_acceleration_title = "Ground acceleration";
     contact_force_title = "Contact force";
     contact_force_of_some(shown, struck) = "Contact force, {shown} largest of {struck} contacts";
-    impact_in_words(instant, contact, force) = "{instant} s, {contact}: {force} kN";
+    impact_in_words(instant, contact, force) = "{instant} s, {contact}: {force} {kN}";
     roof_of_names(names) = "roof of {names}";
     height_of_impacts = "Height of impacts (area: peak force)";
     energy_balance_stacked = "Energy balance (stacked)";
@@ -1038,7 +1040,7 @@ messages! {
     show_all(count) = "Show all {count}";
     the_hardest_of(all) = ", the hardest of {all}";
     rank_by_force(rank, all) = ", no. {rank} by force of {all}";
-    impact_at(instant, place, force, order) = "Impact at {instant} s, {place}: peak force {force} kN{order}";
+    impact_at(instant, place, force, order) = "Impact at {instant} s, {place}: peak force {force} {kN}{order}";
     contact_force_over_time = "Contact force over time";
     ms_from_first_contact = "ms from first contact";
     contact_force_over_indentation = "Contact force over indentation";
@@ -1065,10 +1067,10 @@ messages! {
     records_of_the_curve(count) = ", {count} records: thin lines, mean bold, 16 to 84 % shaded";
     one_against_other(result, key, records) = "{result} against {key}{records}";
     points_of(done, all) = "{done} of {all} points. ";
-    smallest_gap_is(width) = "Gap needed under this motion: {width} mm. ";
+    smallest_gap_is(width) = "Gap needed under this motion: {width} {mm}. ";
     no_pounding = "no pounding";
     greatest_closing_without_contact = "greatest closing without contact";
-    mark_of_a_rule(name, width, source) = "{name}: {width} mm. {source}";
+    mark_of_a_rule(name, width, source) = "{name}: {width} {mm}. {source}";
     value_word = "value";
     the_curve_needs_two_numbers = "The curve needs two numbers, the first smaller than the second.";
     this_page_needs_a_browser = "This page needs a browser with WebAssembly and DecompressionStream: Chrome or Edge from 80, Firefox from 113, Safari from 16.4.";
@@ -1113,7 +1115,7 @@ messages! {
     first_shear_failures(most_rows, all) = "The first {most_rows} of {all}; summary.json contains all of them.";
     in_order_of_time_by_building = "In order of time, building by building.";
     during_the_impact_of = "during the impact of";
-    both_at_height_from(left, right, height, start) = "{left} and {right} at {height} m, from {start}";
+    both_at_height_from(left, right, height, start) = "{left} and {right} at {height} {m}, from {start}";
     columns_that_failed_in_shear = "columns that failed in shear";
     failed_of_all(failed, all) = "{failed} of {all}";
     strength = "strength";
@@ -1190,14 +1192,14 @@ messages! {
     one_row_a_case = "one row per case: inputs and results";
     same_as_text = "the same as text";
     buildings_pound_in_cases(touched, known, forces) = "The buildings pound in {touched} of {known} cases{forces}.";
-    greatest_force_of_cases(force) = "; the greatest force is {force} kN";
+    greatest_force_of_cases(force) = "; the greatest force is {force} {kN}";
     design_word = "design";
     needed_gap = "needed";
     required_gap = "Gaps of rules";
     smallest_gap_and_rules = "Smallest gap of this study without impact, and rules";
     needed_gap_and_rules = "Needed: the smallest gap of this study without an impact and without one at any wider gap. The true value lies between it and the next smaller gap of the study. ABS, SRSS and DDC come from the peak displacements at the highest floors that face each other, with the widest gap: the greatest of all records and draws, where none of them closes it.";
     gb50011_of_intensity(intensity) = "GB 50011, intensity {intensity}";
-    gb50011_of_intensities(least, most) = "GB 50011, intensities 7 to 9: {least} to {most} mm";
+    gb50011_of_intensities(least, most) = "GB 50011, intensities 7 to 9: {least} to {most} {mm}";
     share_of_the_variance = "share of the variance";
     how_much_factors_matter = "how much every factor matters";
     sensitivity_of_results = "Sensitivity";
@@ -1213,7 +1215,7 @@ messages! {
     greatest_and_least_over_angle = "greatest and least value over the angle, quantity by quantity";
     over_the_angle = "Over the angle of incidence";
     angles_of_roses = "The angle counts counter-clockwise from x to the direction of the motion, seen from above; the distance from the middle is the value. Filled dots mark the worst angle. Dashed: the same buildings without contact.";
-    worst_angle_is(angle, group, least, most) = "The worst angle for the contact force is {angle}°{group}; over all angles the greatest force is between {least} and {most} kN.";
+    worst_angle_is(angle, group, least, most) = "The worst angle for the contact force is {angle}°{group}; over all angles the greatest force is between {least} and {most} {kN}.";
     greatest_contact_force_title = "Greatest contact force";
     number_of_impacts_title = "Number of impacts";
     smallest_gap_title = "Smallest gap without pounding";
@@ -1241,7 +1243,7 @@ messages! {
     records_cannot_be_checked(reason) = "The records cannot be held against the code: {reason}.";
     choice_of_records_file = "the choice of records, as jostle motion select --json says it";
     response_over_code_file = "response of every record over the code, at every main period";
-    motions_scaled_to(peak, whose) = "Every motion is scaled to {peak} cm/s², {whose}.";
+    motions_scaled_to(peak, whose) = "Every motion is scaled to {peak} {cm/s²}, {whose}.";
     as_the_study_asks = "as the study asks";
     motions_scaled_as_matched = "Every motion is scaled as the model matches it.";
     peak_of_the_code = "the peak of the code for time histories";

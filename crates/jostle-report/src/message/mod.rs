@@ -13,6 +13,7 @@ use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::fmt::{Display, Write};
 
+use jostle_io::shown::{self, Shown, Units};
 use maud::{Markup, PreEscaped, html};
 
 pub use english::*;
@@ -30,20 +31,27 @@ macro_rules! messages {
 
         const KEYS: &[&str] = &[$(stringify!($key),)+];
 
-        /// The texts of all messages in one language. Values stand in braces: `{width}`.
+        /// The texts of all messages in one language. Values stand in braces: `{width}`; so do units, by their SI name, and
+        /// are named in the units that hold: `{kN}` is `kip` in US units.
         #[derive(Clone, Debug)]
         pub struct Messages {
             texts: [&'static str; KEYS.len()],
+            /// The texts with the names of units filled in, in SI and in US units.
+            with_units: [std::sync::OnceLock<Vec<String>>; 2],
         }
 
         /// English.
-        pub static ENGLISH: Messages = Messages { texts: [$($english,)+] };
+        pub static ENGLISH: Messages = Messages {
+            texts: [$($english,)+],
+            with_units: [const { std::sync::OnceLock::new() }; 2],
+        };
 
         impl Messages {
             /// Key and text of every message, in the order of the table.
             #[must_use]
-            pub fn all(&self) -> Vec<(&'static str, &'static str)> {
-                KEYS.iter().copied().zip(self.texts).collect()
+            pub fn all(&self) -> Vec<(&'static str, &str)> {
+                let texts = self.texts().iter().map(String::as_str);
+                KEYS.iter().copied().zip(texts).collect()
             }
 
             /// Another table: `text` of every key and English text.
@@ -53,11 +61,20 @@ macro_rules! messages {
                 for (key, own) in KEYS.iter().zip(&mut texts) {
                     *own = text(key, own);
                 }
-                Self { texts }
+                Self { texts, with_units: Default::default() }
             }
 
-            fn text(&self, place: Place) -> &'static str {
-                self.texts[place as usize]
+            fn texts(&self) -> &[String] {
+                let units = jostle_io::shown::units();
+                let fill = || {
+                    let texts = self.texts.iter();
+                    texts.map(|text| crate::message::name_units(text, units)).collect()
+                };
+                self.with_units[units as usize].get_or_init(fill)
+            }
+
+            fn text(&self, place: Place) -> &str {
+                &self.texts()[place as usize]
             }
         }
 
@@ -107,6 +124,16 @@ pub fn in_language<T>(language: &'static Messages, write: impl FnOnce() -> T) ->
     write()
 }
 
+/// `text` with names of units in braces, `{kN}`, as they are called in a system of units.
+fn name_units(text: &str, units: Units) -> String {
+    let mut named = text.to_owned();
+    for own in shown::ALL_SHOWN.iter().filter(|_| text.contains('{')) {
+        let name = format!("{{{}}}", own.si_name());
+        named = named.replace(&name, own.name_in(units));
+    }
+    named
+}
+
 /// `text` with its names in braces replaced by their values. Unknown names stay as they are.
 pub(crate) fn fill(text: &str, values: &[(&str, &dyn Display)]) -> String {
     let mut filled = String::with_capacity(text.len() + 16 * values.len());
@@ -130,7 +157,7 @@ pub(crate) fn fill(text: &str, values: &[(&str, &dyn Display)]) -> String {
     filled
 }
 
-/// The element with the texts that a script of a page asks for by `say("key")`.
+/// The element with the texts that a script of a page asks for by `say("key")`, and that with its units, `unitOf("kN")`.
 #[must_use]
 pub fn for_scripts(script: &str) -> Markup {
     let known: BTreeMap<&str, &str> = current().all().into_iter().collect();
@@ -140,7 +167,20 @@ pub fn for_scripts(script: &str) -> Markup {
         .filter_map(|key| Some((key, *known.get(key)?)))
         .collect();
     let json = serde_json::json!(texts).to_string().replace('<', "\\u003c");
-    html! { script #page-messages type="application/json" { (PreEscaped(json)) } }
+    let units = script.split("unitOf(\"").skip(1);
+    let units = units.filter_map(|after| Shown::named(after.split_once('"')?.0));
+    let units: BTreeMap<&str, serde_json::Value> = units
+        .map(|own| {
+            let (name, factor) = (own.name(), own.of(1.0));
+            let more =
+                serde_json::json!({ "name": name, "factor": factor, "least": own.decimals(0) });
+            (own.si_name(), more)
+        })
+        .collect();
+    html! {
+        script #page-messages type="application/json" { (PreEscaped(json)) }
+        script #page-units type="application/json" { (PreEscaped(serde_json::json!(units).to_string())) }
+    }
 }
 
 #[cfg(test)]

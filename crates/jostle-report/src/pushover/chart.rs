@@ -71,13 +71,13 @@ impl Chart {
         html! {
             svg.capacity viewBox="0 0 720 410" role="img" aria-label={ (message::base_shear_of_against(&one.building.name)) } {
                 g.grid {
-                    @for value in ticks(1e3 * roof, 7.0) {
-                        @let x = self.place(value * 1e-3, 0.0)[0];
+                    @for value in ticks(format::LENGTH.of(roof), 7.0) {
+                        @let x = self.place(value * format::LENGTH.size(), 0.0)[0];
                         line x1=(x) x2=(x) y1=(top) y2=(top + height) {}
                         text.axis x=(x) y=(top + height + 18.0) text-anchor="middle" { (format::plain(value, 4)) }
                     }
-                    @for value in ticks(1e-3 * shear, 6.0) {
-                        @let y = self.place(0.0, value * 1e3)[1];
+                    @for value in ticks(format::FORCE.of(shear), 6.0) {
+                        @let y = self.place(0.0, value * format::FORCE.size())[1];
                         line x1=(left) x2=(left + width) y1=(y) y2=(y) {}
                         text.axis x=(left - 8.0) y=(y + 4.0) text-anchor="end" { (format::plain(value, 6)) }
                     }

@@ -209,13 +209,13 @@ fn picture(index: usize, name: &str, wanted: &[[f64; 2]], capacities: &[Capacity
         svg.capacity viewBox="0 0 720 400" role="img" aria-label={ (message::spectral_acceleration_of_against_spectral(name)) } {
             clipPath id={ "adrs-clip-" (index) } { rect x=(left) y=(top) width=(width) height=(height) {} }
             g.grid {
-                @for value in ticks(1e3 * far, 7.0) {
-                    @let x = place([value * 1e-3, 0.0])[0];
+                @for value in ticks(format::LENGTH.of(far), 7.0) {
+                    @let x = place([value * format::LENGTH.size(), 0.0])[0];
                     line x1=(x) x2=(x) y1=(top) y2=(bottom) {}
                     text.axis x=(x) y=(bottom + 18.0) text-anchor="middle" { (format::plain(value, 4)) }
                 }
-                @for value in ticks(high, 6.0) {
-                    @let y = place([0.0, value])[1];
+                @for value in ticks(format::ACCELERATION.of(high), 6.0) {
+                    @let y = place([0.0, value * format::ACCELERATION.size()])[1];
                     line x1=(left) x2=(left + width) y1=(y) y2=(y) {}
                     text.axis x=(left - 8.0) y=(y + 4.0) text-anchor="end" { (format::plain(value, 4)) }
                 }
@@ -239,7 +239,7 @@ fn picture(index: usize, name: &str, wanted: &[[f64; 2]], capacities: &[Capacity
             @for found in capacities.iter().filter_map(|capacity| capacity.performance) {
                 @let [x, y] = place([found.reached, found.acceleration]);
                 circle.reached cx=(format!("{x:.1}")) cy=(format!("{y:.1}")) r="5.5" {
-                    title { (format::millimetres(found.reached)) ", " (format::significant(found.acceleration, 3)) " m/s²" }
+                    title { (format::millimetres(found.reached)) ", " (format::significant(format::ACCELERATION.of(found.acceleration), 3)) " " (format::ACCELERATION.name()) }
                 }
             }
         }

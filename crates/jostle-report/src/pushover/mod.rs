@@ -250,7 +250,7 @@ fn pushed_card(one: &PushedBuilding, curve: &Pushover) -> Markup {
             h3 { (message::how_it_was_pushed(direction(one, curve))) }
             dl {
                 div { dt { (message::load()) } dd { (curve.settings.pattern.name()) ": " (pattern) } }
-                div { dt { (message::driven()) } dd { (message::the_roof(percent(curve.settings.drift, 3), format::unit(format::plain(curve.height, 4), "m"))) } }
+                div { dt { (message::driven()) } dd { (message::the_roof(percent(curve.settings.drift, 3), format::unit(format::plain(format::HEIGHT.of(curve.height), 4), format::HEIGHT.name()))) } }
                 div { dt { (message::weight()) } dd { (format::force(curve.weight)) } }
                 div { dt { (message::gravity_title()) } dd {
                     @if one.building.rest.displacement.is_empty() { (message::does_not_load_the_hinges()) } @else { (message::loads_the_hinges_first()) }
@@ -309,9 +309,9 @@ fn events(one: &PushedBuilding, index: usize, curve: &Pushover) -> Markup {
                         tbody {
                             @for point in curve.points.iter().filter(|point| !point.events.is_empty()) {
                                 tr data-roof=(point.roof) data-curve=(index) {
-                                    td.number { (format::fixed(point.roof * 1e3, 2)) }
+                                    td.number { (format::in_unit(format::LENGTH, point.roof, 2)) }
                                     td.number { (format::fixed(100.0 * curve.drift(point), 3)) }
-                                    td.number { (format::fixed(point.base_shear * 1e-3, 1)) }
+                                    td.number { (format::in_unit(format::FORCE, point.base_shear, 1)) }
                                     td.number { (format::fixed(100.0 * curve.coefficient(point), 2)) }
                                     td { (named(point)) }
                                 }

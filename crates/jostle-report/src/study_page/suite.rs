@@ -4,7 +4,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::{OWN_STYLE, Section, charts};
 use crate::document::{CALCULATION_STYLE, POLICY, STYLE, theme_button, theme_script};
-use crate::message;
+use crate::{format, message};
 
 /// Everything the page of a suite shows.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -42,11 +42,11 @@ pub struct SuiteRow {
 
 fn record_columns() -> [(&'static str, &'static str); 5] {
     [
-        (message::peak(), "m/s²"),
+        (message::peak(), format::ACCELERATION.name()),
         (message::scale(), ""),
         (message::duration(), "s"),
         (message::impacts(), ""),
-        (message::peak_force(), "kN"),
+        (message::peak_force(), format::FORCE.name()),
     ]
 }
 fn quantity_columns() -> [&'static str; 6] {

@@ -13,3 +13,4 @@ mod pushover;
 mod sources;
 mod space;
 mod study;
+mod units;

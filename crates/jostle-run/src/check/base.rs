@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use jostle::BedSpring;
+use jostle_io::shown::{FORCE, HEIGHT, LENGTH, MASS, MOMENT};
 
 use super::short;
 
@@ -15,29 +16,29 @@ pub(super) fn describe_foundation(
 ) -> std::fmt::Result {
     let (foundation, springs) = (&own.foundation, &own.springs);
     let depth = match foundation.embedment > 0.0 {
-        true => format!(", {:.2} m deep", foundation.embedment),
+        true => format!(", {} deep", HEIGHT.text(foundation.embedment, 2)),
         false => String::new(),
     };
     writeln!(
         text,
-        "  foundation {:.2} x {:.2} m{depth}, {:.1} t",
-        foundation.length,
-        foundation.width,
-        foundation.mass * 1e-3
+        "  foundation {} x {}{depth}, {}",
+        HEIGHT.number(foundation.length, 2),
+        HEIGHT.text(foundation.width, 2),
+        MASS.text(foundation.mass, 1)
     )?;
     let sway = match own.sway {
         Some(_) => format!(
-            "sway {} N/m and {} N.s/m",
-            short(springs.sway_stiffness),
-            short(springs.sway_damping)
+            "sway {} and {}",
+            short(springs.sway_stiffness, "N/m"),
+            short(springs.sway_damping, "N.s/m")
         ),
         None => "sway held".to_owned(),
     };
     writeln!(
         text,
-        "  soil: {sway}, rocking {} N.m/rad and {} N.m.s/rad",
-        short(springs.rocking_stiffness),
-        short(springs.rocking_damping)
+        "  soil: {sway}, rocking {} and {}",
+        short(springs.rocking_stiffness, "N.m/rad"),
+        short(springs.rocking_damping, "N.m.s/rad")
     )?;
     writeln!(
         text,
@@ -53,17 +54,18 @@ pub(super) fn describe_foundation(
     };
     // The outermost spring lifts off where its shortening under the weight is used up, θ = W/(K_z b).
     let weight = jostle_io::STANDARD_GRAVITY * mass;
+    let moment = MOMENT.typed_name();
     let lifting = springs.rocking_stiffness * weight / (springs.vertical_stiffness * reach);
     writeln!(
         text,
-        "  lifts off: {} contact springs to {:.2} m from the middle, vertical {} N/m and {} N.s/m; the edge lifts at an overturning moment of {:.0} kN.m, and {:.0} kN.m = W b is the most it can bear (W {:.0} kN)",
+        "  lifts off: {} contact springs to {} from the middle, vertical {} and {}; the edge lifts at an overturning moment of {} {moment}, and {} {moment} = W b is the most it can bear (W {})",
         bed.len(),
-        reach,
-        short(springs.vertical_stiffness),
-        short(springs.vertical_damping),
-        lifting * 1e-3,
-        weight * reach * 1e-3,
-        weight * 1e-3
+        HEIGHT.text(reach, 2),
+        short(springs.vertical_stiffness, "N/m"),
+        short(springs.vertical_damping, "N.s/m"),
+        MOMENT.number(lifting, 0),
+        MOMENT.number(weight * reach, 0),
+        FORCE.text(weight, 0)
     )
 }
 
@@ -80,20 +82,25 @@ pub(super) fn describe_bearing_places(
     let listed: Vec<String> = places
         .iter()
         .take(MOST_PLACES)
-        .map(|[x, y]| format!("({x:.2}, {y:.2})"))
+        .map(|at| format!("({})", at.map(|own| HEIGHT.number(own, 2)).join(", ")))
         .collect();
     let more = if places.len() > MOST_PLACES {
         ", …"
     } else {
         ""
     };
-    let each = weight * 1e-3 / places.len() as f64;
+    let each = FORCE.text(weight / places.len() as f64, 0);
     let what = if given {
-        format!("{} bearings with {each:.0} kN each", places.len())
+        format!("{} bearings with {each} each", places.len())
     } else {
         "four bearings stand for an even spread".to_owned()
     };
-    writeln!(text, "  {what}, at {}{more} m", listed.join(", "))
+    writeln!(
+        text,
+        "  {what}, at {}{more} {}",
+        listed.join(", "),
+        HEIGHT.name()
+    )
 }
 
 /// Bearings whose places are listed.
@@ -108,19 +115,19 @@ pub(super) fn describe_bearings(
     let amplitude = isolation.limit.unwrap_or(AMPLITUDE);
     writeln!(
         text,
-        "  {} bearings under a mat of {:.1} t, with a weight of {:.0} kN",
+        "  {} bearings under a mat of {}, with a weight of {}",
         isolation.isolator.name(),
-        isolation.mat_mass * 1e-3,
-        mat.weight * 1e-3
+        MASS.text(isolation.mat_mass, 1),
+        FORCE.text(mat.weight, 0)
     )?;
     if let Some([stiffness, ratio]) = isolation.isolator.equivalent(mat.weight, amplitude) {
         let mass = mat.weight / jostle_io::STANDARD_GRAVITY;
         let omega = (stiffness / mass).sqrt();
         writeln!(
             text,
-            "  at {:.0} mm as linear bearings of {} N/m with {:.1} % damping: a period of {:.2} s",
-            amplitude * 1e3,
-            short(stiffness),
+            "  at {} as linear bearings of {} with {:.1} % damping: a period of {:.2} s",
+            LENGTH.text(amplitude, 0),
+            short(stiffness, "N/m"),
             100.0 * (ratio + mat.dashpot / (2.0 * mass * omega)),
             std::f64::consts::TAU / omega
         )?;

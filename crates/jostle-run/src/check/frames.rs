@@ -4,6 +4,9 @@ use crate::numbers::counted;
 use jostle::hysteresis::{Hysteresis, HysteresisRule, Side};
 use jostle::statics::STANDARD_GRAVITY;
 use jostle::{DiagonalKind, Frame, Section};
+use jostle_io::shown::{
+    FORCE, HEIGHT, LARGE_FORCE, LARGE_RIGIDITY, LARGE_STIFFNESS, LENGTH, Shown,
+};
 
 /// Whether the columns of a frame shorten, and why; `None` if it is not known whether the file says so.
 pub(super) fn axial_of_columns(frame: &Frame, is_stated: Option<bool>) -> String {
@@ -65,15 +68,15 @@ pub(super) fn walls(frame: &Frame) -> String {
         let Some(section) = section else {
             return String::new();
         };
-        let number = |name: &str, value: Option<f64>, unit: &str| {
+        let number = |name: &str, value: Option<f64>, unit: Shown| {
             value.map_or_else(String::new, |value| {
-                format!(", {name} {:.3} {unit}", value / 1e9)
+                format!(", {name} {}", unit.text(value, 3))
             })
         };
-        let bent = number("EI", Some(section.flexural_rigidity), "GN·m²");
-        let stretched = number("EA", section.axial_rigidity, "GN");
+        let bent = number("EI", Some(section.flexural_rigidity), LARGE_RIGIDITY);
+        let stretched = number("EA", section.axial_rigidity, LARGE_FORCE);
         let sheared = match section.shear_rigidity {
-            Some(rigidity) => number("GA", Some(rigidity), "GN"),
+            Some(rigidity) => number("GA", Some(rigidity), LARGE_FORCE),
             None => ", rigid in shear".to_owned(),
         };
         let factors = match (bending, shear) {
@@ -87,6 +90,7 @@ pub(super) fn walls(frame: &Frame) -> String {
         false => format!("{noun}s {first}–{last}"),
     };
     let mut text = String::new();
+    let unit = HEIGHT.name();
     let lines = frame.line_positions();
     for (index, wall) in frame.walls.iter().enumerate() {
         let section = frame.column(wall.storeys[0] - 1, wall.line - 1);
@@ -97,11 +101,11 @@ pub(super) fn walls(frame: &Frame) -> String {
             (Some(_), Some(_)) => ", yields at its foot and in shear",
         };
         text += &format!(
-            "  wall {} at {} m, {}, {} m long{}{yields}\n",
+            "  wall {} at {} {unit}, {}, {} {unit} long{}{yields}\n",
             index + 1,
-            lines[wall.line - 1],
+            HEIGHT.stated(lines[wall.line - 1]),
             storeys(wall.storeys, "storey"),
-            wall.length,
+            HEIGHT.stated(wall.length),
             rigidities(section, wall.stiffness_factors)
         );
     }
@@ -115,8 +119,8 @@ pub(super) fn walls(frame: &Frame) -> String {
             ""
         };
         let own = format!(
-            "{:.3} m long{}{yields}",
-            frame.clear_span(place),
+            "{} long{}{yields}",
+            HEIGHT.text(frame.clear_span(place), 3),
             rigidities(frame.beam(place[0], place[1]), beam.stiffness_factors)
         );
         match said.last_mut() {
@@ -168,15 +172,16 @@ pub(super) fn diagonals(frame: &Frame) -> String {
         }
     };
     let pressed = |own: &Hysteresis| *own.backbone().side(Side::Negative);
+    let (force, stiffness) = (FORCE.name(), LARGE_STIFFNESS.name());
     let buckling: Vec<_> = laws(DiagonalKind::Brace)
         .filter(|own| matches!(own.rule(), HysteresisRule::Buckling(_)))
         .collect();
     if !buckling.is_empty() {
         text += &format!(
-            " ({} that buckle at {} kN and yield at {} kN)",
+            " ({} that buckle at {} {force} and yield at {} {force})",
             counted(buckling.len(), "brace"),
-            between(&buckling, &|own| 1e-3 * pressed(own).yielding.force),
-            between(&buckling, &|own| 1e-3 * own.backbone().yield_force()),
+            between(&buckling, &|own| FORCE.of(pressed(own).yielding.force)),
+            between(&buckling, &|own| FORCE.of(own.backbone().yield_force())),
         );
     }
     let cracking: Vec<_> = laws(DiagonalKind::Infill)
@@ -184,10 +189,11 @@ pub(super) fn diagonals(frame: &Frame) -> String {
         .collect();
     if !cracking.is_empty() {
         text += &format!(
-            " (struts of {} MN/m that crack at {} kN and bear {} kN)",
-            between(&cracking, &|own| 1e-6 * own.backbone().initial()),
-            between(&cracking, &|own| 1e-3 * pressed(own).cracking.force),
-            between(&cracking, &|own| 1e-3 * pressed(own).yielding.force),
+            " (struts of {} {stiffness} that crack at {} {force} and bear {} {force})",
+            between(&cracking, &|own| LARGE_STIFFNESS
+                .of(own.backbone().initial())),
+            between(&cracking, &|own| FORCE.of(pressed(own).cracking.force)),
+            between(&cracking, &|own| FORCE.of(pressed(own).yielding.force)),
         );
     }
     let panels = frame.diagonals.iter().filter_map(|own| own.across);
@@ -206,9 +212,9 @@ pub(super) fn diagonals(frame: &Frame) -> String {
         let zones = || frame.rigid_zones.values();
         let [beams, columns] = [0, 1].map(|side| zones().map(|own| own[side]).fold(0.0, f64::max));
         text += &format!(
-            ", rigid ends up to {:.0} mm of beams and {:.0} mm of columns",
-            1e3 * beams,
-            1e3 * columns
+            ", rigid ends up to {} of beams and {} of columns",
+            LENGTH.text(beams, 0),
+            LENGTH.text(columns, 0)
         );
     }
     text

@@ -6,8 +6,10 @@ use crate::numbers::counted;
 use jostle::hysteresis::{Hysteresis, HysteresisRule, Side};
 use jostle::model::{Hinges, PlanAxis, PlanSpring, Tiers};
 use jostle::{ColumnFibres, SpaceFrame, SpaceMember, SpacePlace};
+use jostle_io::shown::{FORCE, HEIGHT, MOMENT, Shown};
 
 pub(super) fn describe_hinges(text: &mut String, hinges: &Hinges) -> std::fmt::Result {
+    let (force, moment) = (FORCE.name(), MOMENT.typed_name());
     match hinges {
         Hinges::Frame(hinges) => {
             if let Some(([storey, line], first)) = hinges.fibres.first_key_value() {
@@ -30,9 +32,9 @@ pub(super) fn describe_hinges(text: &mut String, hinges: &Hinges) -> std::fmt::R
                     let [cracking, yielding] = extents(&springs, side);
                     writeln!(
                         text,
-                        "  hinges {rule}, {name}{sign}: crack at {} kN.m, yield at {} kN.m",
-                        range(cracking, 1e-3),
-                        range(yielding, 1e-3)
+                        "  hinges {rule}, {name}{sign}: crack at {} {moment}, yield at {} {moment}",
+                        range(cracking, MOMENT),
+                        range(yielding, MOMENT)
                     )?;
                 }
             }
@@ -43,10 +45,10 @@ pub(super) fn describe_hinges(text: &mut String, hinges: &Hinges) -> std::fmt::R
                 let [cracking, yielding] = extents(&springs, Side::Positive);
                 writeln!(
                     text,
-                    "  storeys {}: crack at {} kN, yield at {} kN",
+                    "  storeys {}: crack at {} {force}, yield at {} {force}",
                     first.rule().name(),
-                    range(cracking, 1e-3),
-                    range(yielding, 1e-3)
+                    range(cracking, FORCE),
+                    range(yielding, FORCE)
                 )?;
             }
         }
@@ -74,12 +76,12 @@ fn fibres<'a>(
                 }
             });
     format!(
-        "fibres at {} of columns; {first_of}: {} over {}, {} kN of concrete and {} kN of bars",
+        "fibres at {} of columns; {first_of}: {} over {}, {} of concrete and {} of bars",
         counted(count, "end"),
         counted(layers, "concrete fibre"),
-        format_args!("{:.3} m", first.length),
-        (concrete / 1e3).round(),
-        (steel / 1e3).round(),
+        HEIGHT.text(first.length, 3),
+        FORCE.text(concrete, 0),
+        FORCE.text(steel, 0),
     )
 }
 
@@ -108,22 +110,23 @@ pub(super) fn describe_yielding_in_plan(text: &mut String, tiers: &Tiers) -> std
             let what = match element {
                 None => "storeys".to_owned(),
                 Some(index) => {
-                    let [x, y] = first.at.map(|value| format!("{value:.2}"));
+                    let [x, y] = first.at.map(|value| HEIGHT.number(value, 2));
                     let name = tiers.element_names.get(index).cloned().flatten();
                     let name = name.unwrap_or_else(|| format!("element {}", index + 1));
-                    format!("{name} at ({x}, {y}) m")
+                    format!("{name} at ({x}, {y}) {}", HEIGHT.name())
                 }
             };
             let cracks = match cracking == yielding {
                 true => String::new(),
-                false => format!("crack at {} kN, ", range(cracking, 1e-3)),
+                false => format!("crack at {} {}, ", range(cracking, FORCE), FORCE.name()),
             };
             writeln!(
                 text,
-                "  {what}, {} by {}: {cracks}yield at {} kN",
+                "  {what}, {} by {}: {cracks}yield at {} {}",
                 axis.name(),
                 first.hysteresis.rule().name(),
-                range(yielding, 1e-3)
+                range(yielding, FORCE),
+                FORCE.name()
             )?;
         }
     }
@@ -142,6 +145,7 @@ fn describe_space_hinges(text: &mut String, frame: &SpaceFrame) -> std::fmt::Res
         ("columns, y,", true, 1),
         ("beams", false, 0),
     ];
+    let moment = MOMENT.typed_name();
     for (what, columns, plane) in sorts {
         let members = frame.members.iter();
         let members = members.filter(|own| is_column(own) == columns);
@@ -154,14 +158,14 @@ fn describe_space_hinges(text: &mut String, frame: &SpaceFrame) -> std::fmt::Res
         let [cracking, yielding] = extents(&springs, Side::Positive);
         let cracks = match cracking == yielding {
             true => String::new(),
-            false => format!("crack at {} kN.m, ", range(cracking, 1e-3)),
+            false => format!("crack at {} {moment}, ", range(cracking, MOMENT)),
         };
         writeln!(
             text,
-            "  {} of {what} {}: {cracks}yield at {} kN.m",
+            "  {} of {what} {}: {cracks}yield at {} {moment}",
             counted(2 * springs.len(), "hinge"),
             first.rule().name(),
-            range(yielding, 1e-3)
+            range(yielding, MOMENT)
         )?;
     }
     Ok(())
@@ -182,8 +186,8 @@ fn extents(springs: &[&Hysteresis], side: Side) -> [[f64; 2]; 2] {
 }
 
 /// A range, or one number where its ends look the same.
-fn range([low, high]: [f64; 2], scale: f64) -> String {
-    let [low, high] = [low, high].map(|value| format!("{:.1}", value * scale));
+fn range(ends: [f64; 2], shown: Shown) -> String {
+    let [low, high] = ends.map(|value| shown.number(value, 1));
     if low == high {
         low
     } else {

@@ -1,10 +1,11 @@
 //! What impacts dissipate.
 
-use crate::numbers::{kn, mm};
+use crate::numbers::power;
 use jostle::LawKind;
 use jostle::contact::FreeCollision;
 use jostle::interface::Contact;
 use jostle::model::Gap;
+use jostle_io::shown::{self, FORCE, LENGTH};
 
 /// Impact speed at which the rebound of a formula is computed \[m/s\].
 const SPEED: f64 = 0.5;
@@ -24,18 +25,18 @@ pub(super) fn losses(gap: &Gap, contacts: &[&Contact]) -> String {
     let free = range(&|contact: &Contact| contact.free_restitution(&gap.law));
     match gap.law.kind {
         LawKind::Dashpot(own) => format!(
-            "dashpot {:.3e} N.s/m, the same as restitution {}; free masses rebound with {free}",
-            own.damping,
+            "dashpot {}, the same as restitution {}; free masses rebound with {free}",
+            power(own.damping, "N.s/m"),
             range(&|contact: &Contact| contact.equivalent_restitution(&gap.law)),
         ),
         LawKind::BilinearGiven(own) => format!(
-            "{:.3e} N/m beyond {} mm; the rebound of free masses depends on their speed",
-            own.second_stiffness,
-            mm(own.yield_indentation)
+            "{} beyond {}; the rebound of free masses depends on their speed",
+            power(own.second_stiffness, "N/m"),
+            LENGTH.text(own.yield_indentation, 1)
         ),
         LawKind::Crushing(own) => format!(
-            "crushes from {} kN on, with {} of the stiffness, and stays crushed",
-            kn(own.force),
+            "crushes from {} on, with {} of the stiffness, and stays crushed",
+            FORCE.text(own.force, 1),
             own.hardening
         ),
         LawKind::Formula(own) => {
@@ -44,7 +45,10 @@ pub(super) fn losses(gap: &Gap, contacts: &[&Contact]) -> String {
                 let collision = FreeCollision::new(&contact.law, left, right, SPEED);
                 Some(collision.realised_restitution())
             });
-            format!("F = {own}; at {SPEED} m/s free masses rebound with {rebound}")
+            format!(
+                "F = {own}; at {} free masses rebound with {rebound}",
+                shown::SPEED.text(SPEED, 1)
+            )
         }
         _ => format!("free masses rebound with {free}"),
     }

@@ -6,6 +6,7 @@ use crate::numbers::grouped;
 use crate::style::{BOLD, styled};
 use jostle::structure::StepEquations;
 use jostle::{GroundMotion, Plan, RiccatiSweep, Solver, System};
+use jostle_io::shown::ACCELERATION;
 
 use super::decimals;
 
@@ -21,10 +22,16 @@ pub(super) fn describe_grounds(
     writeln!(text, "{}", styled(BOLD, "Grounds"))?;
     for (index, own) in grounds.own.iter().enumerate() {
         let record = own.motion.as_ref().map_or(String::new(), |own| {
-            format!(", own motion with a peak of {:.3} m/s²", own.peak())
+            format!(
+                ", own motion with a peak of {}",
+                ACCELERATION.text(own.peak(), 3)
+            )
         });
         let vertical = own.vertical.as_ref().map_or(String::new(), |own| {
-            format!(", vertical with a peak of {:.3} m/s²", own.peak())
+            format!(
+                ", vertical with a peak of {}",
+                ACCELERATION.text(own.peak(), 3)
+            )
         });
         writeln!(
             text,

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use jostle_io::shown::ACCELERATION;
 use jostle_io::{write_atomically, write_columns_parquet};
 use jostle_report::{ComparedHistory, ComparedImpactTimes, ComparisonPage, render_comparison};
 use serde_json::{Value, json};
@@ -148,7 +149,7 @@ impl Comparison {
             ("table motion".to_owned(), self.table_column.clone()),
             (
                 "peak of the table".to_owned(),
-                format!("{:.3} m/s²", self.summary.motion.pga_m_s2),
+                ACCELERATION.text(self.summary.motion.pga_m_s2, 3),
             ),
             (
                 "start in the data".to_owned(),

@@ -3,6 +3,8 @@
 use std::fmt::Write;
 use std::path::Path;
 
+use jostle_io::shown::ACCELERATION;
+
 use super::Comparison;
 use crate::numbers::counted;
 use crate::style::{BOLD, styled};
@@ -42,12 +44,12 @@ impl Comparison {
         // Writing to a string cannot fail.
         let _ = writeln!(
             text,
-            "{}, table motion {}, {:.2} s from {:.2} s on, peak {:.3} m/s²\n",
+            "{}, table motion {}, {:.2} s from {:.2} s on, peak {}\n",
             self.files[0],
             self.table_column,
             self.step * (self.time.len() - 1) as f64,
             self.start,
-            self.summary.motion.pga_m_s2
+            ACCELERATION.text(self.summary.motion.pga_m_s2, 3)
         );
         if !self.columns.is_empty() {
             let names = self

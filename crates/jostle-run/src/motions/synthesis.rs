@@ -1,5 +1,6 @@
 //! Artificial motions: matched to a spectrum, filtered noise, near-fault pulses, recipes.
 
+use jostle_io::shown::LENGTH;
 use jostle_motion::{
     Accelerogram, Envelope, GroundFilter, Makris, MatchSettings, Matched, Mavroeidis, Measures,
     PulseShape, RECIPES, SineSettings, StochasticSettings, TargetSpectrum, match_spectrum,
@@ -127,9 +128,9 @@ fn displacement_warning(before: &Measures, after: &Measures) -> Option<String> {
     let growth = after.pgd.value / scaled;
     (growth > MOST_GROWTH).then(|| {
         format!(
-            "the peak displacement grew from {:.0} to {:.0} mm, {growth:.1} times that of the record with the same peak acceleration: matching added long periods. End the range earlier with --periods, or take another record",
-            1e3 * before.pgd.value,
-            1e3 * after.pgd.value
+            "the peak displacement grew from {} to {}, {growth:.1} times that of the record with the same peak acceleration: matching added long periods. End the range earlier with --periods, or take another record",
+            LENGTH.number(before.pgd.value, 0),
+            LENGTH.text(after.pgd.value, 0)
         )
     })
 }

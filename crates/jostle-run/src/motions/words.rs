@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use jostle_io::shown::{ACCELERATION, HEIGHT, LENGTH, SPEED};
 use jostle_motion::{
     Accelerogram, Measures, Reading, STANDARD_GRAVITY, response_spectrum, spaced_periods,
 };
@@ -61,27 +62,19 @@ pub fn motion_text(name: &str, motion: &Accelerogram, m: &Measures) -> Result<St
     let gravity = m.pga.value / STANDARD_GRAVITY;
     row(
         "peak acceleration",
-        format!("{:.4} m/s²", m.pga.value),
+        ACCELERATION.text(m.pga.value, 4),
         format!("{gravity:.4} g, {}", at(m.pga.at)),
     );
-    row(
-        "peak velocity",
-        format!("{:.4} m/s", m.pgv.value),
-        at(m.pgv.at),
-    );
+    row("peak velocity", SPEED.text(m.pgv.value, 4), at(m.pgv.at));
     row(
         "peak displacement",
-        format!("{:.4} m", m.pgd.value),
+        HEIGHT.text(m.pgd.value, 4),
         at(m.pgd.at),
     );
-    row(
-        "Arias intensity",
-        format!("{:.4} m/s", m.arias),
-        String::new(),
-    );
+    row("Arias intensity", SPEED.text(m.arias, 4), String::new());
     row(
         "cumulative abs. velocity",
-        format!("{:.3} m/s", m.cav),
+        SPEED.text(m.cav, 3),
         String::new(),
     );
     for (what, [from, to]) in [("duration 5–95 %", m.d5_95), ("duration 5–75 %", m.d5_75)] {
@@ -91,7 +84,7 @@ pub fn motion_text(name: &str, motion: &Accelerogram, m: &Measures) -> Result<St
             format!("{from:.2} to {to:.2} s"),
         );
     }
-    row("rms in 5–95 %", format!("{:.4} m/s²", m.rms), String::new());
+    row("rms in 5–95 %", ACCELERATION.text(m.rms, 4), String::new());
     row(
         "predominant period",
         format!("{:.3} s", m.predominant_period),
@@ -104,7 +97,7 @@ pub fn motion_text(name: &str, motion: &Accelerogram, m: &Measures) -> Result<St
     );
     row(
         "Housner intensity",
-        format!("{:.4} m", m.housner),
+        HEIGHT.text(m.housner, 4),
         "PSV over 0.1–2.5 s, 5 %".into(),
     );
     let periods = [0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 4.0];
@@ -116,11 +109,16 @@ pub fn motion_text(name: &str, motion: &Accelerogram, m: &Measures) -> Result<St
     text.push('\n');
     text += &cells("period s", &mut periods.iter().map(f64::to_string));
     let curve = &spectrum.curves[0];
+    // Columns of seven characters hold no more.
+    let short = ACCELERATION.size() == 1.0;
     let psa = curve.pseudo_acceleration.iter();
-    text += &cells("PSA 5 % m/s²", &mut psa.map(|a| format!("{a:.3}")));
     text += &cells(
-        "SD 5 % mm",
-        &mut curve.displacement.iter().map(|u| format!("{:.1}", 1e3 * u)),
+        &format!("PSA 5 % {}", ACCELERATION.name()),
+        &mut psa.map(|a| ACCELERATION.number(*a, if short { 3 } else { 1 })),
+    );
+    text += &cells(
+        &format!("SD 5 % {}", LENGTH.name()),
+        &mut curve.displacement.iter().map(|u| LENGTH.number(*u, 1)),
     );
     text += &format!("  {}\n", sparkline(motion)?);
     Ok(text)
@@ -164,11 +162,11 @@ fn sparkline(motion: &Accelerogram) -> Result<String, RunError> {
 #[must_use]
 pub fn motion_in_short(motion: &Accelerogram) -> String {
     format!(
-        "{} values, step {} s, {:.2} s, PGA {:.4} m/s² ({:.4} g)",
+        "{} values, step {} s, {:.2} s, PGA {} ({:.4} g)",
         motion.points(),
         motion.step(),
         motion.duration(),
-        motion.peak(),
+        ACCELERATION.text(motion.peak(), 4),
         motion.peak() / STANDARD_GRAVITY
     )
 }

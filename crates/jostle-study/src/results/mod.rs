@@ -16,6 +16,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
 use std::path::Path;
 
+use jostle_io::shown::{FORCE, by_model};
 use jostle_io::{FactorValues, Values, csv_field, write_atomically, write_values_parquet};
 use jostle_report::message;
 use jostle_report::{Section, StudyPage, render_study};
@@ -101,6 +102,10 @@ impl Counts {
 /// # Errors
 /// [`StudyError`] when a part is absent or a file cannot be written.
 pub fn finish(study: &Study, folder: &Path, csv: bool) -> Result<String, StudyError> {
+    by_model(study.file.base.units(), || written(study, folder, csv))
+}
+
+fn written(study: &Study, folder: &Path, csv: bool) -> Result<String, StudyError> {
     let mut wanted: Vec<&str> = ALWAYS.to_vec();
     wanted.extend(study.layout.inputs.iter().map(|column| &column.name[..]));
     let own = needed::columns(study);
@@ -230,7 +235,7 @@ impl Results<'_> {
             let forces = if touched == 0 {
                 String::new()
             } else {
-                message::greatest_force_of_cases(format_args!("{:.0}", 1e-3 * most))
+                message::greatest_force_of_cases(FORCE.number(most, 0))
             };
             headline.push(message::buildings_pound_in_cases(touched, known, forces));
         }

@@ -2,6 +2,7 @@
 
 use jostle::Structure;
 use jostle::separation::{ddc_coefficient, double_difference, gb50011_frame_joint, srss};
+use jostle_io::shown::LENGTH;
 use jostle_report::message;
 use jostle_report::{Chart, Level, Section, Series, Stroke};
 
@@ -162,8 +163,8 @@ impl Results<'_> {
         {
             let joined = Level {
                 name: message::gb50011_of_intensities(
-                    format_args!("{:.0}", first.value),
-                    format_args!("{:.0}", last.value),
+                    format_args!("{:.*}", LENGTH.decimals(0), first.value),
+                    format_args!("{:.*}", LENGTH.decimals(0), last.value),
                 ),
                 value: first.value,
             };

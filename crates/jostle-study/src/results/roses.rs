@@ -2,6 +2,7 @@
 
 use jostle::linear::sort_by;
 use jostle_io::Values;
+use jostle_io::shown::FORCE;
 use jostle_report::message;
 use jostle_report::{Axis, Petal, Rose, Section};
 
@@ -247,8 +248,8 @@ impl Results<'_> {
         self.said.push(message::worst_angle_is(
             degrees(*angle),
             group,
-            format_args!("{:.0}", 1e-3 * least.1),
-            format_args!("{:.0}", 1e-3 * force),
+            FORCE.number(least.1, 0),
+            FORCE.number(*force, 0),
         ));
     }
 }

@@ -1,6 +1,7 @@
 //! Whether the records of a study are suitable for time-history analysis, by the code of their spectrum.
 
 use jostle::{GroundMotion, System, Wave};
+use jostle_io::shown::GROUND_ACCELERATION;
 use jostle_io::{
     FactorValues, MatchTo, MotionSource, MotionSpec, Scaling, SelectionScaling, SelectionWanted,
     Values, selection_json, write_atomically,
@@ -279,7 +280,7 @@ fn scaling(wanted: &SelectionWanted, records: &[Named]) -> (Peak, String) {
     let to = |peak: f64, whose: &str| {
         (
             Peak::To(peak),
-            message::motions_scaled_to(format_args!("{:.1}", 100.0 * peak), whose),
+            message::motions_scaled_to(GROUND_ACCELERATION.number(peak, 1), whose),
         )
     };
     match wanted.scaling {

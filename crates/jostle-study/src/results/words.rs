@@ -3,22 +3,26 @@
 use std::path::Path;
 
 use jostle_io::DesignKind;
+use jostle_io::shown::{ENERGY, FORCE, GROUND_ACCELERATION, IMPULSE, LENGTH, MASS, MOMENT, Shown};
 use jostle_report::Axis;
 use jostle_report::message;
 
 /// Endings of column names: the size of the display unit, and its name.
-const UNITS: [(&str, f64, &str); 10] = [
-    ("_m_s2", 100.0, "cm/s²"),
-    ("_n_m", 1e-3, "kN·m"),
-    ("_rad", 1e3, "mrad"),
-    ("_n_s", 1e-3, "kN·s"),
-    ("_per_s", 1.0, "1/s"),
-    ("_kg", 1e-3, "t"),
-    ("_n", 1e-3, "kN"),
-    ("_j", 1e-3, "kJ"),
-    ("_m", 1e3, "mm"),
-    ("_s", 1.0, "s"),
-];
+fn units() -> [(&'static str, f64, &'static str); 10] {
+    let own = |ending, shown: Shown| (ending, shown.of(1.0), shown.name());
+    [
+        own("_m_s2", GROUND_ACCELERATION),
+        own("_n_m", MOMENT),
+        ("_rad", 1e3, "mrad"),
+        own("_n_s", IMPULSE),
+        ("_per_s", 1.0, "1/s"),
+        own("_kg", MASS),
+        own("_n", FORCE),
+        own("_j", ENERGY),
+        own("_m", LENGTH),
+        ("_s", 1.0, "s"),
+    ]
+}
 
 /// The axis of a column, and by what its numbers are multiplied there.
 pub(super) fn axis(column: &str) -> (Axis, f64) {
@@ -30,9 +34,11 @@ pub(super) fn axis(column: &str) -> (Axis, f64) {
         };
         return (axis, 1.0_f64.to_degrees());
     }
-    let unit = UNITS.iter().find(|(ending, ..)| column.ends_with(ending));
+    let unit = units()
+        .into_iter()
+        .find(|(ending, ..)| column.ends_with(ending));
     let (plain, size, unit) = match unit {
-        Some((ending, size, unit)) => (column.trim_end_matches(ending), *size, *unit),
+        Some((ending, size, unit)) => (column.trim_end_matches(ending), size, unit),
         None if column.ends_with("drift_peak")
             || column.ends_with("drift_across_peak")
             || column.ends_with("drift_peak_without_contact")

@@ -3,23 +3,26 @@
 use std::fmt::Write;
 use std::path::Path;
 
+use jostle_io::shown::{ACCELERATION, ENERGY, FORCE, LARGE_DASHPOT, LENGTH, MASS, MOMENT, SPEED};
+
 use super::SizeResults;
 
 /// Unit in which numbers with the end of such a name are shown, and its size.
 pub(super) fn shown(suffix: &str) -> (&'static str, f64) {
-    match suffix {
-        "_m" => ("mm", 1e3),
-        "_n" => ("kN", 1e-3),
-        "_n_m" => ("kN·m", 1e-3),
-        "_n_s_m" => ("kN·s/m", 1e-3),
-        "_j" => ("kJ", 1e-3),
-        "_m_s" => ("m/s", 1.0),
-        "_m_s2" => ("m/s²", 1.0),
-        "_s" => ("s", 1.0),
-        "_kg" => ("t", 1e-3),
-        "_hz" => ("Hz", 1.0),
-        _ => ("", 1.0),
-    }
+    let own = match suffix {
+        "_m" => LENGTH,
+        "_n" => FORCE,
+        "_n_m" => MOMENT,
+        "_n_s_m" => LARGE_DASHPOT,
+        "_j" => ENERGY,
+        "_m_s" => SPEED,
+        "_m_s2" => ACCELERATION,
+        "_kg" => MASS,
+        "_s" => return ("s", 1.0),
+        "_hz" => return ("Hz", 1.0),
+        _ => return ("", 1.0),
+    };
+    (own.name(), own.of(1.0))
 }
 
 /// A number with its unit, five digits.

@@ -1,6 +1,7 @@
 //! The page of a suite: records, governing values, envelopes over the height, spectra.
 
 use jostle::{GroundMotion, Wave};
+use jostle_io::shown::{ACCELERATION, FORCE, HEIGHT, LENGTH, Shown};
 use jostle_motion::{Accelerogram, Reading, response_spectrum, spaced_periods};
 use jostle_report::message;
 use jostle_report::{Axis, Chart, Section, Series, Stroke, SuitePage, SuiteRow, render_suite};
@@ -21,8 +22,8 @@ const NEUTRAL: usize = 6;
 /// A peak of floors over the height.
 struct Peak {
     title: fn() -> &'static str,
-    unit: &'static str,
-    factor: f64,
+    /// Its unit; percent if it has none.
+    unit: Option<Shown>,
     /// Whether it belongs to the storey below the floor.
     of_storey: bool,
     of: fn(&Value) -> Option<f64>,
@@ -31,29 +32,25 @@ struct Peak {
 const PEAKS: [Peak; 4] = [
     Peak {
         title: message::peak_displacement_over_height,
-        unit: "mm",
-        factor: 1e3,
+        unit: Some(LENGTH),
         of_storey: false,
         of: displacement,
     },
     Peak {
         title: message::peak_storey_drift_over_height,
-        unit: "%",
-        factor: 100.0,
+        unit: None,
         of_storey: true,
         of: |floor| floor["storey_drift_peak"].as_f64(),
     },
     Peak {
         title: message::peak_total_acceleration_over_height,
-        unit: "m/s²",
-        factor: 1.0,
+        unit: Some(ACCELERATION),
         of_storey: false,
         of: |floor| floor["total_acceleration_peak_m_s2"].as_f64(),
     },
     Peak {
         title: message::peak_storey_shear_over_height,
-        unit: "kN",
-        factor: 1e-3,
+        unit: Some(FORCE),
         of_storey: true,
         of: |floor| floor["storey_shear_peak_n"].as_f64(),
     },
@@ -116,11 +113,11 @@ impl SuiteResults {
                     name: record.motion().to_owned(),
                     link: links.then(|| format!("{}/report.html", record.folder)),
                     cells: vec![
-                        number("pga_m_s2", 3),
+                        ACCELERATION.number(motion["pga_m_s2"].as_f64().unwrap_or(f64::NAN), 3),
                         number("scale", 4),
                         number("duration_s", 2),
                         impacts.to_string(),
-                        format!("{:.1}", 1e-3 * force),
+                        FORCE.number(force, 1),
                     ],
                     remark: record.reason.clone().unwrap_or_default(),
                 }
@@ -166,12 +163,13 @@ impl SuiteResults {
             let motion = record.prepare().ok()?.motion;
             let motion = accelerogram(&motion)?;
             let found = response_spectrum(&motion, &periods, &[damping], Reading::Steps).ok()?;
-            let values = &found.curves[0].pseudo_acceleration;
+            let values = found.curves[0].pseudo_acceleration.iter();
+            let values: Vec<f64> = values.map(|value| ACCELERATION.of(*value)).collect();
             mean.iter_mut()
-                .zip(values)
+                .zip(&values)
                 .for_each(|(sum, value)| *sum += value);
             count += 1.0;
-            series.push(line(&periods, values, Stroke::Thin, 0, ""));
+            series.push(line(&periods, &values, Stroke::Thin, 0, ""));
         }
         mean.iter_mut().for_each(|sum| *sum /= count);
         series.push(line(
@@ -186,8 +184,12 @@ impl SuiteResults {
             let points = periods
                 .iter()
                 .filter(|period| (first..=last).contains(*period));
-            let points = points
-                .filter_map(|period| Some([*period, target.acceleration(*period, damping).ok()?]));
+            let points = points.filter_map(|period| {
+                Some([
+                    *period,
+                    ACCELERATION.of(target.acceleration(*period, damping).ok()?),
+                ])
+            });
             series.push(Series {
                 points: points.collect(),
                 ..line(&[], &[], Stroke::Dashed, 1, message::spectrum_of_code())
@@ -199,7 +201,7 @@ impl SuiteResults {
             charts: vec![Chart {
                 title: message::pseudo_acceleration_damped(format_args!("{:.0}", 100.0 * damping)),
                 x: axis(message::period_axis(), "s"),
-                y: axis(message::pseudo_acceleration_axis(), "m/s²"),
+                y: axis(message::pseudo_acceleration_axis(), ACCELERATION.name()),
                 series,
                 levels: Vec::new(),
                 reach: 0.0,
@@ -245,7 +247,8 @@ fn over_height(runs: &[&Value], building: usize, peak: &Peak) -> Option<Chart> {
             } else {
                 *floor
             };
-            Some(peak.factor * (peak.of)(owner)?)
+            let value = (peak.of)(owner)?;
+            Some(peak.unit.map_or(100.0 * value, |unit| unit.of(value)))
         };
         let all = floors
             .iter()
@@ -262,9 +265,9 @@ fn over_height(runs: &[&Value], building: usize, peak: &Peak) -> Option<Chart> {
         let mut below = 0.0;
         for (value, height) in values.iter().zip(&heights) {
             if peak.of_storey {
-                series.points.push([*value, below]);
+                series.points.push([*value, HEIGHT.of(below)]);
             }
-            series.points.push([*value, *height]);
+            series.points.push([*value, HEIGHT.of(*height)]);
             below = *height;
         }
         series
@@ -300,8 +303,11 @@ fn over_height(runs: &[&Value], building: usize, peak: &Peak) -> Option<Chart> {
     }
     Some(Chart {
         title: (peak.title)().into(),
-        x: axis(&(peak.title)().to_lowercase(), peak.unit),
-        y: axis(message::height_axis(), "m"),
+        x: axis(
+            &(peak.title)().to_lowercase(),
+            peak.unit.map_or("%", Shown::name),
+        ),
+        y: axis(message::height_axis(), HEIGHT.name()),
         series,
         levels: Vec::new(),
         reach: 0.0,

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
+use jostle_io::shown::{self, ACCELERATION, FORCE, LENGTH, MOMENT};
 use jostle_run::{BOLD, DIM, LOUD, plain, styled};
 
 use super::quantities::list;
@@ -24,12 +25,15 @@ pub(super) struct Shown {
 
 /// The form of a quantity by the unit at the end of its name.
 pub(super) fn shown(name: &str) -> Shown {
+    let own = |end, unit: shown::Shown, decimals| {
+        (end, unit.of(1.0), unit.name(), unit.decimals(decimals))
+    };
     let forms: [(&str, f64, &str, usize); 10] = [
         ("drift_peak", 100.0, "%", 3),
-        ("_m_s2", 1.0, "m/s²", 2),
-        ("moment_peak_n_m", 1e-3, "kN·m", 0),
-        ("_n", 1e-3, "kN", 1),
-        ("_m", 1e3, "mm", 1),
+        own("_m_s2", ACCELERATION, 2),
+        own("moment_peak_n_m", MOMENT, 0),
+        own("_n", FORCE, 1),
+        own("_m", LENGTH, 1),
         ("impact_count", 1.0, "", 1),
         ("hinges_yielded", 1.0, "", 1),
         ("ductility", 1.0, "", 2),
@@ -170,7 +174,12 @@ impl SuiteResults {
             let impacts: u64 = gaps().filter_map(|gap| gap["impact_count"].as_u64()).sum();
             let force = gaps().filter_map(|gap| gap["peak_force_n"].as_f64());
             let force = force.fold(0.0, f64::max);
-            write!(text, "  {impacts:>7}  {:>7.1} kN", 1e-3 * force)?;
+            write!(
+                text,
+                "  {impacts:>7}  {:>7} {}",
+                FORCE.number(force, 1),
+                FORCE.name()
+            )?;
             for name in &buildings {
                 let index = self.records.iter().position(|r| std::ptr::eq(r, record));
                 let drift = self.quantity(&format!("{name}.drift_peak"));
