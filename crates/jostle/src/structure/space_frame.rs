@@ -5,7 +5,7 @@
 //! of R counts twice in K, by its square. Forces of members are k D u_f.
 
 use crate::linear::envelope::Envelope;
-use crate::linear::sort_by_key;
+use crate::linear::{Row, sort_by_key};
 use crate::model::{DiagonalPlace, LumpedFloor, PlanPoint, SpaceFrame, SpacePlace, SpaceSection};
 
 /// A space frame over the motions of the mat under it, if there is one, and of its floors: u_x, u_y and θ of each at its centre of mass,
@@ -586,7 +586,7 @@ pub(super) fn condense(
 
 impl Assembly<'_> {
     /// Diagonals that end at the head of a column, and what the column bears of the tension of each by vertical equilibrium.
-    pub(super) fn diagonals_at_head(&self, place: SpacePlace) -> Vec<(usize, f64)> {
+    pub(super) fn diagonals_at_head(&self, place: SpacePlace) -> Row {
         let [_, line] = place.crossings();
         let floor = place.storey() + 1;
         let ends = self.frame.diagonals.iter().enumerate();
@@ -669,7 +669,7 @@ fn carried_by_columns(
                 *sum += sign * value;
             }
         }
-        for (index, share) in assembly.diagonals_at_head(members[column].place) {
+        for &(index, share) in assembly.diagonals_at_head(members[column].place).entries() {
             let stiffness = share * frame.diagonals[index].stiffness;
             for (sum, value) in axial.iter_mut().zip(&elongations[index]) {
                 *sum += stiffness * value;

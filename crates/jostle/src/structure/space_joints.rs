@@ -34,7 +34,7 @@ pub struct JointedMember {
     /// Its elements of bending in the vertical plane along x of a column, in that of a beam, and in the plane across of a column.
     pub bending: [Option<usize>; 2],
     /// Diagonals that end at the head of a column which keeps its length, and what it bears of the tension of each.
-    pub diagonals: Vec<(usize, f64)>,
+    pub diagonals: Row,
 }
 
 /// A joint of a space frame with hinges.
@@ -231,7 +231,7 @@ impl Builder<'_> {
         };
         let diagonals = match (member.place, &axial) {
             (SpacePlace::Column { .. }, None) => self.assembly.diagonals_at_head(member.place),
-            _ => Vec::new(),
+            _ => Row::default(),
         };
         let (axial, torsion) = (axial.as_ref().map(single), single(&torsion));
         let (bending, across) = (bend(&bending), across.as_ref().map(bend));

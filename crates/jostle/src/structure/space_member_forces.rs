@@ -226,7 +226,7 @@ impl JointedCuts<'_> {
                     }
                 }
             }
-            for (diagonal, share) in &members[column].diagonals {
+            for (diagonal, share) in members[column].diagonals.entries() {
                 sum.add(*share, &self.building.force_of_diagonal(*diagonal));
             }
             axial[column] = sum.tidy();
