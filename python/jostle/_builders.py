@@ -390,6 +390,13 @@ class SpaceFrame(Part):
         shear: ``"rigid"`` (default), or ``"flexible"`` for members with shear deformation (Timoshenko), or
             ``{"columns": …, "beams": …}``.
         poisson_ratio: for the shear modulus, 0.2 by default.
+        rigid_ends: share of the half depths of columns and beams that is rigid inside joints, 0 by default, 1 up to their faces; or
+            ``{"beams": "0.25 m", "columns": "0.3 m"}``.
+        brace: braces between joints: ``[{"along": "x", "x": 1, "y": [1, 2], "storeys": [1, 3], "direction": "both", "EA": "600 MN"}]``,
+            with the lines at which their bays begin; with ``"hinge"`` they yield or buckle.
+        infill: masonry panels in the bays, likewise: ``[{"along": "y", "x": 1, "modulus": "4 GPa", "thickness": "200 mm",
+            "width": "mainstone"}]``.
+        wall: walls, each in place of columns: ``[{"along": "x", "x": 2, "y": 1, "length": "3 m", "thickness": "250 mm"}]``.
         hinges: plastic hinges at the ends of columns, about both axes, and of beams; without them the frame is elastic:
             ``{"rule": "bilinear", "column": {"x": {"yield": "300 kN.m", "post_yield": 0.02}, "y": {…}}, "beam": {…}}``. With
             ``{"rule": "fibre", "length": "0.4 m", "fibres": [20, 16]}`` the ends of columns with bars are fibres, whose strength follows
@@ -454,6 +461,10 @@ class SpaceFrame(Part):
         axial: _Flexibility | None = None,
         shear: _Flexibility | Table | None = None,
         poisson_ratio: float | None = None,
+        rigid_ends: float | Table | None = None,
+        brace: Sequence[Table] | None = None,
+        infill: Sequence[Table] | None = None,
+        wall: Sequence[Table] | None = None,
         hinges: Table | None = None,
         angle: Quantity | None = None,
         plan: Sequence[Any] | None = None,
@@ -495,6 +506,10 @@ class SpaceFrame(Part):
                 "axial": axial,
                 "shear": shear,
                 "poisson_ratio": poisson_ratio,
+                "rigid_ends": rigid_ends,
+                "brace": brace,
+                "infill": infill,
+                "wall": wall,
                 "hinges": hinges,
                 "angle": angle,
                 "plan": plan,

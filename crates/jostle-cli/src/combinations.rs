@@ -100,6 +100,10 @@ const KINDS: [Kind; 7] = [
     },
 ];
 
+/// A wall in the words of a space frame.
+const WALL_OF_A_GRID: &str =
+    "[[building.wall]]\nalong = \"x\"\nx = 1\nlength = 2\nthickness = 0.25\n";
+
 /// Yielding of every kind in its own words.
 const YIELDING: [&str; 7] = [
     "hinges = { rule = \"bilinear\", column = { yield = \"300 kN.m\", post_yield = 0.01 }, beam = { yield = \"200 kN.m\", post_yield = 0.01 } }\n",
@@ -326,6 +330,12 @@ fn model(kind: usize, feature: &Feature) -> String {
         let added = match inside && !own.tables.is_empty() {
             true => feature.tables.replace("building.", "building.frame."),
             false => feature.tables.to_owned(),
+        };
+        // What stands in bays of a grid says along which lines.
+        let added = match (inside, own.name) {
+            (true, "space-frame") if feature.name == "walls" => WALL_OF_A_GRID.to_owned(),
+            (true, "space-frame") => added.replace("]]\n", "]]\nalong = \"x\"\n"),
+            _ => added,
         };
         let added = match own.in_plan {
             true => added.replace(

@@ -39,6 +39,10 @@ pub(crate) enum Section {
     Element,
     /// Plane frame at a line of a plan.
     PlanFrame,
+    /// Bays of a plane frame.
+    FrameBay,
+    /// Bays of a grid.
+    GridBay,
     /// Diagonals of the bays of a frame.
     Brace,
     /// Panels of masonry in them.
@@ -60,6 +64,8 @@ pub(crate) enum Section {
     Sliding,
     /// Further keys of `kind = "space-frame"`.
     SpaceFrame,
+    /// Walls of it.
+    SpaceWall,
     /// Columns of it at some places.
     SpaceColumn,
     /// Beams of it at some places.
@@ -547,6 +553,8 @@ const fn default(
 pub(crate) const SOIL_COUPLINGS: &[&str] = &["none", "static"];
 /// Ways in which a brace rises, from left to right.
 pub(crate) const DIRECTIONS: &[&str] = &["up", "down", "both"];
+/// Directions of the lines of a grid.
+pub(crate) const AXES_OF_PLAN: &[&str] = &["x", "y"];
 /// Axes of a profile.
 pub(crate) const AXES: &[&str] = &["strong", "weak"];
 
@@ -690,8 +698,8 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Frame, "joint", Kind::Table(S::Joint), "Semi-rigid connection between beam ends and columns."),
     default(S::Frame, "rigid_ends", NumberOrTable(S::RigidEnds), "0", "How much of the half depths of columns and beams is rigid inside joints: 1 up to the faces, 0 not at all; or lengths.").usual("a share of a joint", 0.01, 1.0),
     optional(S::Frame, "hinges", Kind::Table(S::Hinges), "Plastic hinges at the member ends; without them the frame is elastic."),
-    optional(S::Frame, "brace", Tables(&[S::Brace]), "Braces between joints."),
-    optional(S::Frame, "infill", Tables(&[S::Infill]), "Masonry panels in the bays."),
+    optional(S::Frame, "brace", Tables(&[S::FrameBay, S::Brace]), "Braces between joints."),
+    optional(S::Frame, "infill", Tables(&[S::FrameBay, S::Infill]), "Masonry panels in the bays."),
     optional(S::Frame, "wall", Tables(&[S::FrameWall]), "Walls, each in place of a column line."),
     optional(S::Frame, "coupling_beam", Tables(&[S::CouplingBeam]), "Beams between walls with properties of their own."),
     optional(S::Frame, "shear_failure", Kind::Table(S::ShearFailure), "Lets columns fail in shear; without it their shear strength has no limit."),
@@ -739,21 +747,23 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::PlanFrame, "joint", Kind::Table(S::Joint), "Semi-rigid connection between beam ends and columns."),
     default(S::PlanFrame, "rigid_ends", NumberOrTable(S::RigidEnds), "0", "How much of the half depths of columns and beams is rigid inside joints: 1 up to the faces, 0 not at all; or lengths.").usual("a share of a joint", 0.01, 1.0),
     optional(S::PlanFrame, "hinges", Kind::Table(S::Hinges), "Plastic hinges at the ends of its members, given by moments; without them it is elastic."),
-    optional(S::PlanFrame, "brace", Tables(&[S::Brace]), "Braces between joints."),
-    optional(S::PlanFrame, "infill", Tables(&[S::Infill]), "Masonry panels in the bays."),
+    optional(S::PlanFrame, "brace", Tables(&[S::FrameBay, S::Brace]), "Braces between joints."),
+    optional(S::PlanFrame, "infill", Tables(&[S::FrameBay, S::Infill]), "Masonry panels in the bays."),
     optional(S::PlanFrame, "wall", Tables(&[S::FrameWall]), "Walls, each in place of a column line."),
     optional(S::PlanFrame, "coupling_beam", Tables(&[S::CouplingBeam]), "Beams between walls with properties of their own."),
     default(S::PlanFrame, "base", WordOrTable("fixed", &[S::ShearBase, S::FrameBase]), "\"fixed\"", "Springs and dashpots under every column."),
+    default(S::FrameBay, "bay", Kind::FromTo, "all", "Its bay, counted from 1 at the left; or the first and the last."),
+    required(S::GridBay, "along", Choice(AXES_OF_PLAN), "Whether it stands in bays along x or across (y)."),
+    default(S::GridBay, "x", Kind::FromTo, "all", "The line of lines_x at which a bay along x begins, or on which a bay across lies, counted from 1; or the first and the last."),
+    default(S::GridBay, "y", Kind::FromTo, "all", "The line of lines_y on which a bay along x lies, or at which a bay across begins, likewise."),
     default(S::Brace, "storeys", Kind::FromTo, "all", "Its storey, counted from 1; or the first and the last."),
-    default(S::Brace, "bay", Kind::FromTo, "all", "Its bay, likewise, from the left."),
-    default(S::Brace, "direction", Choice(DIRECTIONS), "\"up\"", "From the lower left to the upper right corner of the bay, from the upper left to the lower right, or both."),
+    default(S::Brace, "direction", Choice(DIRECTIONS), "\"up\"", "From the lower left to the upper right corner of the bay, from the upper left to the lower right, or both; in a grid x or y grows to the right."),
     optional(S::Brace, "profile", TextOrTable(S::Profile), "Steel profile instead of EA, as of columns; with `yield_strength` in hinge it also gives yield, slenderness and lever arm of the rule buckling."),
     default(S::Brace, "axis", Choice(AXES), "\"weak\"", "About which axis of the profile the brace buckles."),
     optional(S::Brace, "EA", Quantity(D::Force), "Axial rigidity.").usual("an axial rigidity", 1e6, 1e12),
     optional(S::Brace, "stiffness", Quantity(D::Stiffness), "Axial force per elongation, instead of EA.").usual("an axial stiffness", 1e5, 1e11),
     optional(S::Brace, "hinge", Kind::TableOf(&[S::LinkHinge, S::Buckling]), "Axial force at which it yields, alike in tension and compression, or buckles, with the rule buckling; without it the brace is elastic."),
     default(S::Infill, "storeys", Kind::FromTo, "all", "Its storey, counted from 1; or the first and the last."),
-    default(S::Infill, "bay", Kind::FromTo, "all", "Its bay, likewise, from the left."),
     optional(S::Infill, "modulus", Quantity(D::Modulus), "Modulus of elasticity of the masonry along the strut; with thickness and width.").usual("a modulus of masonry", 1e8, 5e10),
     optional(S::Infill, "thickness", Quantity(D::Length), "Thickness of the panel.").usual("a thickness of a panel", 0.03, 1.5),
     optional(S::Infill, "width", Kind::ChoiceOr(STRUT_WIDTHS, D::Length), "Width of the strut across its axis, or a rule for it from the bay between axes, the panel and the columns beside it.").usual("a width of a strut", 0.1, 6.0),
@@ -822,6 +832,10 @@ pub(crate) const KEYS: &[Key] = &[
     required(S::SpaceFrame, "column", Kind::TablePerPlace(S::SpaceColumn), "Columns at the crossings: one table for all, or [[building.column]] for some; later ones replace earlier ones. Without plan, the plan is the rectangle of the outer lines; columns and beams outside of the plan of their floor do not exist."),
     optional(S::SpaceFrame, "beam_x", Kind::TablePerPlace(S::SpaceBeam), "Beams along x, likewise. Needed where lines_x has two lines or more."),
     optional(S::SpaceFrame, "beam_y", Kind::TablePerPlace(S::SpaceBeam), "Beams across, likewise. Needed where lines_y has two lines or more."),
+    optional(S::SpaceFrame, "brace", Tables(&[S::GridBay, S::Brace]), "Braces between joints at opposite corners of a bay of a storey."),
+    optional(S::SpaceFrame, "infill", Tables(&[S::GridBay, S::Infill]), "Masonry panels in the bays."),
+    optional(S::SpaceFrame, "wall", Tables(&[S::SpaceWall]), "Walls, each in place of the columns at some crossings."),
+    default(S::SpaceFrame, "rigid_ends", NumberOrTable(S::RigidEnds), "0", "How much of the half depths of columns and beams is rigid inside joints: 1 up to the faces, 0 not at all; or lengths.").usual("a share of a joint", 0.01, 1.0),
     optional(S::SpaceFrame, "elastic_modulus", Quantity(D::Modulus), "Modulus of elasticity of columns and beams.").usual("a modulus of elasticity", 1e9, 1e12).possible(1e6, 1e14),
     optional(S::SpaceFrame, "concrete", Kind::Concrete(CONCRETES), "Concrete instead of elastic_modulus, as for a plane frame.").usual("a strength of concrete", 1e6, 2e8),
     default(S::SpaceFrame, "floor_load", PerStorey(D::Force), "0", "Weight of a whole floor that its columns carry beyond that of its mass, in equal shares: load that does not sway with the frame; negative where others carry part of the weight. It acts with gravity or p_delta.").usual("a load of a floor", 1e3, 1e9).signed(),
@@ -831,7 +845,18 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::SpaceFrame, "shear", ChoiceOrTable(AXIAL, S::ShearDeformation), "\"rigid\"", "Shear deformation of members (Timoshenko)."),
     default(S::SpaceFrame, "poisson_ratio", Quantity(D::Dimensionless), "0.2", "Poisson's ratio, for the shear modulus.").usual("a Poisson's ratio", 0.01, 0.5),
     default(S::SpaceFrame, "angle", Quantity(D::Dimensionless), "0", "Angle from x of the site to the lines along x, counter-clockwise, such as \"30 deg\"; it turns the plan and mass_centre with them.").usual("an angle", 1e-4, 6.3).signed(),
-    optional(S::SpaceColumn, "size", Quantities(D::Length), "Sizes along x and across; needed unless omit.").usual("a section size", 0.05, 5.0).possible(0.005, 10.0),
+    required(S::SpaceWall, "along", Choice(AXES_OF_PLAN), "Direction of its length: along x or across (y)."),
+    required(S::SpaceWall, "length", Quantity(D::Length), "Length. Beams along it meet its ends, and rise and sink with them.").usual("a length of a wall", 0.5, 40.0),
+    required(S::SpaceWall, "thickness", Quantity(D::Length), "Thickness; with length and the modulus it gives EI in both planes, EA, GJ and GA = 5/6 G A, which counts whatever shear says.").usual("a thickness of a wall", 0.08, 2.0),
+    default(S::SpaceWall, "x", Kind::FromTo, "all", "The line of lines_x on which its axis stands, counted from 1; or the first and the last."),
+    default(S::SpaceWall, "y", Kind::FromTo, "all", "Its line of lines_y, likewise."),
+    default(S::SpaceWall, "storeys", Kind::FromTo, "all", "Its storey, likewise."),
+    optional(S::SpaceWall, "elastic_modulus", Quantity(D::Modulus), "Modulus of elasticity, if it differs from that of the building.").usual("a modulus of elasticity", 1e9, 1e12).possible(1e6, 1e14),
+    optional(S::SpaceWall, "concrete", Kind::Concrete(CONCRETES), "Concrete instead of elastic_modulus.").usual("a strength of concrete", 1e6, 2e8),
+    optional(S::SpaceWall, "hinge", Kind::Table(S::ColumnHinge), "Moments of its hinges at foot and head; without it the wall is elastic, whatever hinges.column says."),
+    optional(S::SpaceColumn, "size", Quantities(D::Length), "Sizes along x and across; needed unless profile or omit.").usual("a section size", 0.05, 5.0).possible(0.005, 10.0),
+    optional(S::SpaceColumn, "profile", TextOrTable(S::Profile), "Steel profile instead of size, as of columns of plane frames; neither stiffness_factor nor torsion_factor holds for it."),
+    optional(S::SpaceColumn, "axis", Choice(AXES), "About which axis of the profile the column bends along x; `strong` if not given."),
     default(S::SpaceColumn, "x", Kind::FromTo, "all", "Its line of lines_x, counted from 1; or the first and the last."),
     default(S::SpaceColumn, "y", Kind::FromTo, "all", "Its line of lines_y, likewise."),
     default(S::SpaceColumn, "storeys", Kind::FromTo, "all", "Its storey, likewise."),
@@ -844,8 +869,11 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::SpaceColumn, "cover", Quantity(D::Length), "\"35 mm\"", "Concrete cover of the bars.").usual("a concrete cover", 0.005, 0.2).possible(0.0005, 1.0),
     optional(S::SpaceColumn, "ties", Text, "Ties that confine the core, such as \"d10 @ 100 mm\", or \"4 d10 @ 100 mm\" with four legs."),
     optional(S::SpaceColumn, "hinge", Kind::Table(S::ColumnHinge), "Moments of its hinges instead of those of hinges.column; the rule is that of hinges."),
-    optional(S::SpaceBeam, "width", Quantity(D::Length), "Width; needed unless omit.").usual("a section width", 0.05, 5.0).possible(0.005, 10.0),
-    optional(S::SpaceBeam, "depth", Quantity(D::Length), "Depth in the direction of bending; needed unless omit.").usual("a section depth", 0.05, 5.0).possible(0.005, 10.0),
+    optional(S::SpaceBeam, "width", Quantity(D::Length), "Width; needed unless profile or omit.").usual("a section width", 0.05, 5.0).possible(0.005, 10.0),
+    optional(S::SpaceBeam, "depth", Quantity(D::Length), "Depth in the direction of bending; needed unless profile or omit.").usual("a section depth", 0.05, 5.0).possible(0.005, 10.0),
+    optional(S::SpaceBeam, "profile", TextOrTable(S::Profile), "Steel profile instead of width and depth, as of columns."),
+    optional(S::SpaceBeam, "axis", Choice(AXES), "About which axis of the profile the beam bends in its vertical plane; `strong` if not given."),
+    optional(S::SpaceBeam, "slab", Kind::Table(S::Slab), "Slab that bends with the beam of width and depth, as its upper flange: `{ depth = \"150 mm\", width = \"en1992\", spacing = \"4.7 m\" }`. A span without a beam that continues it is an end span. GJ and hinges do not count it."),
     default(S::SpaceBeam, "x", Kind::FromTo, "all", "The line of lines_x at which a beam along x begins, or on which a beam across lies, counted from 1; or the first and the last."),
     default(S::SpaceBeam, "y", Kind::FromTo, "all", "The line of lines_y on which a beam along x lies, or at which a beam across begins, likewise."),
     default(S::SpaceBeam, "storeys", Kind::FromTo, "all", "The storey whose ceiling it is, likewise."),

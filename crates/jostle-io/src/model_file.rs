@@ -48,6 +48,7 @@ mod slab;
 mod soil;
 mod space_frame;
 mod space_hinges;
+mod space_walls;
 mod stated;
 mod steel_profile;
 #[cfg(test)]

@@ -502,9 +502,13 @@ fn suggest(key: &str, sections: &'static [Section]) -> String {
         (Section::SpaceFrame, "space-frame"),
     ];
     // Frames have braces, infills and walls of their own.
-    let of_frames = sections.contains(&Section::Frame) && key != "strut";
+    let frames = [Section::Frame, Section::SpaceFrame];
+    let of_frames = frames.iter().any(|own| sections.contains(own)) && key != "strut";
     if sections.contains(&Section::Building) && NOT_MEMBERS.contains(&key) && !of_frames {
         return "what stands between two floors beside columns is a [[building.damper]], without dashpot too: floors = [1, 2] with the horizontal stiffness, and law = \"yielding\" with its strength".into();
+    }
+    if sections.contains(&Section::SpaceFrame) && key == "coupling_beam" {
+        return "beams between the walls of a space frame are those of beam_x and beam_y: they span between faces, and can have a hinge".into();
     }
     for (section, kind) in other_kinds {
         if sections.contains(&Section::Building) && keys_of(&[section]).any(|k| k.name == key) {

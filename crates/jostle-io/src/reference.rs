@@ -59,9 +59,19 @@ const TABLES: &[(Section, &str, &str)] = &[
         "With `kind = \"frame\"` and a `plan`; the building then has the keys of `kind = \"shear\"`. See [Frames at lines of a plan](how-to/space-frames.md#frames-at-lines-of-a-plan).",
     ),
     (
+        Section::FrameBay,
+        "`[[building.brace]]` and `[[building.infill]]` of a plane frame",
+        "Of a frame at a line of a plan as well.",
+    ),
+    (
+        Section::GridBay,
+        "`[[building.brace]]` and `[[building.infill]]` of a space frame",
+        "Without both x and y they stand only in bays within the plan of their floor, where there are joints.",
+    ),
+    (
         Section::Brace,
         "`[[building.brace]]`",
-        "Between the joints of a frame, also of a frame at a line of a plan. A brace bears axial force alone and pushes and pulls at its joints; with `axial = \"flexible\"` it stretches and shortens columns.",
+        "Between the joints of a frame, also of a frame at a line of a plan and of a space frame. A brace bears axial force alone and pushes and pulls at its joints; with `axial = \"flexible\"` it stretches and shortens columns.",
     ),
     (
         Section::Infill,
@@ -108,6 +118,11 @@ const TABLES: &[(Section, &str, &str)] = &[
         Section::SpaceFrame,
         "`[[building]]` with `kind = \"space-frame\"`",
         "And the keys of `kind = \"shear\"`, `frame` excepted. See [Space frames](how-to/space-frames.md).",
+    ),
+    (
+        Section::SpaceWall,
+        "`[[building.wall]]` of a space frame",
+        "A wide column with a rigid cross-section: beams along it span between faces and turn with it. Its forces are those of a column. See [Walls and coupling beams](how-to/walls.md).",
     ),
     (Section::SpaceColumn, "`column` of a space frame", ""),
     (

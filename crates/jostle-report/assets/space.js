@@ -57,6 +57,7 @@ class SpaceScene {
       plans: building.plans,
       mat: building.mat,
       members: (building.members ?? []).map((member, k) => ({ ...member, hinges: hinges.filter((hinge) => hinge.building === i && hinge.line === k + 1) })),
+      diagonals: (building.diagonals ?? []).filter((own) => own.ends),
       levels: [0, ...building.heights],
       // A mat is the floor before the first one.
       matMotion: building.mat && ["u", "v", "r"].map((name) => run.columns.get(`${name}:${i}:0`)),
@@ -320,6 +321,17 @@ class SpaceScene {
       parts.push({ near: mean(seen), paint: () => this.line(seen, { fill: colour, alpha: 0.22, stroke: colour, width: 1.8, closed: true }) });
       below = own;
     });
+    // Braces of a space frame as lines between joints, its infill panels as shaded bays: both struts of a panel lie in one.
+    const joint = ([x, y], level) => this.at(level > 0 ? this.moved(i, level - 1, [x, y], state[level - 1]) : building.mat ? this.moved(i, -1, [x, y], this.floorNow(i, -1)) : [sx + x, sy + y, 0]);
+    for (const { ends, storey, infill, lines } of building.diagonals) {
+      if (infill && lines[0] > lines[1]) continue;
+      const [low, high] = ends;
+      const seen = infill
+        ? [joint(low, storey - 1), joint(high, storey - 1), joint(high, storey), joint(low, storey)]
+        : [joint(low, storey - 1), joint(high, storey)];
+      const look = infill ? { fill: this.quiet, alpha: 0.18, closed: true } : { stroke: colour, width: 1.4, dash: [5, 3] };
+      parts.push({ near: mean(seen), paint: () => this.line(seen, look) });
+    }
     // Columns and beams of a space frame.
     for (const { ends, floors, hinges: own } of building.members) {
       const seen = ends.map((end, side) => this.at(floors[side] === null || floors[side] === undefined ? [sx + end[0], sy + end[1], 0] : this.moved(i, floors[side], end, state[floors[side]])));

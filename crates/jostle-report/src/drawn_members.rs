@@ -7,10 +7,13 @@ use serde::Serialize;
 #[derive(Serialize)]
 pub(crate) struct DiagonalData {
     storey: usize,
-    /// Column lines of its lower and its upper end, from 0.
+    /// Column lines of its lower and its upper end, from 0; lines that cross its own in a space frame.
     lines: [usize; 2],
     /// Whether it is part of a panel.
     infill: bool,
+    /// Its lower and its upper end on the site, in a space frame \[m\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    ends: Option<[[f64; 2]; 2]>,
 }
 
 /// A wall of a frame.
@@ -39,6 +42,16 @@ impl DiagonalData {
             storey: own.place.storey,
             lines: own.place.lines(),
             infill: own.place.kind == DiagonalKind::Infill,
+            ends: None,
+        }
+    }
+
+    pub(crate) fn in_space(frame: &SpaceFrame, own: &Diagonal) -> Self {
+        let crossings = own.place.crossings();
+        let ends = crossings.map(|both| both.map(|crossing| frame.point(crossing)));
+        Self {
+            ends,
+            ..Self::of(own)
         }
     }
 }

@@ -70,7 +70,14 @@ fn hysteresis_of(building: &Building, at: SpringPlace) -> Option<Hysteresis> {
     match at {
         SpringPlace::Diagonal { frame, place } => {
             // Struts that lift off are no hinges.
-            let mut diagonals = frame_of(frame)?.diagonals.iter();
+            let in_space = match &building.structure {
+                Structure::Tiers(tiers) if frame.is_none() => tiers.space_frame.as_ref(),
+                _ => None,
+            };
+            let mut diagonals = match in_space {
+                Some(frame) => frame.diagonals.iter(),
+                None => frame_of(frame)?.diagonals.iter(),
+            };
             let own = diagonals.find(|own| own.place == place)?;
             return own.hysteresis.filter(|_| at.is_hinge());
         }

@@ -144,7 +144,7 @@ struct Outline<'a> {
     /// Height of the base above the datum, if it is not zero \[m\].
     #[serde(skip_serializing_if = "Option::is_none")]
     elevation: Option<f64>,
-    /// Braces and struts of a frame in one plane.
+    /// Braces and struts of a frame in one plane, or of a space frame.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     diagonals: Vec<DiagonalData>,
     /// Walls of a frame in one plane.
@@ -467,15 +467,21 @@ fn outline(building: &Building) -> Outline<'_> {
         }
         _ => None,
     };
-    let members = match &building.structure {
-        Structure::Tiers(tiers) => tiers.space_frame.as_ref().map(MemberData::all_of),
+    let in_space = match &building.structure {
+        Structure::Tiers(tiers) => tiers.space_frame.as_ref(),
         _ => None,
     };
+    let members = in_space.map(MemberData::all_of);
     let plane = match &building.structure {
         Structure::Frame(frame) => Some(frame),
         _ => None,
     };
-    let diagonals = plane.into_iter().flat_map(|own| &own.diagonals);
+    let of_plane = plane.into_iter().flat_map(|own| &own.diagonals);
+    let of_space = in_space.into_iter().flat_map(|frame| {
+        let own = frame.diagonals.iter();
+        own.map(|own| DiagonalData::in_space(frame, own))
+    });
+    let diagonals = of_plane.map(DiagonalData::of).chain(of_space);
     let footing = building.base.foundation;
     Outline {
         plans,
@@ -490,7 +496,7 @@ fn outline(building: &Building) -> Outline<'_> {
             .map(Frame::tops)
             .unwrap_or_default(),
         elevation: Some(building.base.elevation).filter(|own| *own != 0.0),
-        diagonals: diagonals.map(DiagonalData::of).collect(),
+        diagonals: diagonals.collect(),
         walls: plane
             .map(|own| own.walls.iter().map(WallData::of).collect())
             .unwrap_or_default(),

@@ -16,7 +16,7 @@ use jostle::system::BuildingSystem;
 use jostle::{Building, LinkLaw, Model, SpaceMember, SpacePlace, System};
 
 use base::{describe_bearing_places, describe_bearings, describe_foundation};
-use frames::{axial_of_columns, diagonals, members, walls};
+use frames::{axial_of_columns, diagonals, members, rigid_ends, walls};
 use hinges::{describe_hinges, describe_yielding_in_plan};
 use jostle::results::summary::Finding;
 use jostle_io::shown::{
@@ -255,11 +255,15 @@ fn space_frame(tiers: &Tiers) -> String {
         let all = lines.iter().map(|line| HEIGHT.stated(*line));
         all.collect::<Vec<_>>().join(", ")
     };
+    let zones = frame.rigid_zones.values();
+    let ends = zones.map(|[x, y, column]| [x.max(*y), *column]);
     format!(
-        "space frame, {}, {} and {}\n  grid lines at x = {} {unit}, at y = {} {unit}",
+        "space frame, {}, {} and {}{}{}\n  grid lines at x = {} {unit}, at y = {} {unit}",
         counted(tiers.floors.len(), "storey"),
         counted(columns, "column"),
         counted(frame.members.len() - columns, "beam"),
+        diagonals(&frame.diagonals),
+        rigid_ends(ends),
         lines(&frame.lines_x),
         lines(&frame.lines_y)
     )
@@ -278,7 +282,9 @@ fn describe(
                 "frame, {}, {}{}",
                 counted(frame.storey_heights.len(), "storey"),
                 counted(frame.spans.len(), "span"),
-                members(frame) + &diagonals(frame)
+                members(frame)
+                    + &diagonals(&frame.diagonals)
+                    + &rigid_ends(frame.rigid_zones.values().copied())
             ),
             Structure::Shear(shear) => {
                 format!("shear building, {}", counted(shear.mass.len(), "storey"))

@@ -105,6 +105,21 @@ impl Profile {
         }
     }
 
+    /// Torsion constant J, of twist that nothing keeps from warping \[m⁴\].
+    ///
+    /// Of an I shape ⅔ b t_f³ (1 − 0.63 t_f/b) + ⅓ (d − 2 t_f) t_w³ + 2 α D⁴, as in the tables of ArcelorMittal, after G. W. Trayer and
+    /// H. W. March (NACA report 334, 1930): α = t_w/t_f (0.145 + 0.1 r/t_f), and D is the diameter of the circle in the joint of web and
+    /// flange. Of a tube t³ s/3 + 4 A² t/s along the middle of its wall (EN 10210-2, annex A); of a round one twice its second moment of
+    /// area.
+    #[must_use]
+    pub fn torsion_constant(&self) -> f64 {
+        match self {
+            Self::I(own) => own.torsion_constant(),
+            Self::Tube(own) => own.torsion_constant(),
+            Self::Pipe(own) => 2.0 * own.inertia(),
+        }
+    }
+
     /// Area that resists shear: webs between the middles of the flanges, of an I shape about its weak axis 5/6 of both flanges, half of a
     /// round tube \[m²\].
     #[must_use]

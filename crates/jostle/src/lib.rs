@@ -116,12 +116,13 @@ pub use model::{
     Analysis, Axial, Base, BearingBounds, BearingFactors, BearingStrength, BedSpring, Building,
     ColumnFibres, CouplingBeam, Damping, Diagonal, DiagonalKind, DiagonalPlace, Fibre,
     FloorMatrices, FloorPairs, Foundation, FoundationSprings, Frame, FrameHinges, FramePlace,
-    FrameWall, Gap, Given, GivenFloor, GivenInPlan, Gravity, GroundSprings, HalfSpace, Hinges,
-    Integrator, Isolation, Isolator, IsolatorDamping, Joint, JointRequest, Level, Link, LinkLaw,
-    MassDamping, MemberRequest, Model, ModelFault, PanelAcross, PlanArea, PlanAxis, PlanContact,
-    PlanFrame, PlanPoint, PlanSpring, ProportionalDamping, Rise, Section, Shear, ShearEnds,
-    ShearSpring, SlidingSurface, Soil, SoilCoupling, Solver, SpaceFrame, SpaceMember, SpacePlace,
-    SpaceSection, SpeedFriction, Stop, Structure, Tier, TierStorey, Tiers, Uplift, Wall,
+    FrameWall, Gap, Given, GivenFloor, GivenInPlan, Gravity, GridLine, GroundSprings, HalfSpace,
+    Hinges, Integrator, Isolation, Isolator, IsolatorDamping, Joint, JointRequest, Level, Link,
+    LinkLaw, MassDamping, MemberRequest, Model, ModelFault, PanelAcross, PlanArea, PlanAxis,
+    PlanContact, PlanFrame, PlanPoint, PlanSpring, ProportionalDamping, Rise, Section, Shear,
+    ShearEnds, ShearSpring, SlidingSurface, Soil, SoilCoupling, Solver, SpaceFrame, SpaceMember,
+    SpacePlace, SpaceSection, SpeedFriction, Stop, Structure, Tier, TierStorey, Tiers, Uplift,
+    Wall,
 };
 pub use motion::{Bearing, GroundMotion, GroundPath, GroundPoint, Grounds, OwnGround, Wave};
 pub use quantity::{Quantity, Unit};

@@ -271,18 +271,27 @@ impl Script<'_> {
         building: &BuildingSystem,
     ) -> Result<(), &'static str> {
         for own in &building.discretization.diagonals {
-            let hysteresis = own.spring.as_ref();
-            let material = self.spring_materials(own.stiffness, hysteresis, 0.0)?;
-            let [first, last] = own.ends.map(|node| self.tag(index, node));
-            // What yields has no part in the damping of the building.
-            let damped = python_bool(hysteresis.is_none());
-            for material in material {
-                let tag = self.element();
-                let _ = writeln!(
-                    self.diagonals,
-                    "    ({tag}, {first}, {last}, {material}, {damped}),"
-                );
-            }
+            let ends = own.ends.map(|node| self.tag(index, node));
+            self.add_diagonal(ends, own.stiffness, own.spring.as_ref())?;
+        }
+        Ok(())
+    }
+
+    /// A brace or a strut between two joints.
+    pub(super) fn add_diagonal(
+        &mut self,
+        [first, last]: [usize; 2],
+        stiffness: f64,
+        hysteresis: Option<&Hysteresis>,
+    ) -> Result<(), &'static str> {
+        // What yields has no part in the damping of the building.
+        let damped = python_bool(hysteresis.is_none());
+        for material in self.spring_materials(stiffness, hysteresis, 0.0)? {
+            let tag = self.element();
+            let _ = writeln!(
+                self.diagonals,
+                "    ({tag}, {first}, {last}, {material}, {damped}),"
+            );
         }
         Ok(())
     }

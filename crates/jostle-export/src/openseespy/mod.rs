@@ -133,17 +133,24 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
                     .into(),
             );
         }
-        if let jostle::Structure::Frame(frame) = &building.structure {
-            let crushed = |own: &jostle::Diagonal| {
-                let law = own.hysteresis.as_ref();
-                law.is_some_and(|law| law.backbone().is_without_tension())
-            };
-            if frame.diagonals.iter().any(crushed) {
-                refuse(
-                    format!("building[{index}].infill"),
-                    "with hinge bears compression alone, which OpenSees' Hysteretic cannot do; leave hinge out to compare with elastic struts".into(),
-                );
-            }
+        let in_space = match &building.structure {
+            jostle::Structure::Tiers(tiers) => tiers.space_frame.as_ref(),
+            _ => None,
+        };
+        let diagonals = match (&building.structure, in_space) {
+            (jostle::Structure::Frame(frame), _) => &frame.diagonals[..],
+            (_, Some(frame)) => &frame.diagonals,
+            _ => &[],
+        };
+        let crushed = |own: &jostle::Diagonal| {
+            let law = own.hysteresis.as_ref();
+            law.is_some_and(|law| law.backbone().is_without_tension())
+        };
+        if diagonals.iter().any(crushed) {
+            refuse(
+                format!("building[{index}].infill"),
+                "with hinge bears compression alone, which OpenSees' Hysteretic cannot do; leave hinge out to compare with elastic struts".into(),
+            );
         }
         let frames: Vec<&jostle::Frame> = match &building.structure {
             jostle::Structure::Frame(frame) => vec![frame],
@@ -156,7 +163,8 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
                 "stands on rigid arms that turn with it, which are not exported yet; make it a column with its EI, EA and GA to compare frames without arms".into(),
             );
         }
-        if frames.iter().any(|frame| !frame.rigid_zones.is_empty()) {
+        let ends_in_space = in_space.is_some_and(|own| !own.rigid_zones.is_empty());
+        if ends_in_space || frames.iter().any(|frame| !frame.rigid_zones.is_empty()) {
             refuse(
                 format!("building[{index}].rigid_ends"),
                 "are rigid arms that turn with joints, which are not exported yet; leave them out to compare frames between axes".into(),

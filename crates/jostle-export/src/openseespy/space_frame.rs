@@ -107,6 +107,17 @@ impl Script<'_> {
                 ends[0], ends[1], section.torsional_rigidity, towards[0], towards[1], towards[2],
             );
         }
+        for own in &frame.diagonals {
+            let Some(crossings) = own.place.crossings() else {
+                continue;
+            };
+            let levels = [own.place.storey - 1, own.place.storey].into_iter();
+            let joints = levels.zip(crossings).map(|place| tags.get(&place).copied());
+            let [Some(first), Some(last)] = joints.collect::<Vec<_>>()[..] else {
+                return Err("has a brace without a joint");
+            };
+            self.add_diagonal([first, last], own.stiffness, own.hysteresis.as_ref())?;
+        }
         Ok(())
     }
 

@@ -198,6 +198,48 @@ fn space_frames_are_written_member_by_member() {
     assert!(exported.text.contains("EA = 1e4 * 12 EI / l^2"));
 }
 
+const BRACED: &str = r#"
+[[building.brace]]
+along = "x"
+x = 2
+y = 1
+direction = "both"
+EA = "300 MN"
+
+[[building.brace]]
+along = "y"
+x = 3
+y = 2
+storeys = [1, 2]
+EA = "200 MN"
+hinge = { rule = "bilinear", yield = "60 kN", post_yield = 0.02 }
+"#;
+
+/// Braces of a space frame join the joints of its members, along the lines between them; those that yield are not damped.
+#[test]
+fn braces_of_space_frames_join_their_joints() {
+    const FRAME: &str = include_str!("../../../jostle-validation/data/space/S8_space_frame.toml");
+    let text = format!("{FRAME}{BRACED}");
+    let text = export(&model(&text)).expect("it can be exported").text;
+    let joints = table(&text, "JOINTS");
+    let place = |tag: &str| {
+        let own = joints.iter().find(|row| row[0] == tag).expect("a joint");
+        [1, 2, 3].map(|axis| number(&own[axis]))
+    };
+    let rows = table(&text, "DIAGONALS");
+    let found = rows
+        .iter()
+        .map(|row| (place(&row[1]), place(&row[2]), &row[4][..]));
+    let found: Vec<_> = found.collect();
+    assert_eq!(found.len(), 3 * 2 + 2);
+    assert_eq!(found[0], ([6.0, 0.0, 0.0], [11.0, 0.0, 4.0], "True"));
+    assert_eq!(found[1], ([11.0, 0.0, 0.0], [6.0, 0.0, 4.0], "True"));
+    assert_eq!(found[7], ([11.0, 5.0, 4.0], [11.0, 9.0, 7.2], "False"));
+    let rigid = FRAME.replace("\nshear =", "\nrigid_ends = 1\nshear =");
+    let faults = export(&model(&rigid)).expect_err("not yet");
+    assert_eq!(faults[0].path, "building[0].rigid_ends");
+}
+
 /// An end of a member with hinges is a node of its own, which a spring joins to its joint upwards and about both axes.
 #[test]
 fn hinges_of_space_frames_stand_between_joints_and_ends() {

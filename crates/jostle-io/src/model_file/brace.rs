@@ -1,25 +1,100 @@
-//! `[[building.brace]]`: diagonals of the bays of a frame.
+//! `[[building.brace]]`: diagonals of the bays of a frame or of a grid.
 
-use jostle::{Diagonal, DiagonalKind, DiagonalPlace, Rise};
+use jostle::{Diagonal, DiagonalKind, DiagonalPlace, GridLine, PlanAxis, Rise};
 
 use super::buckling::{self, Strut};
 use super::hinges::read_spring;
 use super::places::range;
 use super::steel_profile;
-use crate::keys::{DIRECTIONS, Section};
+use crate::keys::{AXES_OF_PLAN, DIRECTIONS, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
 
-/// Storey heights and bay widths of the frame that diagonals belong to \[m\], and its joints.
+/// Bays of the frame that diagonals belong to, and its joints.
 #[derive(Clone, Copy)]
 pub(super) struct Bays<'a> {
+    /// Storey heights \[m\].
     pub(super) heights: &'a [f64],
-    pub(super) widths: &'a [f64],
-    /// E I of a column by storey and line, from 0 \[N·m²\]; `None` where there is none.
-    pub(super) column_rigidity: &'a dyn Fn([usize; 2]) -> Option<f64>,
+    pub(super) widths: Widths<'a>,
+    /// E I in the plane of the bay of the columns on both sides of it \[N·m²\]; `None` where there is none.
+    pub(super) column_rigidity: &'a dyn Fn(DiagonalPlace) -> [Option<f64>; 2],
     /// Whether a diagonal finds both its joints.
     pub(super) has_joints: &'a dyn Fn(DiagonalPlace) -> bool,
 }
+
+/// Widths of bays \[m\].
+#[derive(Clone, Copy)]
+pub(super) enum Widths<'a> {
+    /// Of a plane frame.
+    OfFrame(&'a [f64]),
+    /// Along x and across, of a grid with one line more in the other direction.
+    OfGrid(&'a [Vec<f64>; 2]),
+}
+
+impl Bays<'_> {
+    /// Width of the bay of a diagonal \[m\].
+    pub(super) fn width(&self, place: DiagonalPlace) -> f64 {
+        let widths = match (self.widths, place.line) {
+            (Widths::OfGrid(both), Some(line)) => &both[line.along.index()],
+            (Widths::OfGrid(both), None) => &both[0],
+            (Widths::OfFrame(widths), _) => return widths[place.bay - 1],
+        };
+        widths[place.bay - 1]
+    }
+
+    /// Keys of a table for some of the bays.
+    pub(super) fn sections(&self, kind: DiagonalKind) -> &'static [Section] {
+        match (self.widths, kind) {
+            (Widths::OfFrame(_), DiagonalKind::Brace) => &[Section::FrameBay, Section::Brace],
+            (Widths::OfFrame(_), DiagonalKind::Infill) => &[Section::FrameBay, Section::Infill],
+            (Widths::OfGrid(_), DiagonalKind::Brace) => &[Section::GridBay, Section::Brace],
+            (Widths::OfGrid(_), DiagonalKind::Infill) => &[Section::GridBay, Section::Infill],
+        }
+    }
+
+    /// The bays that a table names, each with its line of the grid, and whether it names every one.
+    fn named(&self, reader: &mut Reader<'_>, view: &View<'_>) -> Option<NamedBays> {
+        let both = match self.widths {
+            Widths::OfFrame(widths) => {
+                let [from, to] = range(reader, view, "bay", widths.len())?;
+                return Some((
+                    (from..=to).map(|bay| (None, bay)).collect(),
+                    view.has("bay"),
+                ));
+            }
+            Widths::OfGrid(both) => both,
+        };
+        let along = match reader.get(view, "along") {
+            Some(field) => reader.choice(&field, AXES_OF_PLAN, &[]),
+            None => {
+                let remedy = "add along = \"x\" or along = \"y\", the direction of its bays";
+                reader.missing(view, "along", remedy);
+                None
+            }
+        };
+        let along = match along? {
+            "x" => PlanAxis::X,
+            _ => PlanAxis::Y,
+        };
+        let most = |axis: PlanAxis| both[axis.index()].len() + usize::from(axis != along);
+        let x = range(reader, view, "x", most(PlanAxis::X));
+        let y = range(reader, view, "y", most(PlanAxis::Y));
+        let (x, y) = (x?, y?);
+        let (bays, lines) = match along {
+            PlanAxis::X => (x, y),
+            PlanAxis::Y => (y, x),
+        };
+        let numbers = lines[0]..=lines[1];
+        let found = numbers.flat_map(|number| {
+            let line = Some(GridLine { along, number });
+            (bays[0]..=bays[1]).map(move |bay| (line, bay))
+        });
+        Some((found.collect(), view.has("x") && view.has("y")))
+    }
+}
+
+/// Bays, each with its line of a grid, and whether a table names every one.
+type NamedBays = (Vec<(Option<GridLine>, usize)>, bool);
 
 /// Force per elongation of what stands in a bay, from its place and its diagonal \[N/m; m\]; `None` after a fault.
 pub(super) type Stiffness<'a> = dyn Fn(DiagonalPlace, f64) -> Option<f64> + 'a;
@@ -71,7 +146,7 @@ pub(super) fn add(
 }
 
 fn read(reader: &mut Reader<'_>, entry: &Field<'_>, bays: Bays<'_>) -> Option<Vec<Diagonal>> {
-    let view = reader.open(entry, &[Section::Brace])?;
+    let view = reader.open(entry, bays.sections(DiagonalKind::Brace))?;
     let rises = match reader.get(&view, "direction") {
         Some(field) => match reader.choice(&field, DIRECTIONS, &[])? {
             "both" => &Rise::BOTH[..],
@@ -135,10 +210,10 @@ fn read(reader: &mut Reader<'_>, entry: &Field<'_>, bays: Bays<'_>) -> Option<Ve
             // A fault of one is that of all.
             let stiffness = brace.stiffness;
             brace.hysteresis = Some(if buckles {
-                let bay = bays.widths[brace.place.bay - 1];
+                let width = bays.width(brace.place);
                 let strut = Strut {
                     stiffness,
-                    length: libm::hypot(bay, bays.heights[brace.place.storey - 1]),
+                    length: libm::hypot(width, bays.heights[brace.place.storey - 1]),
                     profile,
                 };
                 buckling::read(reader, &field, &own, strut)?
@@ -161,22 +236,23 @@ pub(super) fn places(
     stiffness: &Stiffness<'_>,
 ) -> Option<Vec<Diagonal>> {
     let storeys = range(reader, view, "storeys", bays.heights.len());
-    let named = range(reader, view, "bay", bays.widths.len());
-    let (storeys, named) = (storeys?, named?);
+    let named = bays.named(reader, view);
+    let (storeys, (named, names_all)) = (storeys?, named?);
     let mut found = Vec::new();
     for storey in storeys[0]..=storeys[1] {
-        for bay in named[0]..=named[1] {
-            let length = libm::hypot(bays.widths[bay - 1], bays.heights[storey - 1]);
+        for &(line, bay) in &named {
             for &rise in rises {
                 let place = DiagonalPlace {
                     kind,
+                    line,
                     storey,
                     bay,
                     rise,
                 };
-                if !view.has("bay") && !(bays.has_joints)(place) {
+                if !names_all && !(bays.has_joints)(place) {
                     continue;
                 }
+                let length = libm::hypot(bays.width(place), bays.heights[storey - 1]);
                 found.push(Diagonal {
                     place,
                     stiffness: stiffness(place, length)?,

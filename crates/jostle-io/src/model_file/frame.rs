@@ -2,7 +2,7 @@
 
 use jostle::{Axial, DiagonalPlace, Frame};
 
-use super::brace::{self, Bays};
+use super::brace::{self, Bays, Widths};
 use super::building::{per_storey, storeys};
 use super::section::{Material, read_modulus};
 use super::{frame_members, frame_walls, infill, joint, rigid_ends};
@@ -155,8 +155,11 @@ fn read_members(
     };
     let bays = Bays {
         heights: &frame.storey_heights,
-        widths: &frame.spans,
-        column_rigidity: &|[storey, line]| Some(frame.column(storey, line)?.flexural_rigidity),
+        widths: Widths::OfFrame(&frame.spans),
+        column_rigidity: &|place| {
+            let own = |line| frame.column(place.storey - 1, line);
+            place.lines().map(|line| Some(own(line)?.flexural_rigidity))
+        },
         has_joints: &has_joints,
     };
     let mut diagonals = brace::read_all(reader, view, bays);

@@ -45,7 +45,7 @@ enum Strength {
 }
 
 fn read(reader: &mut Reader<'_>, entry: &Field<'_>, bays: Bays<'_>) -> Option<Vec<Diagonal>> {
-    let view = reader.open(entry, &[Section::Infill])?;
+    let view = reader.open(entry, bays.sections(DiagonalKind::Infill))?;
     let noted = reader.count_faults();
     let stiffness = reader
         .get(&view, "stiffness")
@@ -68,12 +68,11 @@ fn read(reader: &mut Reader<'_>, entry: &Field<'_>, bays: Bays<'_>) -> Option<Ve
     let left = left?;
     let hinge = reader.get(&view, "hinge");
     let panel = |wall: &Wall, place: DiagonalPlace| {
-        let [first, second] = place.lines();
-        let rigidity = [first, second].map(|line| (bays.column_rigidity)([place.storey - 1, line]));
+        let rigidity = (bays.column_rigidity)(place);
         let stands = rigidity.iter().flatten().count().max(1) as f64;
         Panel {
             height: bays.heights[place.storey - 1],
-            length: bays.widths[place.bay - 1],
+            length: bays.width(place),
             thickness: wall.thickness,
             modulus: wall.modulus,
             column_rigidity: rigidity.iter().flatten().sum::<f64>() / stands,

@@ -1,8 +1,8 @@
-//! `rigid_ends`: columns and beams of a frame that are rigid inside their joints.
+//! `rigid_ends`: columns and beams of a frame or a space frame that are rigid inside their joints.
 
 use std::collections::BTreeMap;
 
-use jostle::{Frame, FramePlace};
+use jostle::{Frame, FramePlace, SpaceFrame, SpacePlace};
 
 use crate::keys::Section;
 use crate::quantity::Dimension;
@@ -16,21 +16,73 @@ pub(super) fn read(
     frame: &Frame,
     depths: &[Vec<Vec<Option<f64>>>; 2],
 ) -> BTreeMap<FramePlace, [f64; 2]> {
-    let Some(field) = reader.get(view, "rigid_ends") else {
+    let mut all = depths.iter().flatten().flatten();
+    let lacks_depths = all.clone().next().is_some() && !all.any(Option::is_some);
+    let Some(asked) = Asked::read(reader, view, lacks_depths) else {
         return BTreeMap::new();
     };
-    let zone = match field.node.value {
-        Value::Table(_) => by_lengths(reader, &field),
-        _ => by_depths(reader, &field, depths),
+    let [columns, beams] = depths;
+    let deepest = |grid: &[Vec<Option<f64>>], places: [Option<FramePlace>; 2]| {
+        let own = places.into_iter().flatten();
+        let own = own.filter_map(|[row, place]| *grid.get(row)?.get(place)?);
+        own.fold(0.0, f64::max)
     };
-    let Some(zone) = zone else {
-        return BTreeMap::new();
+    let zone = |[floor, line]: FramePlace| {
+        let before = line.checked_sub(1).map(|bay| [floor, bay]);
+        [
+            asked.of_beams(deepest(
+                columns,
+                [Some([floor, line]), Some([floor + 1, line])],
+            )),
+            asked.of_columns(deepest(beams, [before, Some([floor, line])])),
+        ]
     };
     let places = (0..frame.storey_heights.len())
         .flat_map(|floor| (0..frame.lines()).map(move |line| [floor, line]));
     let joints = places.filter(|[floor, line]| frame.has_joint(floor + 1, *line));
     let zones = joints.map(|place| (place, zone(place)));
     zones.filter(|(_, zone)| *zone != [0.0; 2]).collect()
+}
+
+/// The same of a space frame: beams along x and across, and columns.
+pub(super) fn read_in_space(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    frame: &SpaceFrame,
+) -> BTreeMap<[usize; 3], [f64; 3]> {
+    let Some(asked) = Asked::read(reader, view, false) else {
+        return BTreeMap::new();
+    };
+    // Greatest sizes along x and across of columns, and depths of beams, at every joint.
+    let mut sizes: BTreeMap<[usize; 3], [f64; 3]> = BTreeMap::new();
+    for own in &frame.members {
+        let level = own.place.storey();
+        let is_column = matches!(own.place, SpacePlace::Column { .. });
+        let below = level.checked_sub(1).filter(|_| is_column);
+        for (end, [x, y]) in own.place.crossings().into_iter().enumerate() {
+            let floor = match (is_column, end) {
+                (true, 0) => below,
+                _ => Some(level),
+            };
+            let Some(floor) = floor else {
+                continue;
+            };
+            let size = sizes.entry([floor, x, y]).or_default();
+            let [first, second] = own.section.size;
+            let met = match is_column {
+                true => [first, second, 0.0],
+                false => [0.0, 0.0, second],
+            };
+            for (size, met) in size.iter_mut().zip(met) {
+                *size = f64::max(*size, met);
+            }
+        }
+    }
+    let zones = sizes.into_iter().map(|(place, [x, y, depth])| {
+        let beams = [x, y].map(|size| asked.of_beams(size));
+        (place, [beams[0], beams[1], asked.of_columns(depth)])
+    });
+    zones.filter(|(_, zone)| *zone != [0.0; 3]).collect()
 }
 
 /// Lengths of the columns of a storey (`key` = `"column"`), or of the beams of a floor, between the rigid zones of joints \[m\].
@@ -52,68 +104,75 @@ pub(super) fn bending_lengths(frame: &Frame, key: &str, storey: usize) -> Vec<f6
     }
 }
 
-/// Half the width and half the height of a joint, as far as they are rigid \[m\].
-type Zone<'a> = Box<dyn Fn(FramePlace) -> [f64; 2] + 'a>;
-
-/// The same lengths at all joints.
-fn by_lengths<'a>(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Zone<'a>> {
-    let view = reader.open(field, &[Section::RigidEnds])?;
-    let mut length = |key: &'static str| match reader.get(&view, key) {
-        Some(field) => {
-            let length = reader.quantity(&field, Dimension::Length)?;
-            if length < 0.0 {
-                reader.bad(&field, "must not be negative");
-                return None;
-            }
-            Some(length)
-        }
-        None => Some(0.0),
-    };
-    let (beams, columns) = (length("beams"), length("columns"));
-    let zone = [beams?, columns?];
-    Some(Box::new(move |_| zone))
+/// What a file says of rigid ends.
+enum Asked {
+    /// A share of half of the deepest member that meets the joint.
+    Share(f64),
+    /// Lengths of beams and of columns, the same at all joints \[m\].
+    Lengths([f64; 2]),
 }
 
-/// A share of the half depths of the members that meet: the deeper of two counts.
-fn by_depths<'a>(
-    reader: &mut Reader<'_>,
-    field: &Field<'_>,
-    depths: &'a [Vec<Vec<Option<f64>>>; 2],
-) -> Option<Zone<'a>> {
-    let share = reader.quantity(field, Dimension::Dimensionless)?;
-    if !(0.0..=1.0).contains(&share) {
-        *reader.bad(field, format!("must lie between 0 and 1, found {share}")) = Some(
-            "write 1 for members that are rigid up to the faces of joints, 0.5 for half of that, or lengths: rigid_ends = { beams = \"0.25 m\", columns = \"0.3 m\" }".into(),
-        );
-        return None;
+impl Asked {
+    /// Rigid length of a beam at columns of which the deepest has this depth \[m\].
+    fn of_beams(&self, depth: f64) -> f64 {
+        match self {
+            Self::Share(share) => 0.5 * share * depth,
+            Self::Lengths([beams, _]) => *beams,
+        }
     }
-    let [columns, beams] = depths;
-    let mut all = columns.iter().chain(beams).flatten();
-    if share > 0.0 && all.clone().next().is_some() && !all.any(Option::is_some) {
-        *reader.bad(
-            field,
-            "is a share of depths, and no column or beam has a depth",
-        ) = Some(
-            "give lengths from the axes: rigid_ends = { beams = \"0.25 m\", columns = \"0.3 m\" }"
-                .into(),
-        );
-        return None;
+
+    /// The same of a column at beams.
+    fn of_columns(&self, depth: f64) -> f64 {
+        match self {
+            Self::Share(share) => 0.5 * share * depth,
+            Self::Lengths([_, columns]) => *columns,
+        }
     }
-    let deepest = move |grid: &[Vec<Option<f64>>], places: [Option<FramePlace>; 2]| {
-        let own = places.into_iter().flatten();
-        let own = own.filter_map(|[row, place]| *grid.get(row)?.get(place)?);
-        0.5 * share * own.fold(0.0, f64::max)
-    };
-    Some(Box::new(move |[floor, line]| {
-        [
-            deepest(columns, [Some([floor, line]), Some([floor + 1, line])]),
-            deepest(
-                beams,
-                [
-                    line.checked_sub(1).map(|bay| [floor, bay]),
-                    Some([floor, line]),
-                ],
-            ),
-        ]
-    }))
+
+    /// Reads `rigid_ends`; `None` without the key, or after a fault. `lacks_depths`: no member has a depth.
+    fn read(reader: &mut Reader<'_>, view: &View<'_>, lacks_depths: bool) -> Option<Self> {
+        let field = reader.get(view, "rigid_ends")?;
+        match field.node.value {
+            Value::Table(_) => Self::read_lengths(reader, &field),
+            _ => Self::read_share(reader, &field, lacks_depths),
+        }
+    }
+
+    fn read_lengths(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<Self> {
+        let view = reader.open(field, &[Section::RigidEnds])?;
+        let mut length = |key: &'static str| match reader.get(&view, key) {
+            Some(field) => {
+                let length = reader.quantity(&field, Dimension::Length)?;
+                if length < 0.0 {
+                    reader.bad(&field, "must not be negative");
+                    return None;
+                }
+                Some(length)
+            }
+            None => Some(0.0),
+        };
+        let (beams, columns) = (length("beams"), length("columns"));
+        Some(Self::Lengths([beams?, columns?]))
+    }
+
+    fn read_share(reader: &mut Reader<'_>, field: &Field<'_>, lacks_depths: bool) -> Option<Self> {
+        let share = reader.quantity(field, Dimension::Dimensionless)?;
+        if !(0.0..=1.0).contains(&share) {
+            *reader.bad(field, format!("must lie between 0 and 1, found {share}")) = Some(
+                "write 1 for members that are rigid up to the faces of joints, 0.5 for half of that, or lengths: rigid_ends = { beams = \"0.25 m\", columns = \"0.3 m\" }".into(),
+            );
+            return None;
+        }
+        if share > 0.0 && lacks_depths {
+            *reader.bad(
+                field,
+                "is a share of depths, and no column or beam has a depth",
+            ) = Some(
+                "give lengths from the axes: rigid_ends = { beams = \"0.25 m\", columns = \"0.3 m\" }"
+                    .into(),
+            );
+            return None;
+        }
+        Some(Self::Share(share))
+    }
 }

@@ -1,21 +1,27 @@
 //! `kind = "space-frame"`: columns at the crossings of grid lines, beams along the lines.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use jostle::{PlanPoint, SpaceFrame, SpaceMember, SpacePlace, SpaceSection};
-use jostle_section::Section as ReinforcedSection;
+use jostle::Section as CrossSection;
+use jostle::{
+    DiagonalPlace, PlanAxis, PlanPoint, SpaceFrame, SpaceMember, SpacePlace, SpaceSection,
+};
+use jostle_section::{Section as ReinforcedSection, Span};
 
+use super::brace::{self, Bays, Widths};
 use super::building::per_storey;
-use super::fibre_hinges;
 use super::frame::{flexible_members, read_poisson_ratio, stiffness_factors};
 use super::places::{range, read_omit};
 use super::plan::pair;
 use super::reinforced;
-use super::section::{read_modulus, read_modulus_beside_bars};
+use super::section::{self, read_modulus, read_modulus_beside_bars};
+use super::slab::{self, OnSlab};
 use super::space_hinges::{Moments, SpaceHinges};
+use super::steel_profile;
+use super::{fibre_hinges, infill, rigid_ends, space_walls};
 use crate::keys::{AXIAL, SECTION_CONCRETES, Section};
 use crate::quantity::Dimension;
-use crate::reader::{Reader, View};
+use crate::reader::{Field, Reader, View};
 
 /// Most lines in one direction.
 const MOST_LINES: usize = 60;
@@ -96,19 +102,21 @@ fn read_lines(reader: &mut Reader<'_>, view: &View<'_>, key: &'static str) -> Ve
 
 /// Material and flexibility of columns or beams.
 #[derive(Clone, Copy)]
-struct Material {
-    modulus: Option<f64>,
+pub(super) struct Material {
+    pub(super) modulus: Option<f64>,
+    /// Whether the building states a modulus in numbers.
+    pub(super) modulus_is_stated: bool,
     /// Whether a fault of the modulus was noted.
-    modulus_is_bad: bool,
-    poisson_ratio: f64,
+    pub(super) modulus_is_bad: bool,
+    pub(super) poisson_ratio: f64,
     /// Factor on EI, and on GJ.
-    factors: [f64; 2],
-    shears: bool,
+    pub(super) factors: [f64; 2],
+    pub(super) shears: bool,
 }
 
 /// Columns, beams along x, beams across.
 #[derive(Clone, Copy, PartialEq)]
-enum Sort {
+pub(super) enum Sort {
     Column,
     BeamX,
     BeamY,
@@ -126,7 +134,7 @@ impl Sort {
     }
 
     /// The place that begins at a crossing.
-    fn place(self, [x, y]: [usize; 2], storey: usize) -> SpacePlace {
+    pub(super) fn place(self, [x, y]: [usize; 2], storey: usize) -> SpacePlace {
         match self {
             Self::Column => SpacePlace::Column {
                 line: [x, y],
@@ -167,11 +175,13 @@ pub(super) fn read(
     let hinges = SpaceHinges::read(reader, view, plans.len());
     let mut members = Vec::new();
     let mut own_moments = Vec::new();
-    let mut sections = BTreeMap::new();
+    let (mut sections, mut slabs) = (BTreeMap::new(), BTreeMap::new());
+    let mut walls = Vec::new();
     for sort in Sort::ALL {
         let is_column = sort == Sort::Column;
         let material = Material {
             modulus,
+            modulus_is_stated: view.has("elastic_modulus"),
             modulus_is_bad,
             poisson_ratio,
             factors: [
@@ -184,7 +194,18 @@ pub(super) fn read(
             ],
             shears: if is_column { shears.0 } else { shears.1 },
         };
-        let own = read_sort(reader, view, sort, &grid, plans, material, hinges.as_ref());
+        let mut own = read_sort(reader, view, sort, &grid, plans, material, hinges.as_ref());
+        if is_column {
+            walls = space_walls::read_all(
+                reader,
+                view,
+                &grid,
+                plans,
+                material,
+                hinges.as_ref(),
+                &mut own,
+            );
+        }
         for (place, own) in own {
             let mut section = own.section;
             if is_column && !stretches {
@@ -192,10 +213,11 @@ pub(super) fn read(
             }
             members.push(SpaceMember::elastic(place, section));
             own_moments.push(own.moments);
+            slabs.extend(own.slab.map(|own| (place, own)));
             sections.extend(own.reinforced.map(|own| (place, own)));
         }
     }
-    let [lines_x, lines_y] = grid.lines;
+    let [lines_x, lines_y] = grid.lines.clone();
     let floor_load = reader
         .get(view, "floor_load")
         .and_then(|field| per_storey(reader, &field, Dimension::Force, Some(plans.len())));
@@ -207,6 +229,10 @@ pub(super) fn read(
         floor_load: floor_load.unwrap_or_default(),
         ..SpaceFrame::default()
     };
+    add_slabs(&slabs, &mut frame);
+    frame.rigid_zones = rigid_ends::read_in_space(reader, view, &frame);
+    space_walls::add_arms(&walls, &mut frame);
+    add_diagonals(reader, view, &grid, plans, storey_heights, &mut frame);
     if let Some(hinges) = hinges {
         add_hinges(
             reader,
@@ -219,6 +245,93 @@ pub(super) fn read(
         add_fibres(reader, view, &hinges, &sections, &mut frame, storey_heights);
     }
     frame
+}
+
+/// Lets slabs bend with beams: a beam that none continues on its line is an end span.
+fn add_slabs(slabs: &BTreeMap<SpacePlace, OnSlab>, frame: &mut SpaceFrame) {
+    let beams = frame.members.iter().map(|own| own.place);
+    let ends: BTreeSet<SpacePlace> = beams.collect();
+    let neighbours = |place: SpacePlace| match place {
+        SpacePlace::Column { .. } => [None; 2],
+        SpacePlace::BeamX { span, line, floor } => {
+            let beside = |span| SpacePlace::BeamX { span, line, floor };
+            [span.checked_sub(1).map(beside), Some(beside(span + 1))]
+        }
+        SpacePlace::BeamY { line, span, floor } => {
+            let beside = |span| SpacePlace::BeamY { line, span, floor };
+            [span.checked_sub(1).map(beside), Some(beside(span + 1))]
+        }
+    };
+    for index in 0..frame.members.len() {
+        let place = frame.members[index].place;
+        let Some(slab) = slabs.get(&place) else {
+            continue;
+        };
+        let goes_on = neighbours(place).into_iter().flatten();
+        let goes_on = goes_on.filter(|beside| ends.contains(beside)).count();
+        let span = Span {
+            length: frame.length(place, &[]),
+            outer_ends: 2 - goes_on,
+        };
+        let own = &mut frame.members[index].section;
+        let tee = slab.with(
+            CrossSection {
+                flexural_rigidity: own.flexural_rigidity[0],
+                axial_rigidity: own.axial_rigidity,
+                shear_rigidity: None,
+                line_mass: 0.0,
+            },
+            span,
+        );
+        own.flexural_rigidity[0] = tee.flexural_rigidity;
+        own.axial_rigidity = tee.axial_rigidity;
+    }
+}
+
+/// Adds braces and struts of infill panels.
+fn add_diagonals(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    grid: &Grid,
+    plans: &[Vec<PlanPoint>],
+    storey_heights: &[f64],
+    frame: &mut SpaceFrame,
+) {
+    let widths = PlanAxis::BOTH.map(|along| frame.bays(along));
+    let column_rigidity = |place: DiagonalPlace| {
+        let axis = place.line.map_or(0, |line| line.along.index());
+        let crossings = place.crossings().unwrap_or_default();
+        crossings.map(|line| {
+            let storey = place.storey - 1;
+            let column = SpacePlace::Column { line, storey };
+            let mut members = frame.members.iter();
+            let own = members.find(|own| own.place == column)?;
+            Some(own.section.flexural_rigidity[axis])
+        })
+    };
+    let has_joints = |place: DiagonalPlace| {
+        let Some((line, [lower, upper])) = place.line.zip(place.crossings()) else {
+            return false;
+        };
+        let beam = match line.along {
+            PlanAxis::X => Sort::BeamX,
+            PlanAxis::Y => Sort::BeamY,
+        };
+        let floor = place.storey - 1;
+        let bay = beam.place(line.crossing(place.bay - 1), floor);
+        lies_in(bay, grid, &plans[floor])
+            && frame.has_joint(floor, lower)
+            && frame.has_joint(floor + 1, upper)
+    };
+    let bays = Bays {
+        heights: storey_heights,
+        widths: Widths::OfGrid(&widths),
+        column_rigidity: &column_rigidity,
+        has_joints: &has_joints,
+    };
+    let mut diagonals = brace::read_all(reader, view, bays);
+    diagonals.extend(infill::read_all(reader, view, bays));
+    frame.diagonals = diagonals;
 }
 
 /// Gives columns the fibres of their sections.
@@ -244,7 +357,7 @@ fn add_fibres(
         .into_iter()
         .filter(|own| asked.stand_in(own.storey()))
     {
-        let height = frame.length(place, storey_heights);
+        let height = frame.clear_length(place, storey_heights);
         match asked.of_column(&sections[&place], height, true) {
             Ok(own) => {
                 frame.fibres.insert(place, own);
@@ -282,7 +395,7 @@ fn add_hinges(
         let Some(moments) = own.as_ref().or_else(usual) else {
             continue;
         };
-        let length = frame.length(place, storey_heights);
+        let length = frame.clear_length(place, storey_heights);
         // A fault of one is that of all alike.
         match hinges.springs(reader, moments, &section, length) {
             Ok(springs) => frame.members[index].hinges = springs,
@@ -293,12 +406,14 @@ fn add_hinges(
 
 /// Section and hinges of a member.
 #[derive(Clone)]
-struct Member<'n> {
-    section: SpaceSection,
+pub(super) struct Member<'n> {
+    pub(super) section: SpaceSection,
+    /// Slab that bends with a beam.
+    pub(super) slab: Option<OnSlab>,
     /// Bars and materials of a column, if it has bars.
-    reinforced: Option<ReinforcedSection>,
+    pub(super) reinforced: Option<ReinforcedSection>,
     /// Moments of its own.
-    moments: Option<Moments<'n>>,
+    pub(super) moments: Option<Moments<'n>>,
 }
 
 /// Members of one sort: a table for all places, or a list of tables, each for the places that it names.
@@ -352,8 +467,9 @@ fn read_sort<'n>(
                 .then(|| read_bars(reader, view, &own))
                 .flatten();
             match section {
-                Some(section) => Some(Member {
+                Some((section, slab)) => Some(Member {
                     section,
+                    slab,
                     reinforced,
                     moments,
                 }),
@@ -409,7 +525,7 @@ fn read_bars(
 }
 
 /// Moments of the hinges of some members.
-fn read_hinge<'n>(
+pub(super) fn read_hinge<'n>(
     reader: &mut Reader<'_>,
     building: &View<'_>,
     own: &View<'n>,
@@ -430,7 +546,7 @@ fn read_hinge<'n>(
 }
 
 /// Whether both ends of a member, and its middle, lie in a plan.
-fn lies_in(place: SpacePlace, grid: &Grid, plan: &[PlanPoint]) -> bool {
+pub(super) fn lies_in(place: SpacePlace, grid: &Grid, plan: &[PlanPoint]) -> bool {
     let at = |[x, y]: [usize; 2]| [grid.lines[0][x], grid.lines[1][y]];
     let [a, b] = place.crossings().map(at);
     let middle = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
@@ -459,46 +575,21 @@ fn contains(plan: &[PlanPoint], [x, y]: PlanPoint) -> bool {
     inside
 }
 
+/// The section of a member, and the slab of a beam.
 fn read_section(
     reader: &mut Reader<'_>,
     view: &View<'_>,
     sort: Sort,
     material: Material,
-) -> Option<SpaceSection> {
-    let size = if sort == Sort::Column {
-        match reader.get(view, "size") {
-            Some(field) => pair(reader, &field).and_then(|size| {
-                if size.iter().all(|side| *side > 0.0) {
-                    return Some(size);
-                }
-                reader.bad(&field, "must be greater than 0 m");
-                None
-            }),
-            None => {
-                reader.missing(
-                    view,
-                    "size",
-                    "add the sizes along x and across: size = [\"500 mm\", \"500 mm\"]; or omit = true",
-                );
-                None
-            }
-        }
-    } else {
-        let [width, depth] = [("width", "300 mm"), ("depth", "600 mm")].map(|(key, example)| {
-            match reader.get(view, key) {
-                Some(field) => reader.positive(&field, Dimension::Length),
-                None => {
-                    reader.missing(
-                        view,
-                        key,
-                        format!("add {key} = \"{example}\"; or omit = true"),
-                    );
-                    None
-                }
-            }
-        });
-        width.zip(depth).map(|(width, depth)| [width, depth])
-    };
+) -> Option<(SpaceSection, Option<OnSlab>)> {
+    if let Some(field) = reader.get(view, "profile") {
+        return read_profile(reader, view, &field, sort, material).map(|own| (own, None));
+    }
+    if let Some(field) = reader.get(view, "axis") {
+        *reader.bad(&field, "is for a profile") = Some("leave it out, or add profile".into());
+        return None;
+    }
+    let size = read_size(reader, view, sort);
     let (own, own_is_bad) = match view.has("bars") {
         true => read_modulus_beside_bars(reader, view),
         false => read_modulus(reader, view),
@@ -520,5 +611,86 @@ fn read_section(
     let [bending, torsion] = material.factors;
     section.flexural_rigidity = section.flexural_rigidity.map(|own| bending * own);
     section.torsional_rigidity *= torsion;
-    Some(section)
+    // Columns have no such key.
+    let slab = (sort != Sort::Column && view.has("slab")).then(|| reader.get(view, "slab"));
+    let slab = match slab.flatten() {
+        Some(field) => {
+            let of_beam = section::Material {
+                modulus: Some(modulus),
+                modulus_is_stated: true,
+                modulus_is_bad: false,
+                density: 0.0,
+                factor: bending,
+                shears,
+                poisson_ratio: nu,
+            };
+            Some(slab::read(reader, view, &field, of_beam)?)
+        }
+        None => None,
+    };
+    Some((section, slab))
+}
+
+/// A steel profile, which does not crack, whatever concrete does.
+fn read_profile(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    field: &Field<'_>,
+    sort: Sort,
+    material: Material,
+) -> Option<SpaceSection> {
+    let is_column = sort == Sort::Column;
+    let beside: &[&'static str] = match is_column {
+        true => &["size", "concrete", "bars"],
+        false => &["width", "depth", "concrete", "slab"],
+    };
+    if let Some(key) = beside.iter().find(|key| view.has(key)) {
+        *reader.bad(field, format!("stands beside {key}")) =
+            Some(format!("keep either profile or {key}"));
+        return None;
+    }
+    let stated = reader.get(view, "elastic_modulus");
+    let modulus = match stated {
+        Some(field) => Some(reader.positive(&field, Dimension::Modulus)?),
+        None => material.modulus.filter(|_| material.modulus_is_stated),
+    };
+    steel_profile::read_in_space(reader, view, field, modulus, material.shears, is_column)
+}
+
+/// Sizes along x and across of a column, width and depth of a beam.
+fn read_size(reader: &mut Reader<'_>, view: &View<'_>, sort: Sort) -> Option<PlanPoint> {
+    if sort == Sort::Column {
+        match reader.get(view, "size") {
+            Some(field) => pair(reader, &field).and_then(|size| {
+                if size.iter().all(|side| *side > 0.0) {
+                    return Some(size);
+                }
+                reader.bad(&field, "must be greater than 0 m");
+                None
+            }),
+            None => {
+                reader.missing(
+                    view,
+                    "size",
+                    "add the sizes along x and across: size = [\"500 mm\", \"500 mm\"]; or profile, or omit = true",
+                );
+                None
+            }
+        }
+    } else {
+        let [width, depth] = [("width", "300 mm"), ("depth", "600 mm")].map(|(key, example)| {
+            match reader.get(view, key) {
+                Some(field) => reader.positive(&field, Dimension::Length),
+                None => {
+                    reader.missing(
+                        view,
+                        key,
+                        format!("add {key} = \"{example}\"; or omit = true"),
+                    );
+                    None
+                }
+            }
+        });
+        width.zip(depth).map(|(width, depth)| [width, depth])
+    }
 }

@@ -1,6 +1,6 @@
 //! Columns and beams of rolled or welded steel: `profile`.
 
-use jostle::Section;
+use jostle::{Section, SpaceSection};
 use jostle_section::{Axis, ISection, Profile, STEEL_DENSITY, STEEL_MODULUS};
 
 use super::section::Material;
@@ -39,6 +39,38 @@ pub(super) fn read(
         shear_rigidity: shears
             .then(|| own.shear_area(axis) * modulus / (2.0 * (1.0 + STEEL_POISSON))),
         line_mass: STEEL_DENSITY * own.area(),
+    })
+}
+
+/// A steel profile of a space frame. `modulus`: that which the file states in numbers, else it is that of steel. The axis is that about
+/// which a column bends along x, and a beam in its vertical plane. `is_column`: which of its sizes is the first.
+pub(super) fn read_in_space(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    field: &Field<'_>,
+    modulus: Option<f64>,
+    shears: bool,
+    is_column: bool,
+) -> Option<SpaceSection> {
+    let axis = axis_of(reader, view)?.unwrap_or(Axis::Strong);
+    let axes = match axis {
+        Axis::Strong => [Axis::Strong, Axis::Weak],
+        Axis::Weak => [Axis::Weak, Axis::Strong],
+    };
+    let (own, of_steel) = named_or_sized(reader, field)?;
+    let modulus = modulus.unwrap_or(of_steel);
+    let shear_modulus = modulus / (2.0 * (1.0 + STEEL_POISSON));
+    let [first, second] = axes.map(|axis| own.depth(axis));
+    Some(SpaceSection {
+        size: if is_column {
+            [first, second]
+        } else {
+            [second, first]
+        },
+        flexural_rigidity: axes.map(|axis| modulus * own.inertia(axis)),
+        torsional_rigidity: shear_modulus * own.torsion_constant(),
+        axial_rigidity: Some(modulus * own.area()),
+        shear_rigidity: shears.then(|| axes.map(|axis| shear_modulus * own.shear_area(axis))),
     })
 }
 

@@ -21,6 +21,7 @@ mod layouts;
 mod measured;
 mod motions;
 mod mutate;
+mod parts_of_space_frames;
 mod plain_files;
 mod plans;
 mod profiles_and_slabs;

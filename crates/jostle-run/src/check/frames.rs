@@ -3,7 +3,7 @@
 use crate::numbers::counted;
 use jostle::hysteresis::{Hysteresis, HysteresisRule, Side};
 use jostle::statics::STANDARD_GRAVITY;
-use jostle::{DiagonalKind, Frame, Section};
+use jostle::{Diagonal, DiagonalKind, Frame, Section};
 use jostle_io::shown::{
     FORCE, HEIGHT, LARGE_FORCE, LARGE_RIGIDITY, LARGE_STIFFNESS, LENGTH, Shown,
 };
@@ -142,9 +142,9 @@ pub(super) fn walls(frame: &Frame) -> String {
 }
 
 /// Braces and infill panels, as far as there are any.
-pub(super) fn diagonals(frame: &Frame) -> String {
+pub(super) fn diagonals(diagonals: &[Diagonal]) -> String {
     let count = |kind| {
-        let all = frame.diagonals.iter();
+        let all = diagonals.iter();
         all.filter(|own| own.place.kind == kind).count()
     };
     let mut text = String::new();
@@ -156,7 +156,7 @@ pub(super) fn diagonals(frame: &Frame) -> String {
         }
     }
     let laws = |kind| {
-        let all = frame.diagonals.iter();
+        let all = diagonals.iter();
         let laws = all.filter(move |own| own.place.kind == kind);
         laws.filter_map(|own| own.hysteresis)
     };
@@ -196,7 +196,7 @@ pub(super) fn diagonals(frame: &Frame) -> String {
             between(&cracking, &|own| FORCE.of(pressed(own).yielding.force)),
         );
     }
-    let panels = frame.diagonals.iter().filter_map(|own| own.across);
+    let panels = diagonals.iter().filter_map(|own| own.across);
     let accelerations = panels.map(|own| own.strength / own.surface_mass / STANDARD_GRAVITY);
     let [least, most] = accelerations.fold([f64::INFINITY, 0.0], |[least, most], own| {
         [f64::min(least, own), f64::max(most, own)]
@@ -208,14 +208,19 @@ pub(super) fn diagonals(frame: &Frame) -> String {
         };
         text += &format!(", which bear {range} g across their plane");
     }
-    if !frame.rigid_zones.is_empty() {
-        let zones = || frame.rigid_zones.values();
-        let [beams, columns] = [0, 1].map(|side| zones().map(|own| own[side]).fold(0.0, f64::max));
-        text += &format!(
+    text
+}
+
+/// Rigid ends by joint, as far as there are any: of beams, and of columns \[m\].
+pub(super) fn rigid_ends(zones: impl Iterator<Item = [f64; 2]> + Clone) -> String {
+    let [beams, columns] =
+        [0, 1].map(|side| zones.clone().map(|own| own[side]).fold(0.0, f64::max));
+    match beams + columns > 0.0 {
+        true => format!(
             ", rigid ends up to {} of beams and {} of columns",
             LENGTH.text(beams, 0),
             LENGTH.text(columns, 0)
-        );
+        ),
+        false => String::new(),
     }
-    text
 }

@@ -91,6 +91,15 @@ impl Tube {
         self.difference(axis, Rounded::plastic_modulus)
     }
 
+    pub(super) fn torsion_constant(&self) -> f64 {
+        let (wall, radius) = (self.wall, (self.radius - 0.5 * self.wall).max(0.0));
+        let [depth, width] = [self.depth - wall, self.width - wall];
+        // Along the middle of the wall.
+        let around = 2.0 * (depth + width) - 2.0 * radius * (4.0 - PI);
+        let inside = depth * width - radius * radius * (4.0 - PI);
+        wall.powi(3) * around / 3.0 + 4.0 * inside * inside * wall / around
+    }
+
     pub(super) fn shear_area(&self, axis: Axis) -> f64 {
         let depth = match axis {
             Axis::Strong => self.depth,
@@ -115,5 +124,26 @@ impl Pipe {
 
     pub(super) fn plastic_modulus(&self) -> f64 {
         (self.diameter.powi(3) - self.hole().powi(3)) / 6.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// I_T of EN 10210-2, table B.2 and B.3.
+    #[test]
+    fn torsion_constants_are_those_of_tables() {
+        for ([depth, width, wall], due) in [([0.1, 0.1, 5e-3], 439.0), ([0.2, 0.1, 8e-3], 1804.0)] {
+            let radius = 1.5 * wall;
+            let tube = Tube {
+                depth,
+                width,
+                wall,
+                radius,
+            };
+            let own = 1e8 * tube.torsion_constant();
+            assert!((own / due - 1.0).abs() < 1e-2, "{own}, not {due}");
+        }
     }
 }

@@ -89,6 +89,24 @@ impl ISection {
         }
     }
 
+    /// Torsion constant: flanges, web, and what their joints add \[m⁴\].
+    pub(super) fn torsion_constant(&self) -> f64 {
+        let Self {
+            width,
+            web,
+            flange,
+            radius,
+            ..
+        } = *self;
+        let alpha = web / flange * (0.145 + 0.1 * radius / flange);
+        // The greatest circle inside such a joint.
+        let circle = ((radius + 0.5 * web).powi(2) + (radius + flange).powi(2) - radius * radius)
+            / (2.0 * radius + flange);
+        let plates = 2.0 / 3.0 * width * flange.powi(3) * (1.0 - 0.63 * flange / width)
+            + self.clear() * web.powi(3) / 3.0;
+        plates + 2.0 * alpha * circle.powi(4)
+    }
+
     /// Area that resists shear: the web between the middles of the flanges, or about the weak axis 5/6 of both flanges \[m²\].
     pub(super) fn shear_area(&self, axis: Axis) -> f64 {
         match axis {
@@ -102,6 +120,22 @@ impl ISection {
 mod tests {
     use super::*;
     use crate::Profile;
+
+    /// It of the tables of ArcelorMittal, Sections and Merchant Bars.
+    #[test]
+    fn torsion_constants_are_those_of_tables() {
+        let tables = [
+            ("IPE200", 6.98),
+            ("IPE300", 20.1),
+            ("HEA200", 21.0),
+            ("HEB200", 59.3),
+            ("HEB300", 185.0),
+        ];
+        for (name, due) in tables {
+            let own = Profile::named(name).expect("known").torsion_constant();
+            assert!((1e8 * own / due - 1.0).abs() < 5e-3, "{name}: {own}");
+        }
+    }
 
     #[test]
     fn sizes_that_do_not_fit_are_told() {

@@ -80,12 +80,21 @@ pub(super) fn check_places(faults: &mut Faults, path: &str, frame: &Frame) {
     }
 }
 
-/// The end of a diagonal without a joint: its floor, 0 at the ground, and its column line from 1.
-pub(super) fn loose_end(frame: &Frame, place: DiagonalPlace) -> Option<(usize, usize)> {
+/// What is wrong with the place of a diagonal: it is not in the frame, or ends where there is no joint.
+pub(super) fn fault_of_diagonal(frame: &Frame, place: DiagonalPlace) -> Option<String> {
+    let (storeys, bays) = (frame.storey_heights.len(), frame.spans.len());
+    let exists = (1..=storeys).contains(&place.storey) && (1..=bays).contains(&place.bay);
+    if !exists || place.line.is_some() {
+        return Some(format!(
+            "{place} is not in a frame of {storeys} storeys and {bays} bays, counted from 1"
+        ));
+    }
     let [lower, upper] = place.lines();
     let ends = [(place.storey - 1, lower), (place.storey, upper)];
-    let loose = ends
-        .into_iter()
-        .find(|(floor, line)| !frame.has_joint(*floor, *line));
-    loose.map(|(floor, line)| (floor, line + 1))
+    let mut loose = ends.into_iter();
+    let (floor, line) = loose.find(|(floor, line)| !frame.has_joint(*floor, *line))?;
+    Some(format!(
+        "{place} ends at floor {floor} of line {}, where there is no joint; leave it out there, or add the column",
+        line + 1
+    ))
 }

@@ -18,8 +18,8 @@ use members::check_members;
 use neighbours::check_neighbours;
 
 use crate::model::{
-    Base, Building, Damping, Frame, FrameHinges, Hinges, Model, ModelFault, Shear, ShearSpring,
-    Structure, WALL,
+    Base, Building, Damping, Diagonal, DiagonalPlace, Frame, FrameHinges, Hinges, Model,
+    ModelFault, Shear, ShearSpring, Structure, WALL,
 };
 
 /// Collects faults under the path of the part being checked.
@@ -425,23 +425,33 @@ fn check_members_of(faults: &mut Faults, path: &str, frame: &Frame) {
             format!("must lie between 1 and 64, found {segments}")
         });
     }
-    for (index, own) in frame.diagonals.iter().enumerate() {
-        let (place, field) = (own.place, format!("{path}.{}", own.place.kind.name()));
-        let exists =
-            (1..=storeys).contains(&place.storey) && (1..=frame.spans.len()).contains(&place.bay);
-        faults.require(exists, field.as_str(), || {
-            format!(
-                "{place} is not in a frame of {storeys} storeys and {} bays, counted from 1",
-                frame.spans.len()
-            )
-        });
-        if let Some((floor, line)) = frame_places::loose_end(frame, place).filter(|_| exists) {
-            faults.add(
-                field.as_str(),
-                format!("{place} ends at floor {floor} of line {line}, where there is no joint; leave it out there, or add the column"),
-            );
+    check_diagonals(faults, path, &frame.diagonals, |place| {
+        frame_places::fault_of_diagonal(frame, place)
+    });
+    for (name, stiffness, unit) in [
+        ("rotational", frame.joint.rotational_stiffness, "N.m/rad"),
+        ("horizontal", frame.joint.horizontal_stiffness, "N/m"),
+        ("vertical", frame.joint.vertical_stiffness, "N/m"),
+    ] {
+        if let Some(stiffness) = stiffness {
+            faults.positive(stiffness, format!("{path}.joint.{name}_stiffness"), unit);
         }
-        let before = &frame.diagonals[..index];
+    }
+}
+
+/// Braces and struts. `fault_of`: what is wrong with a place.
+fn check_diagonals(
+    faults: &mut Faults,
+    path: &str,
+    diagonals: &[Diagonal],
+    fault_of: impl Fn(DiagonalPlace) -> Option<String>,
+) {
+    for (index, own) in diagonals.iter().enumerate() {
+        let (place, field) = (own.place, format!("{path}.{}", own.place.kind.name()));
+        if let Some(fault) = fault_of(place) {
+            faults.add(field.as_str(), fault);
+        }
+        let before = &diagonals[..index];
         let is_first = before.iter().all(|other| other.place != place);
         faults.require(is_first, field.as_str(), || {
             format!("there are two of {place}; give one with the stiffness of both")
@@ -459,15 +469,6 @@ fn check_members_of(faults: &mut Faults, path: &str, frame: &Frame) {
             );
         }
         faults.positive(own.stiffness, field, "N/m");
-    }
-    for (name, stiffness, unit) in [
-        ("rotational", frame.joint.rotational_stiffness, "N.m/rad"),
-        ("horizontal", frame.joint.horizontal_stiffness, "N/m"),
-        ("vertical", frame.joint.vertical_stiffness, "N/m"),
-    ] {
-        if let Some(stiffness) = stiffness {
-            faults.positive(stiffness, format!("{path}.joint.{name}_stiffness"), unit);
-        }
     }
 }
 

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use super::{Faults, check_floor_loads, fibres};
-use crate::model::{Building, ColumnFibres, SpaceFrame, SpacePlace, Tiers};
+use super::{Faults, check_diagonals, check_floor_loads, fibres};
+use crate::model::{Building, ColumnFibres, DiagonalPlace, SpaceFrame, SpacePlace, Tiers};
 
 /// Least distance of two lines \[m\].
 const APART: f64 = 0.01;
@@ -83,8 +83,62 @@ pub(super) fn check_space_frame(
         return;
     }
     check_places(faults, path, frame, tiers.floors.len());
+    check_diagonals(faults, path, &frame.diagonals, |place| {
+        fault_of_diagonal(frame, tiers.floors.len(), place)
+    });
     if faults.0.len() == before {
         check_standing(faults, path, frame, tiers.floors.len());
+        check_rigid_zones(faults, path, frame, &tiers.storey_heights);
+    }
+}
+
+/// What is wrong with the place of a diagonal: it is not in the grid, or ends where there is no joint.
+fn fault_of_diagonal(frame: &SpaceFrame, floors: usize, place: DiagonalPlace) -> Option<String> {
+    let lines = [&frame.lines_x, &frame.lines_y].map(Vec::len);
+    let line = place.line.filter(|line| {
+        let across = lines[1 - line.along.index()];
+        (1..=across).contains(&line.number)
+            && (1..lines[line.along.index()]).contains(&place.bay)
+            && (1..=floors).contains(&place.storey)
+    });
+    let Some(line) = line else {
+        return Some(format!(
+            "{place} is in no bay of a grid of {} lines along x and {} across, with {floors} storeys, counted from 1",
+            lines[1], lines[0]
+        ));
+    };
+    let ends = [place.storey - 1, place.storey].into_iter();
+    let mut loose = ends.zip(place.lines().map(|own| line.crossing(own)));
+    let (floor, [x, y]) = loose.find(|(floor, at)| !frame.has_joint(*floor, *at))?;
+    Some(format!(
+        "{place} ends at x = {}, y = {} of floor {floor}, where there is no joint; leave it out there, or add the column",
+        x + 1,
+        y + 1
+    ))
+}
+
+/// Faults of the rigid ends of columns and beams.
+fn check_rigid_zones(faults: &mut Faults, path: &str, frame: &SpaceFrame, heights: &[f64]) {
+    let field = format!("{path}.rigid_ends");
+    for ([floor, x, y], zone) in &frame.rigid_zones {
+        let sound = zone.iter().all(|own| *own >= 0.0 && own.is_finite());
+        faults.require(sound && frame.has_joint(floor + 1, [*x, *y]), field.as_str(), || {
+            format!(
+                "gives x = {}, y = {} at floor {} rigid ends of {zone:?} m; they must not be negative, and a joint must be there",
+                x + 1,
+                y + 1,
+                floor + 1
+            )
+        });
+    }
+    let mut members = frame.members.iter();
+    if let Some(own) = members.find(|own| frame.clear_length(own.place, heights) <= 0.0) {
+        let [first, last] = frame.rigid_ends(own.place);
+        faults.add(field, format!(
+            "leaves no length between the joints of {}: its {} m hold {first} m and {last} m of rigid ends; give less",
+            name(own.place),
+            frame.length(own.place, heights)
+        ));
     }
 }
 

@@ -1,5 +1,6 @@
 //! Straight parts between joints of a frame that bear axial force alone: braces, and struts of infill panels.
 
+use super::PlanAxis;
 use crate::hysteresis::Hysteresis;
 
 /// A brace, or a strut of an infill panel, between two joints of a frame at opposite corners of a bay of a storey.
@@ -10,7 +11,7 @@ use crate::hysteresis::Hysteresis;
 /// // A steel rod of 2000 mm² across a bay of 6 m and a storey of 3.5 m.
 /// let length = 6.0_f64.hypot(3.5);
 /// let rod = Diagonal {
-///     place: DiagonalPlace { kind: DiagonalKind::Brace, storey: 1, bay: 1, rise: Rise::Right },
+///     place: DiagonalPlace { kind: DiagonalKind::Brace, line: None, storey: 1, bay: 1, rise: Rise::Right },
 ///     stiffness: 210e9 * 2000e-6 / length,
 ///     hysteresis: None, // it stays elastic
 ///     across: None,
@@ -57,12 +58,23 @@ impl PanelAcross {
 pub struct DiagonalPlace {
     /// What it is.
     pub kind: DiagonalKind,
+    /// The grid line of a space frame to which its bay belongs; `None` in a plane frame.
+    pub line: Option<GridLine>,
     /// Storey.
     pub storey: usize,
     /// Bay.
     pub bay: usize,
     /// Which way it rises.
     pub rise: Rise,
+}
+
+/// A line of the grid of a space frame, with the bays between the lines that cross it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct GridLine {
+    /// Its direction.
+    pub along: PlanAxis,
+    /// Its number among the lines of that direction, from 1.
+    pub number: usize,
 }
 
 /// What a diagonal is.
@@ -109,7 +121,14 @@ impl Rise {
 }
 
 impl DiagonalPlace {
-    /// Column lines of its lower and of its upper end, from 0.
+    /// Crossings of the grid of a space frame at its lower and its upper end, from 0; `None` in a plane frame.
+    #[must_use]
+    pub fn crossings(self) -> Option<[[usize; 2]; 2]> {
+        let line = self.line?;
+        Some(self.lines().map(|own| line.crossing(own)))
+    }
+
+    /// Column lines of its lower and of its upper end, from 0; in a space frame lines that cross its own.
     #[must_use]
     pub fn lines(self) -> [usize; 2] {
         match self.rise {
@@ -119,9 +138,27 @@ impl DiagonalPlace {
     }
 }
 
+impl GridLine {
+    /// Where lines of `lines_x` and `lines_y` cross, of which one crosses this line; both counted from 0.
+    #[must_use]
+    pub fn crossing(self, line: usize) -> [usize; 2] {
+        match self.along {
+            PlanAxis::X => [line, self.number - 1],
+            PlanAxis::Y => [self.number - 1, line],
+        }
+    }
+}
+
+/// `brace.STOREY.BAY.RISE` in a plane frame, `brace_x.STOREY.X.Y.RISE` in a space frame, with the lines at which its bay begins; all
+/// count from 1.
 impl std::fmt::Display for DiagonalPlace {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let (kind, rise) = (self.kind.name(), self.rise.name());
-        write!(formatter, "{kind}.{}.{}.{rise}", self.storey, self.bay)
+        let Some(line) = self.line else {
+            return write!(formatter, "{kind}.{}.{}.{rise}", self.storey, self.bay);
+        };
+        let [x, y] = line.crossing(self.bay - 1).map(|own| own + 1);
+        let along = line.along.name();
+        write!(formatter, "{kind}_{along}.{}.{x}.{y}.{rise}", self.storey)
     }
 }

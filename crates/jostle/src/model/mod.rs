@@ -34,7 +34,7 @@ pub use base::{Base, MassDamping};
 pub use capacity::{
     CapacityLine, MemberCapacity, RotationLimits, RotationMeasure, RuleCapacity, ShearCapacity,
 };
-pub use diagonal::{Diagonal, DiagonalKind, DiagonalPlace, PanelAcross, Rise};
+pub use diagonal::{Diagonal, DiagonalKind, DiagonalPlace, GridLine, PanelAcross, Rise};
 pub use fibres::{ColumnFibres, Fibre};
 pub(crate) use floor_matrices::displacement_in_words;
 pub use floor_matrices::{FloorMatrices, GivenFloor, GivenInPlan};

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{ColumnFibres, PlanPoint};
+use super::{ColumnFibres, Diagonal, PlanAxis, PlanPoint};
 use crate::hysteresis::Hysteresis;
 
 /// Columns and beams in space, tied together by rigid floors.
@@ -48,6 +48,11 @@ pub struct SpaceFrame {
     pub members: Vec<SpaceMember>,
     /// Columns whose ends are made of fibres; they have no hinges.
     pub fibres: BTreeMap<SpacePlace, ColumnFibres>,
+    /// Braces, and struts of infill panels, in the bays of its lines.
+    pub diagonals: Vec<Diagonal>,
+    /// Rigid zones of joints, by floor and by line of `lines_x` and of `lines_y`, from 0: how far from its axis beams along x, beams across,
+    /// and columns below and above are rigid, ≥ 0; none where there is no entry \[m\].
+    pub rigid_zones: BTreeMap<[usize; 3], [f64; 3]>,
     /// Weight of every floor that its columns carry in equal shares beyond that of its mass, and that does not sway; negative where
     /// others carry part of that. Empty for none \[N\].
     pub floor_load: Vec<f64>,
@@ -62,6 +67,8 @@ impl Default for SpaceFrame {
             lines_y: Vec::new(),
             members: Vec::new(),
             fibres: BTreeMap::new(),
+            diagonals: Vec::new(),
+            rigid_zones: BTreeMap::new(),
             floor_load: Vec::new(),
         }
     }
@@ -222,10 +229,32 @@ impl SpaceSection {
 }
 
 impl SpaceFrame {
-    /// Whether any member has a hinge or fibres.
+    /// Whether any member has a hinge or fibres, or a diagonal yields or lifts off.
     #[must_use]
     pub fn may_yield(&self) -> bool {
-        !self.fibres.is_empty() || self.members.iter().any(SpaceMember::may_yield)
+        let mut diagonals = self.diagonals.iter();
+        !self.fibres.is_empty()
+            || self.members.iter().any(SpaceMember::may_yield)
+            || diagonals.any(|own| own.hysteresis.is_some())
+    }
+
+    /// Whether a member ends at a crossing of lines at a floor, counted from 1; whether a column stands there, for floor 0.
+    #[must_use]
+    pub fn has_joint(&self, floor: usize, crossing: [usize; 2]) -> bool {
+        let ends = |own: &SpaceMember| {
+            let level = own.place.storey() + 1;
+            let is_column = matches!(own.place, SpacePlace::Column { .. });
+            let reaches = level == floor || (is_column && level == floor + 1);
+            reaches && own.place.crossings().contains(&crossing)
+        };
+        self.members.iter().any(ends)
+    }
+
+    /// Bays of a line of its grid from 1, in that line's direction, and their widths \[m\].
+    #[must_use]
+    pub fn bays(&self, along: PlanAxis) -> Vec<f64> {
+        let lines = [&self.lines_x, &self.lines_y][along.index()];
+        lines.windows(2).map(|pair| pair[1] - pair[0]).collect()
     }
 
     /// Where the crossing of two lines stands on the site \[m\].
@@ -249,7 +278,7 @@ impl SpaceFrame {
         [c * x + s * y, c * y - s * x]
     }
 
-    /// Length of a member, in a building with these storey heights \[m\].
+    /// Length of a member between the axes of its joints, in a building with these storey heights \[m\].
     #[must_use]
     pub fn length(&self, place: SpacePlace, storey_heights: &[f64]) -> f64 {
         match place {
@@ -257,5 +286,32 @@ impl SpaceFrame {
             SpacePlace::BeamX { span, .. } => self.lines_x[span + 1] - self.lines_x[span],
             SpacePlace::BeamY { span, .. } => self.lines_y[span + 1] - self.lines_y[span],
         }
+    }
+
+    /// Lengths of the rigid ends of a member inside its first and its last joint; feet on the ground have none \[m\].
+    #[must_use]
+    pub fn rigid_ends(&self, place: SpacePlace) -> [f64; 2] {
+        let storey = place.storey();
+        let (first, axis) = match place {
+            SpacePlace::Column { .. } => (storey.checked_sub(1), 2),
+            SpacePlace::BeamX { .. } => (Some(storey), 0),
+            SpacePlace::BeamY { .. } => (Some(storey), 1),
+        };
+        let crossings = place.crossings();
+        let rigid = |floor: Option<usize>, [x, y]: [usize; 2]| {
+            let zone = floor.and_then(|floor| self.rigid_zones.get(&[floor, x, y]));
+            zone.map_or(0.0, |zone| zone[axis])
+        };
+        [
+            rigid(first, crossings[0]),
+            rigid(Some(storey), crossings[1]),
+        ]
+    }
+
+    /// Length of a member between its rigid ends \[m\].
+    #[must_use]
+    pub fn clear_length(&self, place: SpacePlace, storey_heights: &[f64]) -> f64 {
+        let [first, last] = self.rigid_ends(place);
+        self.length(place, storey_heights) - first - last
     }
 }

@@ -84,13 +84,10 @@ fn acceleration_across(
     run: &Run,
 ) -> f64 {
     let in_plan = !building.discretization.centres.is_empty();
-    let joint = building.discretization.stick_model.nodes[own.ends[1]];
     // Shares of motions along x and across in that across the frame.
+    let [along, across] = own.direction.map(f64::abs);
     let shares = match in_plan {
-        true => [
-            joint.influence[0].across.abs(),
-            joint.influence[0].along.abs(),
-        ],
+        true => [across, along],
         false => [1.0, 0.0],
     };
     let of_floor = |floor: usize| {
@@ -274,11 +271,11 @@ fn name_of(building: &BuildingSystem, frame: Option<usize>, part: &str) -> Strin
 
 /// Name within its frame; only where two cross it says which way it rises.
 fn local_name(building: &BuildingSystem, own: &FrameDiagonal) -> String {
-    let same = |other: &&FrameDiagonal| {
-        let place =
-            |own: &FrameDiagonal| (own.frame, own.place.kind, own.place.storey, own.place.bay);
-        place(other) == place(own)
+    let bay = |own: &FrameDiagonal| {
+        let place = own.place;
+        (own.frame, place.kind, place.line, place.storey, place.bay)
     };
+    let same = |other: &&FrameDiagonal| bay(other) == bay(own);
     let diagonals = &building.discretization.diagonals;
     let crossed = diagonals.iter().filter(same).count() > 1;
     let name = own.place.to_string();

@@ -6,7 +6,7 @@ use super::spring_place::SpringPlace;
 use super::stick_model::{StickModel, YieldingElement};
 use crate::hysteresis::Hysteresis;
 use crate::linear::Row;
-use crate::model::{Diagonal, DiagonalPlace, PanelAcross, ProportionalDamping};
+use crate::model::{Diagonal, DiagonalPlace, PanelAcross, PlanAxis, ProportionalDamping};
 
 /// A brace or a strut of a frame, as it stands in the stick model.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,9 +15,11 @@ pub struct FrameDiagonal {
     pub frame: Option<usize>,
     /// What it is, and where in its frame.
     pub place: DiagonalPlace,
-    /// Nodes of its lower and of its upper end.
+    /// Nodes of its lower and of its upper end; those of the ground, the mat or the floors there in a space frame.
     pub ends: [usize; 2],
-    /// Elongation over displacements of nodes, 3 × node + (0 horizontal, 1 vertical).
+    /// Unit vector of its plane along x and across; [1, 0] where the building is one plane frame \[–\].
+    pub direction: [f64; 2],
+    /// Elongation over displacements of nodes, 3 × node + (0 horizontal, 1 vertical or across, 2 rotation).
     pub elongation: Row,
     /// Axial force per elongation \[N/m\].
     pub stiffness: f64,
@@ -25,6 +27,31 @@ pub struct FrameDiagonal {
     pub spring: Option<Hysteresis>,
     /// What its panel bears across its plane, if that is compared.
     pub across: Option<PanelAcross>,
+}
+
+impl FrameDiagonal {
+    /// Of a building that is one frame.
+    pub(super) fn new(own: &Diagonal, ends: [usize; 2], elongation: Row) -> Self {
+        Self {
+            frame: None,
+            place: own.place,
+            ends,
+            direction: [1.0, 0.0],
+            elongation,
+            stiffness: own.stiffness,
+            spring: own.hysteresis,
+            across: own.across,
+        }
+    }
+
+    /// In a plane of a space frame whose lines along x have this direction.
+    pub(super) fn in_space(self, [c, s]: [f64; 2]) -> Self {
+        let direction = match self.place.line.map(|line| line.along) {
+            Some(PlanAxis::Y) => [-s, c],
+            _ => [c, s],
+        };
+        Self { direction, ..self }
+    }
 }
 
 impl Discretization {
@@ -40,33 +67,28 @@ impl Discretization {
             };
             let ends = [from, to];
             let elongation = elongation(&self.stick_model, ends);
-            match own.hysteresis {
-                None => self.stick_model.elements.push(Element::Spring {
-                    part: Part::Elastic,
-                    stiffness: own.stiffness,
-                    row: elongation.clone(),
-                }),
-                Some(hysteresis) => {
-                    self.stick_model.yielding.push(YieldingElement {
-                        row: elongation.clone(),
-                        hysteresis,
-                        proportional_damping: ProportionalDamping::None,
-                    });
-                    let (frame, place) = (None, own.place);
-                    self.spring_places
-                        .push(SpringPlace::Diagonal { frame, place });
-                }
-            }
-            self.diagonals.push(FrameDiagonal {
-                frame: None,
-                place: own.place,
-                ends,
-                elongation,
-                stiffness: own.stiffness,
-                spring: own.hysteresis,
-                across: own.across,
-            });
+            self.add_diagonal(FrameDiagonal::new(own, ends, elongation));
         }
+    }
+
+    /// Adds a diagonal and its spring.
+    pub(super) fn add_diagonal(&mut self, own: FrameDiagonal) {
+        match own.spring {
+            None => self.stick_model.elements.push(Element::Spring {
+                part: Part::Elastic,
+                stiffness: own.stiffness,
+                row: own.elongation.clone(),
+            }),
+            Some(hysteresis) => {
+                self.stick_model.yielding.push(YieldingElement {
+                    row: own.elongation.clone(),
+                    hysteresis,
+                    proportional_damping: ProportionalDamping::None,
+                });
+                self.spring_places.push(SpringPlace::of_diagonal(&own));
+            }
+        }
+        self.diagonals.push(own);
     }
 }
 

@@ -255,6 +255,29 @@ impl LinearForm {
     }
 }
 
+impl AssembledBuilding {
+    /// Axial force of a diagonal, positive in tension.
+    pub(super) fn force_of_diagonal(&self, diagonal: usize) -> LinearForm {
+        let Discretization {
+            stick_model,
+            diagonals,
+            spring_places,
+            ..
+        } = &self.discretization;
+        let own = &diagonals[diagonal];
+        let place = SpringPlace::of_diagonal(own);
+        let mut form = LinearForm::default();
+        match spring_places.iter().position(|known| *known == place) {
+            Some(spring) if own.spring.is_some() => form.springs = Row::single(spring),
+            _ => {
+                let elongation = stick_model.carried_row(&own.elongation);
+                form.displacement = self.equations.row(&elongation).times(own.stiffness);
+            }
+        }
+        form
+    }
+}
+
 impl MemberForces {
     /// Forces that are followed always: those of braces, struts, walls and coupling beams, and of sections of fibres.
     pub(crate) fn followed_always(building: &AssembledBuilding, rest: AtRest<'_>) -> Self {
@@ -283,23 +306,8 @@ impl MemberForces {
     }
 
     fn add_diagonals(&mut self, building: &AssembledBuilding) {
-        let Discretization {
-            stick_model,
-            diagonals,
-            spring_places,
-            ..
-        } = &building.discretization;
-        for (diagonal, own) in diagonals.iter().enumerate() {
-            let place = SpringPlace::of_diagonal(own);
-            let mut form = LinearForm::default();
-            match spring_places.iter().position(|known| *known == place) {
-                Some(spring) if own.spring.is_some() => form.springs = Row::single(spring),
-                _ => {
-                    let elongation = stick_model.carried_row(&own.elongation);
-                    form.displacement = building.equations.row(&elongation).times(own.stiffness);
-                }
-            }
-            let form = self.index_of(form);
+        for diagonal in 0..building.discretization.diagonals.len() {
+            let form = self.index_of(building.force_of_diagonal(diagonal));
             self.diagonals.push(DiagonalForce { diagonal, form });
         }
     }

@@ -64,9 +64,12 @@ pub(super) fn add_frames(
         diagonal_places.extend(diagonals.into_iter().filter_map(in_frame));
         let first_node = sticks.nodes.len();
         let elements = sticks.append(own.stick_model, &place);
+        let [along, across, _] = plan_frame.shares(plan_frame.at);
+        let direction = [along, across];
         let diagonals = own.diagonals.into_iter().map(|own| FrameDiagonal {
             frame: Some(index),
             ends: own.ends.map(|end| first_node + end),
+            direction,
             elongation: own.elongation.moved_up(index_of((first_node, X))),
             ..own
         });

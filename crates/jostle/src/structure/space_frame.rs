@@ -5,8 +5,8 @@
 //! of R counts twice in K, by its square. Forces of members are k D u_f.
 
 use crate::linear::envelope::Envelope;
-use crate::linear::sort_by_key;
-use crate::model::{LumpedFloor, PlanPoint, SpaceFrame, SpacePlace, SpaceSection};
+use crate::linear::{Row, sort_by_key};
+use crate::model::{DiagonalPlace, LumpedFloor, PlanPoint, SpaceFrame, SpacePlace, SpaceSection};
 
 /// A space frame over the motions of the mat under it, if there is one, and of its floors: u_x, u_y and θ of each at its centre of mass,
 /// from the ground up.
@@ -89,6 +89,19 @@ type JointUnknowns = [Option<usize>; 3];
 pub(super) type EndUnknowns = [Option<usize>; 3];
 
 impl End {
+    /// A point of the rigid body of the same end, so far from it: u + ω × r.
+    fn at(mut self, arm: [f64; 3]) -> Self {
+        for axis in 0..3 {
+            let [next, last] = [(axis + 1) % 3, (axis + 2) % 3];
+            for (share, about) in [(arm[last], next), (-arm[next], last)] {
+                if share != 0.0 {
+                    add(&mut self.moved[axis], share, &self.turned[about]);
+                }
+            }
+        }
+        self
+    }
+
     /// The end beyond hinges or fibres.
     fn beyond(mut self, own: EndUnknowns) -> Self {
         let [about_x, about_y, _] = &mut self.turned;
@@ -314,7 +327,7 @@ impl<'a> Assembly<'a> {
     ) -> SpringMember {
         let storey = place.storey();
         let [first, last] = place.crossings();
-        let length = self.frame.length(place, self.heights);
+        let length = self.frame.clear_length(place, self.heights);
         let planes = planes(place);
         let (below, axis) = match place {
             SpacePlace::Column { .. } => (storey.checked_sub(1), 2),
@@ -322,9 +335,19 @@ impl<'a> Assembly<'a> {
             SpacePlace::BeamY { .. } => (Some(storey), 1),
         };
         let ends = [self.end(below, first), self.end(Some(storey), last)];
+        // Joints are rigid as far as these arms.
+        let rigid = self.frame.rigid_ends(place);
+        let arm = |length: f64| {
+            let mut arm = [0.0; 3];
+            arm[axis] = length;
+            arm
+        };
         let [first, last] = own;
         let [a, b] = ends;
-        let [a, b] = &[a.beyond(first), b.beyond(last)];
+        let [a, b] = &[
+            a.at(arm(rigid[0])).beyond(first),
+            b.at(arm(-rigid[1])).beyond(last),
+        ];
         let bend = |plane: usize| {
             let (towards, about, slope) = planes[plane];
             let chord = difference(1.0 / length, &b.moved[towards], &a.moved[towards]);
@@ -348,11 +371,33 @@ impl<'a> Assembly<'a> {
         }
     }
 
+    /// How much longer a diagonal becomes: the difference of the displacements of its joints along it.
+    pub(super) fn elongation(&self, place: DiagonalPlace) -> Deformation {
+        let Some(crossings) = place.crossings() else {
+            return Deformation::new();
+        };
+        let level = place.storey - 1;
+        let [a, b] = [
+            self.end(level.checked_sub(1), crossings[0]),
+            self.end(Some(level), crossings[1]),
+        ];
+        let [from, to] = crossings.map(|[x, y]| [self.frame.lines_x[x], self.frame.lines_y[y]]);
+        let way = [to[0] - from[0], to[1] - from[1], self.heights[level]];
+        let length = libm::hypot(libm::hypot(way[0], way[1]), way[2]);
+        let mut own = Deformation::new();
+        for (axis, part) in way.into_iter().enumerate() {
+            if part != 0.0 {
+                own.extend(difference(part / length, &b.moved[axis], &a.moved[axis]));
+            }
+        }
+        own
+    }
+
     /// K_jj, factorised, and columns of −K_jf replaced by those of R. `None` if joints move without resistance.
-    fn joint_motions(&self, members: &[SpringMember]) -> Option<Vec<Vec<f64>>> {
+    fn joint_motions(&self, springs: &[Spring]) -> Option<Vec<Vec<f64>>> {
         let n = self.joints.count;
         let mut firsts: Vec<usize> = (0..n).collect();
-        for_each_pair(members, |a, b, _| {
+        for_each_pair(springs, |a, b, _| {
             if let (Unknown::Joint(a), Unknown::Joint(b)) = (a, b) {
                 firsts[a] = firsts[a].min(b);
             }
@@ -360,7 +405,7 @@ impl<'a> Assembly<'a> {
         let mut matrix = Envelope::default();
         matrix.reset(firsts.into_iter());
         let mut sides = vec![vec![0.0; n]; 3 * self.centres.len()];
-        for_each_pair(members, |a, b, value| match (a, b) {
+        for_each_pair(springs, |a, b, value| match (a, b) {
             (Unknown::Joint(a), Unknown::Joint(b)) if b <= a => {
                 matrix.set(a, b, matrix.get(a, b) + value);
             }
@@ -384,7 +429,7 @@ impl<'a> Assembly<'a> {
 const LEAST_PIVOT: f64 = 1e-13;
 
 /// Calls `take` with every pair of displacements that a spring couples and its entry of K, both ways round.
-fn for_each_pair(members: &[SpringMember], mut take: impl FnMut(Unknown, Unknown, f64)) {
+fn for_each_pair(springs: &[Spring], mut take: impl FnMut(Unknown, Unknown, f64)) {
     let mut product = |k: f64, first: &Deformation, second: &Deformation| {
         for (a, x) in first {
             for (b, y) in second {
@@ -392,14 +437,14 @@ fn for_each_pair(members: &[SpringMember], mut take: impl FnMut(Unknown, Unknown
             }
         }
     };
-    for spring in members.iter().flat_map(SpringMember::springs) {
+    for spring in springs {
         match spring {
-            Spring::Single(k, own) => product(k, &own, &own),
+            Spring::Single(k, own) => product(*k, own, own),
             Spring::Bending([near, far], [first, last]) => {
-                product(near, &first, &first);
-                product(near, &last, &last);
-                product(far, &first, &last);
-                product(far, &last, &first);
+                product(*near, first, first);
+                product(*near, last, last);
+                product(*far, first, last);
+                product(*far, last, first);
             }
         }
     }
@@ -412,20 +457,33 @@ fn turn_row(row: &mut [f64], [c, s]: PlanPoint) {
     }
 }
 
+/// A frame whose joints follow the floors.
+pub(super) struct Condensed {
+    pub(super) stiffness: LowerTriangle,
+    pub(super) frame: CondensedFrame,
+    /// Elongations of its diagonals, in their order, over the motions of the mat and the floors.
+    pub(super) elongations: Vec<Vec<f64>>,
+}
+
 /// Condenses a frame to the motions of the mat under it and of its floors; `None` if a joint moves without resistance.
 pub(super) fn condense(
     frame: &SpaceFrame,
     storey_heights: &[f64],
     mat: Option<&LumpedFloor>,
     lumped: &[LumpedFloor],
-) -> Option<(LowerTriangle, CondensedFrame)> {
+) -> Option<Condensed> {
     let assembly = Assembly::new(frame, storey_heights, mat, lumped);
     let springs: Vec<SpringMember> = frame
         .members
         .iter()
         .map(|member| assembly.springs(member.place, &member.section, [[None; 3]; 2]))
         .collect();
-    let motions = assembly.joint_motions(&springs)?;
+    let diagonals = frame.diagonals.iter();
+    let diagonals = diagonals.map(|own| (own.stiffness, assembly.elongation(own.place)));
+    let diagonals: Vec<(f64, Deformation)> = diagonals.collect();
+    let all = springs.iter().flat_map(SpringMember::springs);
+    let all = all.chain(diagonals.iter().map(|(k, d)| Spring::Single(*k, d.clone())));
+    let motions = assembly.joint_motions(&all.collect::<Vec<_>>())?;
     let order = 3 * assembly.centres.len();
     // D in the axes of the site.
     let row = |own: &Deformation| -> Vec<f64> {
@@ -508,11 +566,43 @@ pub(super) fn condense(
             across,
         });
     }
+    let mut elongations = Vec::with_capacity(diagonals.len());
+    for (k, deformation) in &diagonals {
+        let elongation = row(deformation);
+        let tension: Vec<f64> = elongation.iter().map(|own| k * own).collect();
+        add_product(&tension, &elongation);
+        elongations.push(elongation);
+    }
     let own = CondensedFrame {
         joints: joint_rows(&assembly, &row),
-        members: carried_by_columns(frame, members),
+        members: carried_by_columns(&assembly, members, &elongations),
     };
-    Some((stiffness, own))
+    Some(Condensed {
+        stiffness,
+        frame: own,
+        elongations,
+    })
+}
+
+impl Assembly<'_> {
+    /// Diagonals that end at the head of a column, and what the column bears of the tension of each by vertical equilibrium.
+    pub(super) fn diagonals_at_head(&self, place: SpacePlace) -> Row {
+        let [_, line] = place.crossings();
+        let floor = place.storey() + 1;
+        let ends = self.frame.diagonals.iter().enumerate();
+        let ends = ends.filter_map(|(index, own)| {
+            let [lower, upper] = own.place.crossings()?;
+            let sign = match (lower == line, upper == line) {
+                (true, _) if own.place.storey == floor + 1 => 1.0,
+                (_, true) if own.place.storey == floor => -1.0,
+                _ => return None,
+            };
+            let bay = self.frame.bays(own.place.line?.along)[own.place.bay - 1];
+            let rise = self.heights[own.place.storey - 1];
+            Some((index, sign * rise / libm::hypot(bay, rise)))
+        });
+        ends.collect()
+    }
 }
 
 fn joint_rows(
@@ -537,11 +627,13 @@ fn joint_rows(
 }
 
 /// Completes the axial forces of columns that keep their length, by vertical equilibrium of the joints from the top down: a column
-/// carries the one above it and the shears of the beams at its head.
+/// carries the one above it, the shears of the beams and the pull of the diagonals at its head.
 fn carried_by_columns(
-    frame: &SpaceFrame,
+    assembly: &Assembly<'_>,
     mut members: Vec<CondensedMember>,
+    elongations: &[Vec<f64>],
 ) -> Vec<CondensedMember> {
+    let frame = assembly.frame;
     let is_column = |member: &CondensedMember| matches!(member.place, SpacePlace::Column { .. });
     let mut rigid: Vec<usize> = (0..members.len())
         .filter(|index| is_column(&members[*index]))
@@ -575,6 +667,12 @@ fn carried_by_columns(
             };
             for (sum, value) in axial.iter_mut().zip(force) {
                 *sum += sign * value;
+            }
+        }
+        for &(index, share) in assembly.diagonals_at_head(members[column].place).entries() {
+            let stiffness = share * frame.diagonals[index].stiffness;
+            for (sum, value) in axial.iter_mut().zip(&elongations[index]) {
+                *sum += stiffness * value;
             }
         }
         members[column].axial = axial;

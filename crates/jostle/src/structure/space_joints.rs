@@ -25,7 +25,7 @@ pub struct JointedMember {
     pub place: SpacePlace,
     /// Heights of its ends above the base \[m\].
     pub heights: [f64; 2],
-    /// Length \[m\].
+    /// Length between its rigid ends \[m\].
     pub length: f64,
     /// Its element of axial force; `None` where it keeps its length.
     pub axial: Option<usize>,
@@ -33,6 +33,8 @@ pub struct JointedMember {
     pub torsion: usize,
     /// Its elements of bending in the vertical plane along x of a column, in that of a beam, and in the plane across of a column.
     pub bending: [Option<usize>; 2],
+    /// Diagonals that end at the head of a column which keeps its length, and what it bears of the tension of each.
+    pub diagonals: Row,
 }
 
 /// A joint of a space frame with hinges.
@@ -61,6 +63,8 @@ pub(super) struct AddedJoints {
     pub(super) frame: JointedFrame,
     pub(super) places: Vec<SpringPlace>,
     pub(super) sections: Vec<FibreSection>,
+    /// Elongations of its diagonals, in their order.
+    pub(super) elongations: Vec<Row>,
 }
 
 /// Adds a frame to a stick model in which the `ground` and all that moves, the mat and the floors, are nodes already. `carried`: masses
@@ -96,7 +100,6 @@ pub(super) fn add_space_joints(
     for member in &mut members {
         let storey = member.place.storey();
         let top = builder.sticks.nodes[floors[storey]].y;
-        member.length = frame.length(member.place, storey_heights);
         member.heights = match member.place {
             SpacePlace::Column { .. } => {
                 let below = storey.checked_sub(1).map_or(ground, |below| floors[below]);
@@ -106,6 +109,11 @@ pub(super) fn add_space_joints(
         };
     }
     let joints = builder.joint_list(frame);
+    let elongations = frame.diagonals.iter().map(|own| {
+        let elongation = builder.assembly.elongation(own.place);
+        builder.over_nodes(&elongation, frame.direction)
+    });
+    let elongations = elongations.collect();
     let (mut places, sections) = (builder.places, builder.sections);
     // Hinges come before all else that yields.
     places.extend(sections.iter().flat_map(FibreSection::places));
@@ -114,6 +122,7 @@ pub(super) fn add_space_joints(
         frame: JointedFrame { members, joints },
         places,
         sections,
+        elongations,
     }
 }
 
@@ -220,6 +229,10 @@ impl Builder<'_> {
             rows: ends.iter().map(row).collect(),
             lower: vec![*own, *other, *own],
         };
+        let diagonals = match (member.place, &axial) {
+            (SpacePlace::Column { .. }, None) => self.assembly.diagonals_at_head(member.place),
+            _ => Row::default(),
+        };
         let (axial, torsion) = (axial.as_ref().map(single), single(&torsion));
         let (bending, across) = (bend(&bending), across.as_ref().map(bend));
         let mut add = |element: Element| {
@@ -233,6 +246,7 @@ impl Builder<'_> {
             axial: axial.map(&mut add),
             torsion: add(torsion),
             bending: [Some(add(bending)), across.map(&mut add)],
+            diagonals,
         }
     }
 

@@ -190,7 +190,8 @@ impl JointedCuts<'_> {
         })
     }
 
-    /// Axial forces of all members. A column that keeps its length carries the one above it and the shears of the beams at its head.
+    /// Axial forces of all members. A column that keeps its length carries the one above it, the shears of the beams and the pull of the
+    /// diagonals at its head.
     fn axial(&self, bending: &[[Option<PlaneForces>; 2]]) -> Vec<LinearForm> {
         let members = &self.frame.members;
         let of_stretch = |member: &JointedMember| {
@@ -224,6 +225,9 @@ impl JointedCuts<'_> {
                         sum.add(1.0, &plane.shear);
                     }
                 }
+            }
+            for (diagonal, share) in members[column].diagonals.entries() {
+                sum.add(*share, &self.building.force_of_diagonal(*diagonal));
             }
             axial[column] = sum.tidy();
         }

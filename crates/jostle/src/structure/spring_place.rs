@@ -346,15 +346,26 @@ fn in_words(place: DiagonalPlace) -> String {
     let DiagonalPlace {
         kind, storey, bay, ..
     } = place;
-    let towards = match place.rise {
-        Rise::Right => "right",
-        Rise::Left => "left",
-    };
     let kind = match kind {
         DiagonalKind::Brace => "brace",
         DiagonalKind::Infill => "infill strut",
     };
-    format!("{kind}, storey {storey}, bay {bay}, rising to the {towards}")
+    let Some(line) = place.line else {
+        let towards = match place.rise {
+            Rise::Right => "right",
+            Rise::Left => "left",
+        };
+        return format!("{kind}, storey {storey}, bay {bay}, rising to the {towards}");
+    };
+    let [x, y] = line.crossing(bay - 1).map(|own| own + 1);
+    let along = line.along.name();
+    let towards = match place.rise {
+        Rise::Right => "greater",
+        Rise::Left => "smaller",
+    };
+    format!(
+        "{kind} along {along} from x = {x}, y = {y}, storey {storey}, rising to {towards} {along}"
+    )
 }
 
 /// Which way a base gives.

@@ -2,13 +2,14 @@
 
 use std::sync::Arc;
 
+use super::diagonals::FrameDiagonal;
 use super::discretization::Discretization;
 use super::element::{Part, THETA, X, Y, over_nodes};
 use super::plan_frames::add_frames;
 use super::plan_mat::put_on_mat;
 use super::plan_matrix::PlanMatrix;
 use super::space_frame::{Assembly, condense};
-use super::space_joints::add_space_joints;
+use super::space_joints::{AddedJoints, add_space_joints};
 use super::spring_place::SpringPlace;
 use super::stick_model::{Influence, Node, StickModel, Support, YieldingElement};
 use crate::model::{
@@ -63,10 +64,11 @@ pub(super) fn discretize_tiers(
     let follows = |own: &&SpaceFrame| !own.may_yield() && !gravity.preload;
     let following = tiers.space_frame.as_ref().filter(follows);
     let condensed = following.and_then(|frame| {
-        let (stiffness, own) = condense(frame, &tiers.storey_heights, mat.as_ref(), &lumped)?;
-        matrix.add_triangle(&stiffness, Part::Elastic);
-        Some(Arc::new(own))
+        let own = condense(frame, &tiers.storey_heights, mat.as_ref(), &lumped)?;
+        matrix.add_triangle(&own.stiffness, Part::Elastic);
+        Some((Arc::new(own.frame), own.elongations))
     });
+    let (condensed, following) = condensed.unzip();
     if let Some(given) = &tiers.matrices {
         matrix.add_above(&given.stiffness, mat.as_ref(), &lumped, Part::Elastic);
         matrix.add_above(&given.damping, mat.as_ref(), &lumped, Part::Dashpot);
@@ -85,10 +87,11 @@ pub(super) fn discretize_tiers(
         let carried: Vec<[f64; 2]> = weights.filter(|_| gravity.preload).collect();
         add_space_joints(assembly, &mut stick_model, ground, &nodes, &carried)
     });
-    let (jointed, mut spring_places, sections) = match jointed {
-        Some(own) => (Some(Arc::new(own.frame)), own.places, own.sections),
-        None => (None, Vec::new(), Vec::new()),
+    let (jointed, own) = match jointed {
+        Some(mut own) => (Some(Arc::new(std::mem::take(&mut own.frame))), own),
+        None => (None, AddedJoints::default()),
     };
+    let (mut spring_places, sections) = (own.places, own.sections);
     for own in &tiers.yielding {
         let (storey, axis) = (own.storey, own.axis);
         let arm = |floor: usize| motion_at(own.at, lumped[floor].tier.centre)[axis.index()][2];
@@ -129,6 +132,31 @@ pub(super) fn discretize_tiers(
         jointed_frame: jointed,
         ..Discretization::default()
     };
+    if let Some(frame) = &tiers.space_frame {
+        let follows_floors = discretization.space_frame.is_some();
+        let of_floors = following.into_iter().flatten().map(|own| {
+            let motions = nodes
+                .iter()
+                .flat_map(|node| [X, Y, THETA].map(|c| (*node, c)));
+            over_nodes(motions.zip(own).filter(|(_, share)| *share != 0.0))
+        });
+        let level = |level: usize| match level.checked_sub(1) {
+            Some(floor) => discretization.floors[floor],
+            None => foot,
+        };
+        let elongations = of_floors.chain(own.elongations);
+        let found = frame.diagonals.iter().zip(elongations).map(|(own, row)| {
+            let ends = [own.place.storey - 1, own.place.storey].map(level);
+            FrameDiagonal::new(own, ends, row).in_space(frame.direction)
+        });
+        for own in found.collect::<Vec<_>>() {
+            match follows_floors {
+                // The stiffness of the frame includes it.
+                true => discretization.diagonals.push(own),
+                false => discretization.add_diagonal(own),
+            }
+        }
+    }
     let below = mat.as_ref().map(|mat| (foot, mat));
     add_frames(tiers, &lumped, below, gravity.preload, &mut discretization);
     if let Some((isolation, mat)) = isolation.zip(mat) {

@@ -78,9 +78,7 @@ def build(axial):
         # Shear of a link: the difference of displacements across it, and its length times rotations.
         extra = ["-doRayleigh"] if damped else []
         ops.element("twoNodeLink", tag, first, last, "-mat", material, "-dir", 2, "-shearDist", share, *extra)
-    for tag, first, last, material, damped in DIAGONALS:
-        extra = ["-doRayleigh"] if damped else []
-        ops.element("twoNodeLink", tag, first, last, "-mat", material, "-dir", 1, *extra)
+    add_diagonals()
     add_sliders()
     if any(axial == "stiff" or not tied for *_, tied in RIGID):
         rigid = len(MATERIALS) + 1
@@ -91,6 +89,13 @@ def build(axial):
     for tag, first, last, material in LEANING:
         ops.element("zeroLength", tag, first, last, "-mat", material, "-dir", 1)
     add_contacts()
+
+
+def add_diagonals():
+    """Braces and struts, along the lines between their joints."""
+    for tag, first, last, material, damped in DIAGONALS:
+        extra = ["-doRayleigh"] if damped else []
+        ops.element("twoNodeLink", tag, first, last, "-mat", material, "-dir", 1, *extra)
 
 
 def failing(tag, where, *numbers):
@@ -210,6 +215,7 @@ def build_in_space():
         directions, materials = [pair[0] for pair in springs], [pair[1] for pair in springs]
         extra = ["-doRayleigh", 1] if damped else []
         ops.element("zeroLength", tag, first, last, "-mat", *materials, "-dir", *directions, *extra)
+    add_diagonals()
     add_sliders()
     add_contacts()
 

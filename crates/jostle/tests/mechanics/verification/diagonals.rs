@@ -22,6 +22,7 @@ use crate::verification::support::{assembled, column, frame, framed, run, steps}
 fn diagonal(kind: DiagonalKind, storey: usize, bay: usize, rise: Rise) -> Diagonal {
     let place = DiagonalPlace {
         kind,
+        line: None,
         storey,
         bay,
         rise,

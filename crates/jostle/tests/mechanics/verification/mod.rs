@@ -10,6 +10,7 @@ mod contact_laws;
 mod corners;
 mod damping_of_yielding;
 mod diagonals;
+mod diagonals_in_space;
 mod direct_in_space;
 mod direct_runs_refine_their_steps;
 mod drift_in_plan;

@@ -1,0 +1,157 @@
+//! `[[building.wall]]` of a space frame: wide columns at crossings of its grid, to whose faces beams span.
+
+use std::collections::BTreeMap;
+
+use jostle::{PlanAxis, PlanPoint, SpaceFrame, SpacePlace, SpaceSection};
+
+use super::brace::tables;
+use super::places::range;
+use super::section::read_modulus;
+use super::space_frame::{Grid, Material, Member, Sort, lies_in, read_hinge};
+use super::space_hinges::SpaceHinges;
+use crate::keys::{AXES_OF_PLAN, Section};
+use crate::quantity::Dimension;
+use crate::reader::{Field, Reader, View};
+
+/// A wall in one storey.
+pub(super) struct SpaceWall {
+    place: SpacePlace,
+    along: PlanAxis,
+    length: f64,
+}
+
+/// Puts walls in the places of `columns`, within the plan of their floor; returns them.
+pub(super) fn read_all<'n>(
+    reader: &mut Reader<'_>,
+    view: &View<'n>,
+    grid: &Grid,
+    plans: &[Vec<PlanPoint>],
+    material: Material,
+    hinges: Option<&SpaceHinges<'n>>,
+    columns: &mut BTreeMap<SpacePlace, Member<'n>>,
+) -> Vec<SpaceWall> {
+    let mut walls: Vec<SpaceWall> = Vec::new();
+    for entry in tables(reader, view, "wall") {
+        let Some((along, length, member, ranges)) =
+            read(reader, view, &entry, grid, material, hinges, plans.len())
+        else {
+            continue;
+        };
+        let [x, y, storeys] = ranges;
+        let mut found = Vec::new();
+        for storey in storeys[0]..=storeys[1] {
+            for y in y[0]..=y[1] {
+                let places = x[0]..=x[1];
+                let places = places.map(|x| Sort::Column.place([x - 1, y - 1], storey - 1));
+                found.extend(places.filter(|place| lies_in(*place, grid, &plans[storey - 1])));
+            }
+        }
+        if found.is_empty() {
+            *reader.bad(&entry, "names no place within the plan") =
+                Some("check x, y and storeys, or plan".into());
+            continue;
+        }
+        if let Some(place) = found
+            .iter()
+            .find(|own| walls.iter().any(|w| w.place == **own))
+        {
+            *reader.bad(
+                &entry,
+                format!("stands where another wall stands: at {place}"),
+            ) = Some("leave it out there, or name other lines and storeys".into());
+            continue;
+        }
+        for place in found {
+            columns.insert(place, member.clone());
+            walls.push(SpaceWall {
+                place,
+                along,
+                length,
+            });
+        }
+    }
+    walls
+}
+
+/// Lets beams along a wall begin at its faces. Walls have no rigid ends of their own.
+pub(super) fn add_arms(walls: &[SpaceWall], frame: &mut SpaceFrame) {
+    for own in walls {
+        let [[x, y], _] = own.place.crossings();
+        let storey = own.place.storey();
+        for floor in storey.checked_sub(1).into_iter().chain([storey]) {
+            let zone = frame.rigid_zones.entry([floor, x, y]).or_default();
+            let arm = &mut zone[own.along.index()];
+            *arm = arm.max(0.5 * own.length);
+            zone[2] = 0.0;
+        }
+    }
+}
+
+/// Direction and length of a wall, its section, and where it stands, from 1.
+type Read<'n> = (PlanAxis, f64, Member<'n>, [[usize; 2]; 3]);
+
+fn read<'n>(
+    reader: &mut Reader<'_>,
+    building: &View<'n>,
+    entry: &Field<'n>,
+    grid: &Grid,
+    material: Material,
+    hinges: Option<&SpaceHinges<'n>>,
+    storeys: usize,
+) -> Option<Read<'n>> {
+    let view = reader.open(entry, &[Section::SpaceWall])?;
+    let along = match reader.get(&view, "along") {
+        Some(field) => reader.choice(&field, AXES_OF_PLAN, &[]),
+        None => {
+            let remedy = "add along = \"x\" or along = \"y\", the direction of its length";
+            reader.missing(&view, "along", remedy);
+            None
+        }
+    };
+    let along = along.map(|word| match word {
+        "x" => PlanAxis::X,
+        _ => PlanAxis::Y,
+    });
+    let [length, thickness] =
+        [("length", "\"4 m\""), ("thickness", "\"250 mm\"")].map(|(key, example)| {
+            match reader.get(&view, key) {
+                Some(field) => reader.positive(&field, Dimension::Length),
+                None => {
+                    reader.missing(&view, key, format!("add {key} = {example}"));
+                    None
+                }
+            }
+        });
+    let (own, own_is_bad) = read_modulus(reader, &view);
+    let modulus = own.or(material.modulus);
+    if modulus.is_none() && !material.modulus_is_bad && !own_is_bad {
+        let place = view.span.clone();
+        *reader.fault(&place, view.path.clone(), "needs a modulus of elasticity") =
+            Some("add elastic_modulus = \"30 GPa\" or concrete = \"C30\" to the building".into());
+    }
+    // Without a hinge of its own a wall stays elastic, whatever columns do.
+    let moments = match view.has("hinge") {
+        true => read_hinge(reader, building, &view, Sort::Column, hinges)?,
+        false => [None, None],
+    };
+    let [nx, ny] = grid.lines.each_ref().map(Vec::len);
+    let ranges = [("x", nx), ("y", ny), ("storeys", storeys)];
+    let ranges = ranges.map(|(key, most)| range(reader, &view, key, most));
+    let [Some(x), Some(y), Some(storeys)] = ranges else {
+        return None;
+    };
+    let (along, length, thickness) = (along?, length?, thickness?);
+    let mut size = [thickness; 2];
+    size[along.index()] = length;
+    let mut section = SpaceSection::rectangle(size, modulus?, material.poisson_ratio, true)?;
+    let [bending, torsion] = material.factors;
+    section.flexural_rigidity = section.flexural_rigidity.map(|own| bending * own);
+    section.torsional_rigidity *= torsion;
+    let member = Member {
+        section,
+        slab: None,
+        reinforced: None,
+        moments: Some(moments),
+    };
+    Some((along, length, member, [x, y, storeys]))
+}

@@ -1,0 +1,342 @@
+//! Braces, panels, walls, profiles, slabs and rigid ends of space frames: what a file says, and the same in plane frames.
+
+use jostle::{
+    DiagonalKind, GroundMotion, PlanAxis, SpaceFrame, SpacePlace, SpaceSection, Structure,
+};
+use jostle_testkit::compare::close;
+use jostle_testkit::files::{read, refusal};
+use jostle_testkit::motions::fading;
+use jostle_testkit::runs;
+
+const SPACE: &str = r#"
+[[building]]
+name = "A"
+kind = "space-frame"
+storeys = 2
+storey_height = "3.2 m"
+lines_x = ["0 m", "6 m", "11 m"]
+lines_y = ["0 m", "5 m", "9 m"]
+plan = [["0 m", "0 m"], ["11 m", "0 m"], ["11 m", "5 m"], ["6 m", "5 m"], ["6 m", "9 m"], ["0 m", "9 m"]]
+mass = "90 t"
+elastic_modulus = "30 GPa"
+stiffness_factor = 0.5
+column = { size = ["0.5 m", "0.4 m"] }
+beam_x = { width = "0.3 m", depth = "0.6 m" }
+beam_y = { width = "0.3 m", depth = "0.5 m" }
+"#;
+
+fn frame(text: &str) -> SpaceFrame {
+    let input = read(text).unwrap_or_else(|error| panic!("{error}"));
+    match &input.model.buildings[0].structure {
+        Structure::Tiers(tiers) => tiers.space_frame.clone().expect("a space frame"),
+        other => panic!("no plan: {other:?}"),
+    }
+}
+
+fn with(more: &str) -> SpaceFrame {
+    frame(&format!("{SPACE}{more}"))
+}
+
+fn refused(more: &str) -> String {
+    refusal(&format!("{SPACE}{more}"))
+}
+
+fn section(frame: &SpaceFrame, place: SpacePlace) -> SpaceSection {
+    let mut members = frame.members.iter();
+    let own = members.find(|own| own.place == place);
+    own.expect("a member").section
+}
+
+const CORNER: SpacePlace = SpacePlace::Column {
+    line: [0, 0],
+    storey: 0,
+};
+
+#[test]
+fn braces_stand_in_the_bays_that_are_named() {
+    let names = |more: &str| -> Vec<String> {
+        let own = with(more);
+        own.diagonals
+            .iter()
+            .map(|own| own.place.to_string())
+            .collect()
+    };
+    // The L has no bay from x = 2 on line y = 3.
+    let all = names("brace = [{ along = \"x\", storeys = 1, EA = \"300 MN\" }]\n");
+    assert_eq!(
+        all,
+        [
+            "brace_x.1.1.1.up",
+            "brace_x.1.2.1.up",
+            "brace_x.1.1.2.up",
+            "brace_x.1.2.2.up",
+            "brace_x.1.1.3.up"
+        ]
+    );
+    let named =
+        "brace = [{ along = \"y\", x = 3, y = 1, direction = \"both\", EA = \"300 MN\" }]\n";
+    assert_eq!(
+        names(named),
+        [
+            "brace_y.1.3.1.up",
+            "brace_y.1.3.1.down",
+            "brace_y.2.3.1.up",
+            "brace_y.2.3.1.down"
+        ]
+    );
+    for own in with(named).diagonals {
+        assert_eq!(own.place.line.expect("a line").along, PlanAxis::Y);
+        close(own.stiffness, 300e6 / 5_f64.hypot(3.2), 1e8, 1e-14, "EA/l");
+    }
+    let yielding = with(
+        "brace = [{ along = \"x\", y = 1, profile = \"HEB160\", hinge = { rule = \"buckling\", curve = \"c\", yield_strength = \"355 MPa\" } }]\n",
+    );
+    assert_eq!(yielding.diagonals.len(), 4);
+    assert!(
+        yielding
+            .diagonals
+            .iter()
+            .all(|own| own.hysteresis.is_some())
+    );
+    // Bays of 6 m and 5 m: the longer strut buckles first.
+    let buckling = |index: usize| {
+        let own = yielding.diagonals[index].hysteresis.expect("it buckles");
+        own.backbone()
+            .side(jostle::hysteresis::Side::Negative)
+            .yielding
+            .force
+    };
+    assert!(buckling(0) < buckling(1));
+}
+
+#[test]
+fn wrong_places_are_refused() {
+    let missing = refused("brace = [{ EA = 3e8 }]\n");
+    assert!(
+        missing.contains("along = \"x\" or along = \"y\""),
+        "{missing}"
+    );
+    let outside = refused("brace = [{ along = \"x\", x = 2, y = 3, EA = 3e8 }]\n");
+    assert!(
+        outside.contains("brace_x.1.2.3.up ends at x = 3, y = 3 of floor 1"),
+        "{outside}"
+    );
+    let beyond = refused("brace = [{ along = \"x\", x = 3, EA = 3e8 }]\n");
+    assert!(
+        beyond.contains("must rise and lie between 1 and 2"),
+        "{beyond}"
+    );
+    let bay = refused("brace = [{ along = \"x\", bay = 1, EA = 3e8 }]\n");
+    assert!(bay.contains("unknown key \"bay\""), "{bay}");
+    let twice = refused(
+        "brace = [{ along = \"x\", y = 1, EA = 3e8 }, { along = \"x\", x = 1, EA = 3e8 }]\n",
+    );
+    assert!(
+        twice.contains("gives brace_x.1.1.1.up a second time"),
+        "{twice}"
+    );
+    let beams = refused("coupling_beam = [{ bay = 1, EI = 1 }]\n");
+    assert!(beams.contains("are those of beam_x and beam_y"), "{beams}");
+    let walls = refused(
+        "wall = [{ along = \"x\", x = 1, y = 1, length = 2, thickness = 0.2 }, { along = \"y\", y = 1, length = 2, thickness = 0.2 }]\n",
+    );
+    assert!(
+        walls.contains("stands where another wall stands: at column.1.1.1"),
+        "{walls}"
+    );
+    let long =
+        refused("wall = [{ along = \"x\", x = 1, y = 1, length = \"12 m\", thickness = 0.2 }]\n");
+    assert!(
+        long.contains("leaves no length between the joints of the beam from x = 1"),
+        "{long}"
+    );
+}
+
+#[test]
+fn profiles_bend_about_both_axes_and_do_not_crack() {
+    let swap = |column: &str| {
+        frame(
+            &SPACE
+                .replace("column = { size = [\"0.5 m\", \"0.4 m\"] }", column)
+                .replace("elastic_modulus = \"30 GPa\"", "concrete = \"C30\""),
+        )
+    };
+    let strong = section(&swap("column = { profile = \"HEB300\" }"), CORNER);
+    // Tables of ArcelorMittal: 25 170 and 8563 cm⁴, 149.1 cm², I_t = 185 cm⁴.
+    let due = [25_170e-8, 8563e-8].map(|own| 210e9 * own);
+    for (own, due) in strong.flexural_rigidity.into_iter().zip(due) {
+        close(own, due, due, 1e-3, "EI");
+    }
+    let axial = 210e9 * 149.1e-4;
+    close(strong.axial_rigidity.expect("EA"), axial, axial, 1e-3, "EA");
+    let torsion = 210e9 / 2.6 * 185e-8;
+    close(strong.torsional_rigidity, torsion, torsion, 5e-3, "GJ");
+    let weak = section(
+        &swap("column = { profile = \"HEB300\", axis = \"weak\" }"),
+        CORNER,
+    );
+    assert_eq!(weak.flexural_rigidity[0], strong.flexural_rigidity[1]);
+    assert_eq!(weak.flexural_rigidity[1], strong.flexural_rigidity[0]);
+    let text = SPACE.replace(
+        "size = [\"0.5 m\", \"0.4 m\"]",
+        "size = [1, 1], profile = \"HEB300\"",
+    );
+    assert!(refusal(&text).contains("stands beside size"));
+    let text = SPACE.replace(
+        "size = [\"0.5 m\", \"0.4 m\"]",
+        "size = [1, 1], axis = \"weak\"",
+    );
+    assert!(refusal(&text).contains("is for a profile"));
+}
+
+#[test]
+fn rigid_ends_follow_the_sizes_that_meet() {
+    let own = with("rigid_ends = 0.5\n");
+    // Half of the half sizes: columns 0.5 and 0.4, beams 0.6 deep.
+    assert_eq!(own.rigid_zones[&[0, 0, 0]], [0.125, 0.1, 0.15]);
+    let beam = SpacePlace::BeamX {
+        span: 0,
+        line: 0,
+        floor: 0,
+    };
+    close(
+        own.clear_length(beam, &[3.2, 3.2]),
+        6.0 - 0.25,
+        1.0,
+        1e-14,
+        "beam",
+    );
+    close(
+        own.clear_length(CORNER, &[3.2, 3.2]),
+        3.2 - 0.15,
+        1.0,
+        1e-14,
+        "column",
+    );
+    let own = with("rigid_ends = { beams = \"0.2 m\", columns = \"0.3 m\" }\n");
+    assert!(own.rigid_zones.values().all(|own| *own == [0.2, 0.2, 0.3]));
+    assert!(refused("rigid_ends = 2\n").contains("must lie between 0 and 1"));
+}
+
+#[test]
+fn walls_are_wide_columns_with_arms() {
+    let own = with(
+        "wall = [{ along = \"x\", x = 1, y = 2, length = \"3 m\", thickness = \"0.25 m\" }]\nrigid_ends = 1\n",
+    );
+    let place = SpacePlace::Column {
+        line: [0, 1],
+        storey: 1,
+    };
+    let wall = section(&own, place);
+    assert_eq!(wall.size, [3.0, 0.25]);
+    let due = 0.5 * 30e9 * 0.25 * 27.0 / 12.0;
+    close(wall.flexural_rigidity[0], due, due, 1e-14, "EI");
+    assert!(wall.shear_rigidity.is_some());
+    assert!(section(&own, CORNER).shear_rigidity.is_none());
+    assert_eq!(own.rigid_zones[&[0, 0, 1]], [1.5, 0.125, 0.0]);
+    assert_eq!(own.rigid_zones[&[1, 0, 1]], [1.5, 0.125, 0.0]);
+    assert_eq!(own.rigid_zones[&[0, 0, 0]][2], 0.3);
+}
+
+/// Two equal faces along x, with all that can stand in them.
+const FACE: &str = r#"
+axial = "flexible"
+shear = "flexible"
+stiffness_factor = { column = 0.7, beam = 0.5 }
+rigid_ends = 1
+"#;
+
+const PANEL: &str = "modulus = \"4 GPa\", thickness = \"0.2 m\", width = \"mainstone\", strength = { rule = \"bertoldi\", compression = \"4 MPa\", shear = \"0.3 MPa\", sliding = \"0.2 MPa\" }";
+
+/// A space frame of two faces along x moves along x as two plane frames that the same words describe: columns, a steel column, beams with
+/// slabs, a wall, braces, panels, rigid ends.
+#[test]
+fn two_faces_are_two_plane_frames() {
+    let slab = "slab = { depth = \"150 mm\", width = \"en1992\", spacing = \"4.7 m\" }";
+    let head = "[[building]]\nname = \"A\"\nstoreys = 3\nstorey_height = \"3.2 m\"\nmass = \"90 t\"\nplan = [\"17 m\", \"5 m\"]\ndamping = { alpha = 0.4, beta = 0 }\n";
+    let space = format!(
+        r#"{head}
+kind = "space-frame"
+concrete = "C30"
+lines_x = ["0 m", "6 m", "11 m", "17 m"]
+lines_y = ["0 m", "5 m"]
+{FACE}
+beam_x = {{ width = "0.3 m", depth = "0.6 m", {slab} }}
+beam_y = {{ width = "0.3 m", depth = "0.5 m" }}
+brace = [{{ along = "x", x = 1, profile = "HEB120", direction = "down" }}]
+infill = [{{ along = "x", x = 2, storeys = [1, 2], {PANEL} }}]
+wall = [{{ along = "x", x = 4, length = "3 m", thickness = "0.25 m" }}]
+[[building.column]]
+size = ["0.5 m", "0.4 m"]
+[[building.column]]
+x = 1
+profile = "HEB300"
+"#
+    );
+    let plane = format!(
+        r#"{head}
+kind = "frame"
+[[building.frame]]
+at = [[0, 0], [0, 5]]
+direction = "x"
+spans = ["6 m", "5 m", "6 m"]
+concrete = "C30"
+{FACE}
+beam = {{ width = "0.3 m", depth = "0.6 m", {slab} }}
+brace = [{{ bay = 1, profile = "HEB120", direction = "down" }}]
+infill = [{{ bay = 2, storeys = [1, 2], {PANEL} }}]
+wall = [{{ line = 4, length = "3 m", thickness = "0.25 m" }}]
+[[building.frame.column]]
+line = [2, 3]
+width = "0.4 m"
+depth = "0.5 m"
+[[building.frame.column]]
+line = 1
+profile = "HEB300"
+mass = 0
+[[building.frame]]
+at = [[1, 0], [16, 0]]
+direction = "y"
+spans = ["5 m"]
+concrete = "C30"
+column = {{ width = "0.4 m", depth = "0.4 m" }}
+beam = {{ width = "0.3 m", depth = "0.5 m" }}
+"#
+    );
+    let motion: GroundMotion = fading("along", 9.0, [2.0, 3.0], 150);
+    let [a, b] = [space, plane].map(|text| {
+        let mut model = read(&text).unwrap_or_else(|error| panic!("{error}")).model;
+        model.analysis.solver = Some(jostle::Solver::Riccati);
+        model.analysis.step = Some(2e-3);
+        runs::run(&model, &motion, None)
+    });
+    let kinds = |own: &jostle::System| {
+        let all = own.buildings[0].discretization.diagonals.iter();
+        let places = all.map(|own| {
+            (
+                own.place.kind,
+                own.place.storey,
+                own.place.bay,
+                own.place.rise.name(),
+            )
+        });
+        let mut places: Vec<_> = places
+            .map(|(kind, storey, bay, rise)| (kind == DiagonalKind::Brace, storey, bay, rise))
+            .collect();
+        places.sort_unstable();
+        places
+    };
+    assert_eq!(kinds(&a.0), kinds(&b.0));
+    assert!(b.1.energy.hysteretic > 1e2, "{}", b.1.energy.hysteretic);
+    close(
+        a.1.energy.hysteretic,
+        b.1.energy.hysteretic,
+        b.1.energy.hysteretic,
+        1e-7,
+        "energy",
+    );
+    for (own, other) in a.1.peaks.floors(0).iter().zip(b.1.peaks.floors(0)) {
+        let [own, other] = [own, &other].map(|own| own.displacement().size());
+        close(own, other, other, 1e-9, "displacement");
+    }
+}
