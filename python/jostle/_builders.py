@@ -259,7 +259,8 @@ class Shear(Part):
         storey_height: one length, or a list from the ground up; 3 m by default.
         damping: ``{"ratio": 0.05, "modes": [1, 3]}`` or ``{"alpha": …, "beta": …}``; 5 % by default, 3 % or less is usual with
             hinges.
-        base: springs and dashpots under the building: ``"fixed"`` (default) or ``{"horizontal_stiffness": …}``.
+        base: springs and dashpots under the building: ``"fixed"`` (default) or ``{"horizontal_stiffness": …}``;
+            with a plan also ``rotational_stiffness``, ``torsional_stiffness`` and ``across``.
         isolation: bearings and a mat under the building, such as ``{"kind": "lead-rubber", "mat_mass": "150 t", …}``; with
             ``"bounds": {"lower": 0.85, "upper": 1.3}`` a run also makes those at both bounds of the bearings.
         foundation: rigid foundation on the ``soil`` of the model, ``{"length": "12 m", "width": "12 m", "mass": "120 t"}``;

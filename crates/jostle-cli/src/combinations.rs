@@ -177,6 +177,7 @@ fn features() -> Vec<Feature> {
         Feature { name: "columns that follow their axial force", keys: FIBRES, ..USUAL },
         Feature { name: "columns that fail in shear", keys: "shear_failure = { strength = \"300 kN\", slope = \"5 MN/m\" }\n", ..USUAL },
         Feature { name: "springs under the base", keys: "base = { horizontal_stiffness = \"400 MN/m\" }\n", ..USUAL },
+        Feature { name: "base that sways, rocks and twists", keys: "base = { horizontal_stiffness = \"400 MN/m\", rotational_stiffness = \"9 GN.m/rad\", torsional_stiffness = \"9 GN.m/rad\" }\n", ..USUAL },
         Feature { name: "bearings", tables: "[building.isolation]\nkind = \"lead-rubber\"\nmat_mass = \"50 t\"\nstiffness = \"20 MN/m\"\nyield = \"60 kN\"\npost_yield = 0.1\n", ..USUAL },
         Feature { name: "foundation on soil", tables: "[building.foundation]\nlength = \"9 m\"\nwidth = \"12 m\"\nmass = \"120 t\"\n", more: "[soil]\nshear_wave_velocity = \"200 m/s\"\ndensity = 1900\npoisson_ratio = 0.33\n", ..USUAL },
         Feature { name: "foundation that lifts off", keys: "gravity = true\n", tables: "[building.foundation]\nlength = \"9 m\"\nwidth = \"12 m\"\nmass = \"120 t\"\nuplift = true\nsprings = 5\nvertical_stiffness = \"900 MN/m\"\n", ..USUAL },

@@ -33,7 +33,7 @@ pub fn export(export: &Export<'_>) -> Result<Vec<BuildingMatrices>, Vec<ModelFau
         };
         let refused = [
             (
-                tiers.is_some() && has_masses_apart(building),
+                tiers.is_some() && building.plan_base.is_empty() && has_masses_apart(building),
                 "frame",
                 "has columns with mass between floors, which matrices of floors do not hold; give the mass to the floors",
             ),
@@ -41,6 +41,11 @@ pub fn export(export: &Export<'_>) -> Result<Vec<BuildingMatrices>, Vec<ModelFau
                 !building.equations.springs.is_empty(),
                 "hinges",
                 "yields or lifts off; matrices are elastic: leave out hinges, braces that yield and infill panels",
+            ),
+            (
+                !building.plan_base.is_empty(),
+                "base",
+                "has springs under a plan, whose motions matrices of floors do not hold; leave it out",
             ),
             (
                 building.support.is_some(),

@@ -94,6 +94,10 @@ pub(crate) enum Section {
     ShearBase,
     /// Further ones under the columns of a frame.
     FrameBase,
+    /// Further ones under a building with a plan.
+    PlanBase,
+    /// Those across.
+    AcrossBase,
     /// Rigid foundation under a building.
     Foundation,
     /// Bearings and mat under a building.
@@ -704,7 +708,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Frame, "coupling_beam", Tables(&[S::CouplingBeam]), "Beams between walls with properties of their own."),
     optional(S::Frame, "shear_failure", Kind::Table(S::ShearFailure), "Lets columns fail in shear; without it their shear strength has no limit."),
 
-    default(S::Shear, "base", WordOrTable("fixed", &[S::ShearBase]), "\"fixed\"", "Horizontal spring and dashpot under the building."),
+    default(S::Shear, "base", WordOrTable("fixed", &[S::ShearBase, S::PlanBase]), "\"fixed\"", "Springs and dashpots under the building."),
     optional(S::Shear, "isolation", Kind::Table(S::Isolation), "Bearings and a mat under the building, instead of base."),
     optional(S::Shear, "foundation", Kind::Table(S::Foundation), "Rigid foundation on [soil], instead of base; in one plane."),
     required(S::Shear, "mass", PerStorey(D::Mass), "Floor masses from the ground up. A weight is converted.").usual("a floor mass", 100.0, 1e8),
@@ -1023,6 +1027,15 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::ShearBase, "horizontal_damping", Quantity(D::Damping), "0", "Dashpot parallel to the horizontal spring.").usual("a dashpot coefficient", 100.0, 1e11),
     optional(S::ShearBase, "horizontal_hinge", Kind::Table(S::BaseSliding), "Yielding of the horizontal spring; without this table it is elastic."),
     default(S::ShearBase, "mass", Quantity(D::Mass), "0", "Mass of the footing.").usual("a mass of a footing", 10.0, 1e9),
+    default(S::PlanBase, "rotational_stiffness", WordOr("rigid", D::RotationalStiffness), "\"rigid\"", "With a plan: spring against rocking, which moves floors along x by their height times the rotation; across likewise, unless across says otherwise. Not with frames.").usual("a rotational stiffness", 1e4, 1e14),
+    default(S::PlanBase, "rotational_damping", Quantity(D::RotationalDamping), "0", "Dashpot parallel to that spring.").usual("a rotational dashpot coefficient", 100.0, 1e13),
+    default(S::PlanBase, "torsional_stiffness", WordOr("rigid", D::RotationalStiffness), "\"rigid\"", "With a plan: spring against rotation about the vertical axis. Springs act at the centroid of the plan of the lowest floor, over which the mass of the footing is spread.").usual("a stiffness in torsion", 1e5, 1e14),
+    default(S::PlanBase, "torsional_damping", Quantity(D::RotationalDamping), "0", "Dashpot parallel to the torsional spring.").usual("a rotational dashpot coefficient", 100.0, 1e13),
+    optional(S::PlanBase, "across", Kind::Table(S::AcrossBase), "With a plan: springs and dashpots across, where they differ from those along x."),
+    default(S::AcrossBase, "horizontal_stiffness", WordOr("rigid", D::Stiffness), "that along x", "Horizontal spring across.").usual("a stiffness of a base", 1e4, 9e11),
+    default(S::AcrossBase, "horizontal_damping", Quantity(D::Damping), "that along x", "Dashpot parallel to it.").usual("a dashpot coefficient", 100.0, 1e11),
+    default(S::AcrossBase, "rotational_stiffness", WordOr("rigid", D::RotationalStiffness), "that along x", "Spring against rocking that moves floors across.").usual("a rotational stiffness", 1e4, 1e14),
+    default(S::AcrossBase, "rotational_damping", Quantity(D::RotationalDamping), "that along x", "Dashpot parallel to it.").usual("a rotational dashpot coefficient", 100.0, 1e13),
     default(S::FrameBase, "vertical_stiffness", WordOr("rigid", D::Stiffness), "\"rigid\"", "Vertical spring to the ground.").usual("a stiffness of a base", 1e4, 9e12),
     default(S::FrameBase, "vertical_damping", Quantity(D::Damping), "0", "Dashpot parallel to the vertical spring.").usual("a dashpot coefficient", 100.0, 1e11),
     default(S::FrameBase, "uplift", Flag, "false", "Whether feet of columns lift off: the vertical spring bears compression alone. Needs vertical_stiffness, and gravity = true of the building."),

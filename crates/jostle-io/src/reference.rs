@@ -198,6 +198,12 @@ const TABLES: &[(Section, &str, &str)] = &[
     (Section::ShearBase, "`base`", ""),
     (Section::FrameBase, "`base` of a frame, further keys", ""),
     (
+        Section::PlanBase,
+        "`base` of a building with a plan, further keys",
+        "",
+    ),
+    (Section::AcrossBase, "`base.across`", ""),
+    (
         Section::BaseRocking,
         "`base.rotational_hinge`, `joint.hinge`",
         "",

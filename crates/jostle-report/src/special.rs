@@ -87,6 +87,7 @@ fn base(base: &Base) -> Facts {
     let on_springs = springs(&[
         (message::rotation(), base.rotational_stiffness, "N·m/rad"),
         (message::sideways(), base.horizontal_stiffness, "N/m"),
+        (message::torsion(), base.torsional_stiffness, "N·m/rad"),
         (message::vertical(), base.vertical_stiffness, "N/m"),
     ]);
     let mut facts: Facts = vec![(message::base(), on_springs + lifts)];
@@ -115,6 +116,11 @@ fn base(base: &Base) -> Facts {
             "N·s/m",
         ),
         (
+            message::torsion(),
+            positive(base.torsional_damping),
+            "N·m·s/rad",
+        ),
+        (
             message::vertical(),
             positive(base.vertical_damping),
             "N·s/m",
@@ -122,6 +128,23 @@ fn base(base: &Base) -> Facts {
     ]);
     if !dashpots.is_empty() {
         facts.push((message::base_dashpots(), dashpots));
+    }
+    if let Some(across) = base.across {
+        let parts = springs(&[
+            (message::rotation(), across.rotational_stiffness, "N·m/rad"),
+            (message::sideways(), across.horizontal_stiffness, "N/m"),
+            (
+                message::rotation(),
+                positive(across.rotational_damping),
+                "N·m·s/rad",
+            ),
+            (
+                message::sideways(),
+                positive(across.horizontal_damping),
+                "N·s/m",
+            ),
+        ]);
+        facts.push((message::base_across(), parts));
     }
     if base.mass > 0.0 {
         facts.push((message::footing_mass(), format::tonnes(base.mass)));

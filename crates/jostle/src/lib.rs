@@ -113,8 +113,8 @@ pub use contact::{ContactLaw, LawKind, RestitutionIs};
 pub use history::{Column, EnergyTerm, History, Impact};
 pub use interface::{UnmatchedFloors, floor_and_height, sticking_stiffness};
 pub use model::{
-    Analysis, Axial, Base, BearingBounds, BearingFactors, BearingStrength, BedSpring, Building,
-    ColumnFibres, CouplingBeam, Damping, Diagonal, DiagonalKind, DiagonalPlace, Fibre,
+    AcrossBase, Analysis, Axial, Base, BearingBounds, BearingFactors, BearingStrength, BedSpring,
+    Building, ColumnFibres, CouplingBeam, Damping, Diagonal, DiagonalKind, DiagonalPlace, Fibre,
     FloorMatrices, FloorPairs, Foundation, FoundationSprings, Frame, FrameHinges, FramePlace,
     FrameWall, Gap, Given, GivenFloor, GivenInPlan, Gravity, GridLine, GroundSprings, HalfSpace,
     Hinges, Integrator, Isolation, Isolator, IsolatorDamping, Joint, JointRequest, Level, Link,

@@ -45,6 +45,12 @@ impl Script<'_> {
                 "frames at lines of a plan are not exported yet; give stiffness or [[building.element]] instead",
             );
         }
+        if own.base.isolation.is_none() && !own.base.is_fixed() {
+            return refuse(
+                ".base",
+                "springs under a building with a plan are not exported to OpenSees yet; leave base out, or use isolation with linear bearings",
+            );
+        }
         if tiers.matrices.is_some() {
             return refuse(
                 ".matrices",

@@ -3,7 +3,8 @@
 use jostle::model::{FrameHinges, Hinges};
 use jostle::separation::BuildingCodes;
 use jostle::{
-    Base, Building, Damping, Gravity, MassDamping, Model, PlanPoint, ProportionalDamping, Structure,
+    AcrossBase, Base, Building, Damping, Gravity, MassDamping, Model, PlanPoint,
+    ProportionalDamping, Structure,
 };
 
 use super::damper::{self, Damper};
@@ -551,7 +552,7 @@ pub(super) fn read_base(reader: &mut Reader<'_>, view: &View<'_>, is_shear: bool
         return Base::default();
     }
     let sections: &'static [Section] = if is_shear {
-        &[Section::ShearBase]
+        &[Section::ShearBase, Section::PlanBase]
     } else {
         &[Section::ShearBase, Section::FrameBase]
     };
@@ -570,9 +571,16 @@ pub(super) fn read_base(reader: &mut Reader<'_>, view: &View<'_>, is_shear: bool
     };
     base.horizontal_damping = quantity("horizontal_damping", Dimension::Damping);
     base.mass = quantity("mass", Dimension::Mass);
+    base.rotational_damping = quantity("rotational_damping", Dimension::RotationalDamping);
+    if is_shear {
+        base.torsional_damping = quantity("torsional_damping", Dimension::RotationalDamping);
+        let [turning, twisting] = ["rotational_stiffness", "torsional_stiffness"]
+            .map(|key| or_rigid(reader, &view, key, Dimension::RotationalStiffness));
+        (base.rotational_stiffness, base.torsional_stiffness) = (turning, twisting);
+        base.across = read_across(reader, &view, &base);
+    }
     if !is_shear {
         base.vertical_damping = quantity("vertical_damping", Dimension::Damping);
-        base.rotational_damping = quantity("rotational_damping", Dimension::RotationalDamping);
         base.vertical_stiffness =
             or_rigid(reader, &view, "vertical_stiffness", Dimension::Stiffness);
         let uplift = reader.get(&view, "uplift");
@@ -599,6 +607,46 @@ pub(super) fn read_base(reader: &mut Reader<'_>, view: &View<'_>, is_shear: bool
         Dimension::Force,
     );
     base
+}
+
+/// What differs across; the rest is as along the row.
+fn read_across(reader: &mut Reader<'_>, view: &View<'_>, base: &Base) -> Option<AcrossBase> {
+    let field = reader.get(view, "across")?;
+    let view = reader.open(&field, &[Section::AcrossBase])?;
+    let [mut own, _] = base.in_plan();
+    for (key, dimension, stiffness) in [
+        (
+            "horizontal_stiffness",
+            Dimension::Stiffness,
+            &mut own.horizontal_stiffness,
+        ),
+        (
+            "rotational_stiffness",
+            Dimension::RotationalStiffness,
+            &mut own.rotational_stiffness,
+        ),
+    ] {
+        if reader.get(&view, key).is_some() {
+            *stiffness = or_rigid(reader, &view, key, dimension);
+        }
+    }
+    for (key, dimension, damping) in [
+        (
+            "horizontal_damping",
+            Dimension::Damping,
+            &mut own.horizontal_damping,
+        ),
+        (
+            "rotational_damping",
+            Dimension::RotationalDamping,
+            &mut own.rotational_damping,
+        ),
+    ] {
+        if let Some(field) = reader.get(&view, key) {
+            *damping = reader.quantity(&field, dimension).unwrap_or(0.0);
+        }
+    }
+    Some(own)
 }
 
 /// A stiffness; `None` for `"rigid"` and where it is absent.

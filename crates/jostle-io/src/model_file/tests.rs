@@ -59,7 +59,7 @@ hinges = { rule = "pinched", pinching = {}, damage = {}, column = { positive = {
 kind = "shear"
 codes = { importance = 1 }
 damper = [{ floors = [0, 1], law = "friction" }]
-base = { mass = 1 }
+base = { mass = 1, across = { horizontal_stiffness = 1 } }
 isolation = { kind = "triple-friction-pendulum", stop = {} }
 hinges = { rule = "normal" }
 [soil]

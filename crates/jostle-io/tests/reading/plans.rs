@@ -774,3 +774,23 @@ fn frames_in_plan_yield_at_their_members() {
         refusal(&from)
     );
 }
+
+/// What `across` leaves out is as along x, and "rigid" says that it is not.
+#[test]
+fn a_base_differs_across_where_it_says_so() {
+    let base = r#"base = { horizontal_stiffness = "900 MN/m", horizontal_damping = "20 MN.s/m", rotational_stiffness = "40 GN.m/rad", torsional_stiffness = "50 GN.m/rad", mass = "150 t", across = { rotational_stiffness = "25 GN.m/rad" } }"#;
+    let input = read(&format!("{A}{base}\n")).expect("a sound model");
+    let own = &input.model.buildings[0].base;
+    let [along, across] = own.in_plan();
+    assert_eq!(along.horizontal_stiffness, Some(9e8));
+    assert_eq!(across.horizontal_stiffness, Some(9e8));
+    assert_eq!(across.horizontal_damping, 2e7);
+    assert_eq!(along.rotational_stiffness, Some(4e10));
+    assert_eq!(across.rotational_stiffness, Some(2.5e10));
+    assert_eq!((own.torsional_stiffness, own.mass), (Some(5e10), 1.5e5));
+    let one_way = base.replace("\"25 GN.m/rad\"", "\"rigid\"");
+    let error = refusal(&format!("{A}{one_way}\n"));
+    assert!(error.contains("rigid in one direction only"), "{error}");
+    let lifts = "base = { vertical_stiffness = \"900 MN/m\" }\n";
+    assert!(refusal(&format!("{A}{lifts}")).contains("vertical_stiffness"));
+}

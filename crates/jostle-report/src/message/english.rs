@@ -794,6 +794,8 @@ messages! {
     base_slides = "base slides";
     name_yields_at_value(name, value) = "{name}, yields at {value}";
     base_dashpots = "base dashpots";
+    base_across = "base across";
+    torsion = "torsion";
     footing_mass = "footing mass";
     column_section = "column section";
     beam_section = "beam section";

@@ -130,11 +130,15 @@ fn check_building(faults: &mut Faults, path: &str, building: &Building) {
         Structure::Given(given) => given::check_given(faults, path, given, building),
         Structure::Tiers(tiers) => plan::check_tiers(faults, path, tiers, building),
     }
+    let in_plan = matches!(building.structure, Structure::Tiers(_));
     check_base(
         faults,
         &format!("{path}.base"),
         &building.base,
-        !matches!(building.structure, Structure::Frame(_)),
+        [
+            in_plan || matches!(building.structure, Structure::Frame(_)),
+            in_plan,
+        ],
     );
     isolation::check_isolation(faults, path, building);
     soil::check_foundation(faults, path, building);
@@ -177,7 +181,7 @@ fn check_building(faults: &mut Faults, path: &str, building: &Building) {
     }
 }
 
-fn check_base(faults: &mut Faults, path: &str, base: &Base, is_shear: bool) {
+fn check_base(faults: &mut Faults, path: &str, base: &Base, [turns, in_plan]: [bool; 2]) {
     let directions = [
         (
             "horizontal",
@@ -192,6 +196,13 @@ fn check_base(faults: &mut Faults, path: &str, base: &Base, is_shear: bool) {
             base.vertical_damping,
             None,
             ["N/m", "N.s/m"],
+        ),
+        (
+            "torsional",
+            base.torsional_stiffness,
+            base.torsional_damping,
+            None,
+            ["N.m/rad", "N.m.s/rad"],
         ),
         (
             "rotational",
@@ -228,10 +239,18 @@ fn check_base(faults: &mut Faults, path: &str, base: &Base, is_shear: bool) {
             );
         }
         faults.require(
-            !is_shear || name == "horizontal" || stiffness.is_none(),
+            turns || name == "horizontal" || name == "torsional" || stiffness.is_none(),
             format!("{path}.{name}_stiffness"),
             || "is for frames only: the floors of a shear building neither rise nor turn".into(),
         );
+    }
+    for (key, given) in [
+        ("torsional_stiffness", base.torsional_stiffness.is_some()),
+        ("across", base.across.is_some()),
+    ] {
+        faults.require(in_plan || !given, format!("{path}.{key}"), || {
+            "is for buildings with a plan; add plan, or leave it out".into()
+        });
     }
     faults.not_negative(base.mass, format!("{path}.mass"), "kg");
     faults.require(

@@ -147,14 +147,7 @@ pub(super) fn check_tiers(faults: &mut Faults, path: &str, tiers: &Tiers, buildi
     plan_frames::check_plan_frames(faults, path, tiers, building);
     space_frame::check_space_frame(faults, path, tiers, building);
     given::check_floor_matrices(faults, path, tiers, building);
-    let base = Base {
-        isolation: None,
-        elevation: 0.0,
-        ..building.base
-    };
-    faults.require(base == Base::default(), at("base"), || {
-        "is not possible for a building with a plan yet; leave it out, give it to a frame, or use isolation".into()
-    });
+    check_plan_base(faults, &at("base"), tiers, &building.base);
     faults.require(
         tiers.bearings.is_empty() || building.base.isolation.is_some(),
         at("isolation.bearings"),
@@ -165,6 +158,63 @@ pub(super) fn check_tiers(faults: &mut Faults, path: &str, tiers: &Tiers, buildi
     );
     faults.require(building.hinges.is_none(), at("hinges"), || {
         "are those of frames and of storeys in one plane; a building with a plan has its own, Tiers::yielding".into()
+    });
+}
+
+/// Faults of the springs under a building with a plan.
+fn check_plan_base(faults: &mut Faults, path: &str, tiers: &Tiers, base: &Base) {
+    faults.require(base.foundation.is_none(), path, || {
+        "is not possible as a foundation on soil for a building with a plan yet; give the springs of the soil as base = { horizontal_stiffness, rotational_stiffness, torsional_stiffness }, or leave it out".into()
+    });
+    for (key, given) in [
+        ("horizontal_hinge", base.horizontal_hinge.is_some()),
+        ("rotational_hinge", base.rotational_hinge.is_some()),
+        ("vertical_stiffness", base.vertical_stiffness.is_some()),
+        ("uplift", base.uplift),
+    ] {
+        faults.require(!given, format!("{path}.{key}"), || {
+            "is not possible for a building with a plan yet; leave it out, or give it to the base of a frame".into()
+        });
+    }
+    faults.require(
+        base.isolation.is_none() || base.torsional_stiffness.is_none() && base.across.is_none(),
+        path,
+        || "stands beside isolation; keep one of them".into(),
+    );
+    let [along, across] = base.in_plan();
+    let pairs = [
+        (
+            "horizontal",
+            [along.horizontal_stiffness, across.horizontal_stiffness],
+            [along.horizontal_damping, across.horizontal_damping],
+            ["N/m", "N.s/m"],
+        ),
+        (
+            "rotational",
+            [along.rotational_stiffness, across.rotational_stiffness],
+            [along.rotational_damping, across.rotational_damping],
+            ["N.m/rad", "N.m.s/rad"],
+        ),
+    ];
+    for (name, stiffness, damping, units) in pairs {
+        let field = format!("{path}.across.{name}_stiffness");
+        faults.require(stiffness[0].is_some() == stiffness[1].is_some(), field.as_str(), || {
+            "is rigid in one direction only; give a spring in both, a stiff one where it hardly moves, or in none".into()
+        });
+        if base.across.is_some() {
+            if let Some(stiffness) = stiffness[1] {
+                faults.positive(stiffness, field, units[0]);
+            }
+            let field = format!("{path}.across.{name}_damping");
+            faults.not_negative(damping[1], field.as_str(), units[1]);
+            faults.require(stiffness[1].is_some() || damping[1] == 0.0, field, || {
+                format!("has nothing to do where the base is rigid; add {name}_stiffness")
+            });
+        }
+    }
+    let follows = tiers.frames.is_empty() && tiers.space_frame.is_none();
+    faults.require(follows || along.rotational_stiffness.is_none(), format!("{path}.rotational_stiffness"), || {
+        "is for storeys given by stiffness or elements; under frames with a plan the base sways and turns about the vertical axis only: leave it out, or give it to the base of a frame".into()
     });
 }
 

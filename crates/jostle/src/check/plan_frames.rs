@@ -64,7 +64,7 @@ fn check_one(faults: &mut Faults, at: &str, own: &PlanFrame, tiers: &Tiers) {
     );
     let frame = &own.frame;
     check_members_of(faults, at, frame);
-    check_base(faults, &format!("{at}.base"), &own.base, false);
+    check_base(faults, &format!("{at}.base"), &own.base, [true, false]);
     check_frame_hinges(faults, &format!("{at}.hinges"), &own.hinges, frame);
     let yields = own.base.rotational_hinge.is_some() || own.base.horizontal_hinge.is_some();
     faults.require(!yields, format!("{at}.base"), || {

@@ -31,6 +31,12 @@ pub struct Base {
     pub horizontal_damping: f64,
     /// Force per vertical velocity, ≥ 0; needs a vertical stiffness \[N·s/m\].
     pub vertical_damping: f64,
+    /// Moment per rotation about the vertical axis, > 0; `None` is rigid; buildings with a plan only \[N·m/rad\].
+    pub torsional_stiffness: Option<f64>,
+    /// Moment per angular velocity about the vertical axis, ≥ 0; needs a torsional stiffness \[N·m·s/rad\].
+    pub torsional_damping: f64,
+    /// Springs and dashpots across the row, under a building with a plan; `None`: as those along it.
+    pub across: Option<AcrossBase>,
     /// Mass of the footing, ≥ 0; moves only in directions with a spring \[kg\].
     pub mass: f64,
     /// Hysteresis of the rotational spring; its initial stiffness is `rotational_stiffness`.
@@ -54,14 +60,57 @@ impl Base {
         self.rotational_stiffness.is_none()
             && self.horizontal_stiffness.is_none()
             && self.vertical_stiffness.is_none()
+            && self.torsional_stiffness.is_none()
+            && self.across.is_none_or(|own| own.is_rigid())
             && self.isolation.is_none()
             && self.foundation.is_none()
+    }
+
+    /// Springs and dashpots of both horizontal directions: along the row, then across.
+    #[must_use]
+    pub fn in_plan(&self) -> [AcrossBase; 2] {
+        let along = AcrossBase {
+            horizontal_stiffness: self.horizontal_stiffness,
+            horizontal_damping: self.horizontal_damping,
+            rotational_stiffness: self.rotational_stiffness,
+            rotational_damping: self.rotational_damping,
+        };
+        [along, self.across.unwrap_or(along)]
+    }
+
+    /// Mass of what carries the whole building and moves against the ground: a mat on bearings, or a footing on springs; `None` if the
+    /// building stands on the ground \[kg\].
+    #[must_use]
+    pub fn carrying_mass(&self) -> Option<f64> {
+        let mat = self.isolation.map(|own| own.mat_mass);
+        mat.or((!self.is_fixed()).then_some(self.mass))
     }
 
     /// Whether it can lift off the ground.
     #[must_use]
     pub fn lifts(&self) -> bool {
         self.uplift || self.foundation.is_some_and(|own| own.uplift.is_some())
+    }
+}
+
+/// Springs and dashpots of a base across the row, each with the meaning that it has in [`Base`] along it.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct AcrossBase {
+    /// Force per displacement across, > 0; `None` is rigid \[N/m\].
+    pub horizontal_stiffness: Option<f64>,
+    /// Force per velocity across, ≥ 0 \[N·s/m\].
+    pub horizontal_damping: f64,
+    /// Moment per rotation that moves floors across, > 0; `None` is rigid \[N·m/rad\].
+    pub rotational_stiffness: Option<f64>,
+    /// Moment per angular velocity of that rotation, ≥ 0 \[N·m·s/rad\].
+    pub rotational_damping: f64,
+}
+
+impl AcrossBase {
+    /// Whether it has no spring.
+    #[must_use]
+    pub fn is_rigid(&self) -> bool {
+        self.horizontal_stiffness.is_none() && self.rotational_stiffness.is_none()
     }
 }
 

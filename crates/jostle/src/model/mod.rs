@@ -30,7 +30,7 @@ use std::collections::BTreeMap;
 
 use crate::hysteresis::Hysteresis;
 
-pub use base::{Base, MassDamping};
+pub use base::{AcrossBase, Base, MassDamping};
 pub use capacity::{
     CapacityLine, MemberCapacity, RotationLimits, RotationMeasure, RuleCapacity, ShearCapacity,
 };

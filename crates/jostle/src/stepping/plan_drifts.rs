@@ -31,7 +31,8 @@ impl PlanDrifts {
             reach: storey.reach(),
             storey: PlanStorey {
                 above: storey.above.map(&place),
-                below: storey.below.map(|dofs| dofs.map(&place)),
+                below: storey.below.map(|dofs| dofs.map(|dof| dof.map(&place))),
+                base: storey.base.map(|dofs| dofs.map(|dof| dof.map(&place))),
                 ..storey.clone()
             },
             centre: [0.0; 2],

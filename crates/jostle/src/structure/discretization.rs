@@ -105,10 +105,7 @@ impl Discretization {
                 discretize_shear(shear, &building.base, springs)
             }
             Structure::Given(given) => discretize_given(given),
-            Structure::Tiers(tiers) => {
-                let isolation = building.base.isolation.as_ref();
-                discretize_tiers(tiers, building.gravity, isolation)
-            }
+            Structure::Tiers(tiers) => discretize_tiers(tiers, building.gravity, &building.base),
         };
         discretization.elevation = building.base.elevation;
         let in_plan = matches!(building.structure, Structure::Tiers(_));

@@ -14,6 +14,7 @@ mod member_end;
 mod member_forces;
 mod order;
 mod path;
+mod plan_base;
 mod plan_frames;
 mod plan_mat;
 mod plan_matrix;
@@ -51,8 +52,8 @@ pub use space_joints::{JointNodes, JointedFrame, JointedMember};
 pub use spring_place::{BaseMotion, MemberEnd, SpringPlace};
 pub use step_equations::{StepEquations, solve_once};
 pub use stick_model::{
-    Hinge, Influence, Member, Node, PlanMat, RigidEnd, RigidFoundation, Spring, StickModel,
-    Support, YieldingElement,
+    Hinge, Influence, Member, Node, PlanBase, PlanMat, RigidEnd, RigidFoundation, Spring,
+    StickModel, Support, YieldingElement,
 };
 pub use storey_forces::{StoreyForce, StoreyForces};
 pub(crate) use tiers::motion_at;

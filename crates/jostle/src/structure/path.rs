@@ -116,6 +116,7 @@ impl Ties {
                 Support::Fixed => &[X, Y, THETA],
                 Support::Guided => &[Y, THETA],
                 Support::Turning => &[X, Y],
+                Support::Swaying => &[THETA],
             };
             for &component in held {
                 ties.merge(Self::place(node, component), GROUND);

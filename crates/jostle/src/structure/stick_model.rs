@@ -37,6 +37,8 @@ pub struct StickModel {
     pub rigid_ends: Vec<RigidEnd>,
     /// Nodes that are not eliminated in the order of their coordinates.
     pub turns: BTreeMap<usize, Turn>,
+    /// What a building in plan stands on if its base has springs.
+    pub plan_base: Option<PlanBase>,
     /// Rigid foundation on springs and dashpots, if it stands on one.
     pub foundation: Option<RigidFoundation>,
 }
@@ -116,6 +118,14 @@ impl Node {
     #[must_use]
     pub fn held(self, support: Support) -> Self {
         Self { support, ..self }
+    }
+
+    /// Holds all its displacements but the first.
+    pub(crate) fn hold_but_along(&mut self) {
+        self.support = match self.support {
+            Support::Fixed | Support::Turning => Support::Fixed,
+            Support::Free | Support::Swaying | Support::Guided => Support::Guided,
+        };
     }
 
     /// The same point with more mass, which resists both of its translations \[kg\].
@@ -211,6 +221,8 @@ pub enum Support {
     Guided,
     /// Only turns.
     Turning,
+    /// Moves in both directions of its plane, and does not turn.
+    Swaying,
 }
 
 /// Massless beam between two nodes at the same height or on the same vertical.
@@ -318,6 +330,24 @@ pub struct YieldingElement {
     pub hysteresis: Hysteresis,
     /// How stiffness-proportional damping of the building acts here.
     pub proportional_damping: ProportionalDamping,
+}
+
+/// The base of a building in plan on springs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlanBase {
+    /// Node of its footing, which sways along and across and turns, as far as it has springs.
+    pub footing: usize,
+    /// Centre of mass of the footing on the site \[m\].
+    pub centre: [f64; 2],
+    /// Node of its rocking, if it rocks: displacements of floors per height, along and across \[–\].
+    pub rocking: Option<usize>,
+}
+
+impl PlanBase {
+    /// Its nodes.
+    pub(crate) fn nodes(self) -> impl Iterator<Item = usize> {
+        [self.footing].into_iter().chain(self.rocking)
+    }
 }
 
 /// A mat on bearings that moves in both horizontal directions and turns.

@@ -12,9 +12,7 @@ use super::space_frame::{Assembly, condense};
 use super::space_joints::{AddedJoints, add_space_joints};
 use super::spring_place::SpringPlace;
 use super::stick_model::{Influence, Node, StickModel, Support, YieldingElement};
-use crate::model::{
-    Gravity, Isolation, LumpedFloor, PlanPoint, ProportionalDamping, SpaceFrame, Tiers,
-};
+use crate::model::{Base, Gravity, LumpedFloor, PlanPoint, ProportionalDamping, SpaceFrame, Tiers};
 
 /// Motion of a plan point per displacement of a floor with its centre of mass at `centre`: rows x, across and rotation.
 pub(crate) fn motion_at(point: PlanPoint, centre: PlanPoint) -> [[f64; 3]; 3] {
@@ -23,11 +21,7 @@ pub(crate) fn motion_at(point: PlanPoint, centre: PlanPoint) -> [[f64; 3]; 3] {
 }
 
 /// The lumped masses and the stiffness of a building; with P-Delta, what the weight above every storey takes from it.
-pub(super) fn discretize_tiers(
-    tiers: &Tiers,
-    gravity: Gravity,
-    isolation: Option<&Isolation>,
-) -> Discretization {
+pub(super) fn discretize_tiers(tiers: &Tiers, gravity: Gravity, base: &Base) -> Discretization {
     let mut stick_model = StickModel::default();
     let lumped = tiers.lumped_floors();
     let mut height = 0.0;
@@ -39,7 +33,7 @@ pub(super) fn discretize_tiers(
         stick_model.nodes.len() - 1
     };
     let ground = add(Node::at(0.0, 0.0).held(Support::Fixed));
-    let mat = isolation.map(|own| tiers.mat(own.mat_mass));
+    let mat = base.carrying_mass().map(|mass| tiers.mat(mass));
     let foot = mat.as_ref().map_or(ground, |mat| add(of_floor(0.0, mat)));
     let mut floors = Vec::with_capacity(tiers.floors.len());
     for (floor, storey_height) in lumped.iter().zip(&tiers.storey_heights) {
@@ -159,9 +153,13 @@ pub(super) fn discretize_tiers(
     }
     let below = mat.as_ref().map(|mat| (foot, mat));
     add_frames(tiers, &lumped, below, gravity.preload, &mut discretization);
-    if let Some((isolation, mat)) = isolation.zip(mat) {
-        let places = [ground, foot];
-        put_on_mat(tiers, isolation, &mat, places, &mut discretization);
+    let places = [ground, foot];
+    match (&base.isolation, mat) {
+        (Some(isolation), Some(mat)) => {
+            put_on_mat(tiers, isolation, &mat, places, &mut discretization);
+        }
+        (None, Some(footing)) => discretization.put_on_springs(base, &footing, places),
+        (_, None) => {}
     }
     discretization
 }

@@ -16,10 +16,11 @@ use crate::model::{
 use crate::motion::Ground;
 use crate::simd;
 use crate::statics::{Collapse, Settled, under_gravity};
+use crate::structure::element::{THETA, X, Y};
 use crate::structure::motion_at;
 use crate::structure::{
-    AssembledBuilding, AtRest, Discretization, Influence, InnerLink, MemberForces, SpringPlace,
-    Support,
+    AssembledBuilding, AtRest, Discretization, Influence, InnerLink, MemberForces, PlanBase,
+    SpringPlace,
 };
 use crate::transfer::riccati::RiccatiSweep;
 
@@ -52,6 +53,9 @@ pub struct BuildingSystem {
     pub support: Option<SpringSupport>,
     /// Its mat, if it is isolated and in space.
     pub mat_in_plan: Option<MatInPlan>,
+    /// Of a building in plan on springs: displacements of its footing and its rocking, as far as they move, in the vectors of a
+    /// [`crate::State`].
+    pub plan_base: Vec<usize>,
     /// The rigid foundation on which it stands.
     pub foundation: Option<FoundationPlace>,
     /// The ratio of critical damping that all modes have, where damping is not Rayleigh's \[–\].
@@ -203,6 +207,12 @@ impl BuildingSystem {
         let foot = foot.and_then(|node| structure.equations.horizontal(node));
         let support = spring_support(&structure);
         let mat_in_plan = MatInPlan::new(&structure);
+        let base = structure.discretization.stick_model.plan_base;
+        let base = base.into_iter().flat_map(PlanBase::nodes);
+        let base = base.flat_map(|node| [X, Y, THETA].map(|component| (node, component)));
+        let plan_base = base
+            .filter_map(|place| structure.equations.dof(place))
+            .collect();
         let modes = modes(&structure, &sweep);
         Self {
             structure,
@@ -216,6 +226,7 @@ impl BuildingSystem {
             spring_offset: 0,
             support,
             mat_in_plan,
+            plan_base,
             foundation: None,
             modal_damping: None,
             modes,
@@ -526,7 +537,7 @@ impl BuildingSystem {
 
     fn modes_with_all_else_held(&self) -> Vec<ModeAlong> {
         let mut nodes = self.discretization.stick_model.nodes.iter();
-        if nodes.any(|node| node.influence != Influence::OF_FLOOR) {
+        if nodes.any(|node| node.influence != Influence::OF_FLOOR) || !self.plan_base.is_empty() {
             return self.modes_of_frames_along();
         }
         let equations = &self.equations;
@@ -567,8 +578,13 @@ impl BuildingSystem {
     /// The same for a building with frames: lateral modes of the building whose floors neither move across nor turn.
     fn modes_of_frames_along(&self) -> Vec<ModeAlong> {
         let mut held = self.discretization.clone();
-        for &floor in &held.floors {
-            held.stick_model.nodes[floor].support = Support::Guided;
+        let base = held
+            .stick_model
+            .plan_base
+            .into_iter()
+            .flat_map(PlanBase::nodes);
+        for node in held.floors.iter().copied().chain(base) {
+            held.stick_model.nodes[node].hold_but_along();
         }
         let mut held = AssembledBuilding::new(&self.name, held);
         // Links act on floors, which only move along x now.
@@ -616,14 +632,25 @@ impl BuildingSystem {
         let mat = self.mat_in_plan.as_ref();
         let mut below = mat.zip(plans.first()).map(|(mat, plan)| {
             let plan: &[PlanPoint] = plan;
-            (mat.dofs, mat.centre, plan)
+            (mat.dofs.map(Some), mat.centre, plan)
         });
+        let base = self.discretization.stick_model.plan_base;
+        if let (Some(own), Some(plan)) = (base, plans.first()) {
+            let dofs = [X, Y, THETA].map(|component| self.equations.dof((own.footing, component)));
+            below = Some((dofs, own.centre, *plan));
+        }
+        let rocking = base
+            .and_then(|own| own.rocking)
+            .map(|node| [X, Y].map(|component| self.equations.dof((node, component))));
         let mut storeys = Vec::with_capacity(n);
         for (index, (floor, plan)) in self.floors.iter().zip(plans).enumerate() {
             let dofs = [0, 1, 2].map(|block| self.tracks[block * n + index].dof - self.offset);
             let own = (dofs, self.discretization.centres[index], *plan);
-            storeys.push(PlanStorey::new(own, below, floor.storey_height));
-            below = Some(own);
+            storeys.push(PlanStorey {
+                base: base.map(|_| rocking.unwrap_or_default()),
+                ..PlanStorey::new(own, below, floor.storey_height)
+            });
+            below = Some((dofs.map(Some), own.1, own.2));
         }
         for (storey, own) in storeys.iter().enumerate() {
             for block in [0, 1] {

@@ -90,6 +90,9 @@ impl System {
                 track.dof = track.dof - building.offset + offset;
             }
             building.foot = building.foot.map(|dof| dof - building.offset + offset);
+            for dof in &mut building.plan_base {
+                *dof = *dof - building.offset + offset;
+            }
             if let Some(mat) = &mut building.mat_in_plan {
                 mat.move_to(building.offset, offset);
             }

@@ -3,6 +3,7 @@
 use super::building::{BuildingSystem, Direction};
 use crate::linear::Row;
 use crate::model::PlanPoint;
+use crate::structure::element::{THETA, Y};
 use crate::structure::{AssembledBuilding, Mat, PlanMat, motion_at};
 
 /// A mat that moves in both horizontal directions and turns, and what stands under it.
@@ -102,9 +103,16 @@ impl MatInPlan {
 impl BuildingSystem {
     /// Degree of freedom of what stands below its lowest floor in a direction, in the vectors of a [`crate::State`]; `None` on the ground.
     pub(crate) fn dof_below_lowest(&self, direction: Direction) -> Option<usize> {
+        let base = self.discretization.stick_model.plan_base;
+        let of_base = |component: usize| {
+            let dof = self.equations.dof((base?.footing, component))?;
+            Some(dof + self.offset)
+        };
         match (direction, &self.mat_in_plan) {
             (Direction::Along, _) => self.foot,
-            (_, None) | (Direction::Up, _) => None,
+            (Direction::Up, _) => None,
+            (Direction::Across, None) => of_base(Y),
+            (Direction::Turning, None) => of_base(THETA),
             (Direction::Across, Some(mat)) => Some(mat.dofs[1]),
             (Direction::Turning, Some(mat)) => Some(mat.dofs[2]),
         }

@@ -9,7 +9,9 @@ pub struct PlanStorey {
     /// Displacements along x and across and rotation of the floor above, among those of the building.
     pub above: [usize; 3],
     /// Of the floor or the mat below; `None` is the ground.
-    pub below: Option<[usize; 3]>,
+    pub below: Option<[Option<usize>; 3]>,
+    /// If the building stands on springs: rocking of its base along and across, displacements per height that are no drift.
+    pub base: Option<[Option<usize>; 2]>,
     /// Centre of mass above less the one below; zero over the ground \[m\].
     pub offset: [f64; 2],
     /// Corners of the smaller of both plans, from the centre of mass above \[m\].
@@ -22,7 +24,7 @@ impl PlanStorey {
     /// Between a floor, given by its displacements, its centre and its plan, and what is below.
     pub(super) fn new(
         (above, centre, plan): ([usize; 3], PlanPoint, &[PlanPoint]),
-        below: Option<([usize; 3], PlanPoint, &[PlanPoint])>,
+        below: Option<([Option<usize>; 3], PlanPoint, &[PlanPoint])>,
         height: f64,
     ) -> Self {
         let smaller = match below {
@@ -35,6 +37,7 @@ impl PlanStorey {
         Self {
             above,
             below: below.map(|(dofs, ..)| dofs),
+            base: None,
             offset,
             corners: smaller
                 .iter()
@@ -48,7 +51,7 @@ impl PlanStorey {
     /// one line.
     #[must_use]
     pub fn is_in_line(&self) -> bool {
-        self.offset == [0.0; 2]
+        self.offset == [0.0; 2] && self.base.is_none()
     }
 
     /// Motion of the floor above against the vertical line through its centre of mass, along x and across, and its rotation against
@@ -58,13 +61,17 @@ impl PlanStorey {
     pub fn apart(&self, values: &[f64]) -> [f64; 3] {
         let [x, y, turned] = self.above.map(|dof| values[dof]);
         let [below_x, below_y, below_turned] = match self.below {
-            Some(dofs) => dofs.map(|dof| values[dof]),
+            Some(dofs) => dofs.map(|dof| dof.map_or(0.0, |dof| values[dof])),
             None => [0.0; 3],
         };
         let [along, across] = self.offset;
+        let [rocked_x, rocked_y] = self
+            .base
+            .unwrap_or_default()
+            .map(|dof| dof.map_or(0.0, |dof| self.height * values[dof]));
         [
-            x - (below_x - below_turned * across),
-            y - (below_y + below_turned * along),
+            x - (below_x - below_turned * across) - rocked_x,
+            y - (below_y + below_turned * along) - rocked_y,
             turned - below_turned,
         ]
     }

@@ -260,7 +260,7 @@ impl Layout {
             let sound = match node.support {
                 Support::Fixed | Support::Turning => true,
                 Support::Guided => !elements.iter().any(at_other),
-                Support::Free => !elements.iter().any(at_spring),
+                Support::Free | Support::Swaying => !elements.iter().any(at_spring),
             };
             if !sound {
                 return Err(if guided {

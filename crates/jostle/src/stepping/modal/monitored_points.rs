@@ -20,6 +20,7 @@ impl MonitoredPoints {
         let floors = building.tracks.iter().map(|track| track.dof);
         let mut places: Vec<Row> = floors
             .chain(building.foot)
+            .chain(building.plan_base.iter().copied())
             .map(|dof| Row::single(dof - building.offset))
             .collect();
         let mut rising = Vec::new();

@@ -127,8 +127,10 @@ impl Peaks {
                     PlanDrifts::new(building, |dof| {
                         let mut tracks = building.tracks.iter();
                         let track = tracks.position(|track| track.dof == building.offset + dof);
-                        // Every floor has its tracks.
-                        own.watched.start + track.unwrap_or(0)
+                        // Every floor has its tracks; the foot and a base that moves follow.
+                        let base = || own.place_of_base(building, building.offset + dof);
+                        let track = track.map(|at| own.watched.start + at);
+                        track.or_else(base).unwrap_or(own.watched.start)
                     })
                 });
                 drifts.collect()
@@ -516,9 +518,13 @@ impl Peaks {
                 let slope = self.slope(at, floor.direction, ground_rate);
                 let peaks = &mut self.floors[index][place];
                 if floor.is_lowest && floor.direction != Direction::Along {
+                    let base = building.dof_below_lowest(floor.direction);
+                    let base = base.and_then(|dof| own.place_of_base(building, dof));
+                    let of =
+                        |list: Watched<'_>| base.map_or([0.0; 2], |at| [list.u[at], list.rate[at]]);
                     below = Ends {
-                        then: [0.0; 2],
-                        now: [0.0; 2],
+                        then: of(then),
+                        now: of(now),
                     };
                 }
                 let ends = Ends {

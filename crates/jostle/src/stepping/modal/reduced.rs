@@ -107,6 +107,13 @@ pub(super) struct ReducedBuilding {
 }
 
 impl ReducedBuilding {
+    /// Place among all that is watched of a displacement of the base of a building in plan, which follow its floors and its foot.
+    pub(super) fn place_of_base(&self, building: &BuildingSystem, dof: usize) -> Option<usize> {
+        let mut base = building.plan_base.iter();
+        let at = base.position(|own| *own == dof)?;
+        Some(self.watched.start + self.floors + usize::from(self.foot.is_some()) + at)
+    }
+
     /// Whether dashpots of links between its floors take part in its base shear, which is then the shear of its lowest storey. An
     /// isolated building has that of its bearings.
     pub(super) fn is_damped_at_base(&self, building: &BuildingSystem) -> bool {
