@@ -34,19 +34,20 @@ const SI: &[&str] = &[
     "kg/m",
 ];
 
-/// Words of a text that are SI units, with their lines.
+/// Lines of a text with a number in an SI unit. The first line is a title, and what checks find stays in SI.
 fn si_units(text: &str) -> Vec<String> {
-    let mut found = Vec::new();
-    for line in text.lines() {
+    let found = text.lines().skip(1).filter(|line| {
+        let is_finding = ["remark:", "note:", "warning:"]
+            .iter()
+            .any(|word| line.contains(word));
         let words = line.split([' ', '\u{a0}', '\u{202f}', '[', ']', '(', ')', ',', ';', ':']);
-        if words
-            .into_iter()
-            .any(|word| SI.contains(&word.trim_end_matches('.')))
-        {
-            found.push(line.to_owned());
-        }
-    }
-    found
+        let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
+        let is_number = |word: &str| word.ends_with(|last: char| last.is_ascii_digit());
+        let mut pairs = words.windows(2);
+        !is_finding
+            && pairs.any(|pair| is_number(pair[0]) && SI.contains(&pair[1].trim_end_matches('.')))
+    });
+    found.map(str::to_owned).collect()
 }
 
 fn example(name: &str) -> String {
