@@ -64,7 +64,7 @@ pub const MOMENT: Shown = shown(("kN·m", 1e3), ("kip·ft", KIP * FOOT), 1);
 /// The same of a whole building \[N·m\].
 pub const LARGE_MOMENT: Shown = shown(("MN·m", 1e6), ("kip·ft", KIP * FOOT), 0);
 /// An impulse \[N·s\].
-pub const IMPULSE: Shown = shown(("kN·s", 1e3), ("kip·s", KIP), 2);
+pub const IMPULSE: Shown = shown(("kN·s", 1e3), ("kip·s", KIP), 1);
 /// An energy \[J\].
 pub const ENERGY: Shown = shown(("kJ", 1e3), ("kip·in", KIP * INCH), 1);
 /// A force per length of a face \[N/m\].
@@ -102,7 +102,7 @@ pub const MODULUS: Shown = shown(("GPa", 1e9), ("ksi", KSI), 0);
 /// A pressure on soil or over a floor \[Pa\].
 pub const PRESSURE: Shown = shown(("kPa", 1e3), ("ksf", KIP / (FOOT * FOOT)), 2);
 /// A mass \[kg\]; in US units its weight.
-pub const MASS: Shown = shown(("t", 1e3), ("kip", 1e3 * POUND), 1);
+pub const MASS: Shown = shown(("t", 1e3), ("kip", 1e3 * POUND), 0);
 /// A mass per length \[kg/m\]; in US units its weight.
 pub const LINE_MASS: Shown = shown(("kg/m", 1.0), ("kip/ft", 1e3 * POUND / FOOT), 3);
 /// A speed of impact \[m/s\].
@@ -371,14 +371,14 @@ mod tests {
                 (HEIGHT, 30.48, "100.0 ft"),
                 (FORCE, 4448.221_615, "1.0 kip"),
                 (MOMENT, 1e6, "737.6 kip·ft"),
-                (IMPULSE, 1e4, "2.25 kip·s"),
+                (IMPULSE, 1e4, "2.2 kip·s"),
                 (ENERGY, 1e3, "8.9 kip·in"),
                 (LINE_LOAD, 14_593.903, "1.00 kip/ft"),
                 (LARGE_STIFFNESS, 175_126_835.0, "1000.0 kip/in"),
                 (STRESS, 20.684_271_88e6, "3.00 ksi"),
                 (MODULUS, 199.947_961_5e9, "29000 ksi"),
                 (PRESSURE, 47_880.258_98, "1.00 ksf"),
-                (MASS, 1e5, "220.5 kip"),
+                (MASS, 1e5, "220 kip"),
                 (SPEED, 1.0, "39.4 in/s"),
                 (GROUND_ACCELERATION, 9.806_65, "386.1 in/s²"),
             ] {

@@ -78,8 +78,8 @@ fn names_with_markup_are_escaped() {
     assert!(!text.contains("\"</script>"), "a name ended a script");
     assert_eq!(
         text.matches("</script>").count(),
-        3,
-        "one for the data, one for the texts, one for the code"
+        4,
+        "one each for the data, the texts, the units and the code"
     );
 }
 

@@ -77,8 +77,8 @@ fn the_page_escapes_names_and_loads_nothing() {
     assert!(!text.contains("<b>J&1") && !text.contains("<i>title"));
     assert_eq!(
         text.matches("</script>").count(),
-        3,
-        "data, texts and the script"
+        4,
+        "data, texts, units and the script"
     );
     let text = text.replace("http://www.w3.org/2000/svg", "");
     for outside in ["http://", "https://", "@import", "src=", "fetch("] {

@@ -39,10 +39,26 @@ const SI: &[&str] = &[
     "N·m/rad",
 ];
 
+/// What may stay in SI: the titles of the fixtures, clauses of codes with their inputs, and what checks find.
+const TYPED: &[&str] = &["100 mm apart", "§6.1.4", "a_g S", "E.030-2018"];
+
+fn may_stay(text: &str) -> bool {
+    // A finding ends with its number: (A11).
+    let finding = text.rsplit_once('(').is_some_and(|(_, number)| {
+        let number = number.trim_end_matches(['.', ')']);
+        number.starts_with(|c: char| c.is_ascii_uppercase())
+            && number[1..].chars().all(|c| c.is_ascii_digit())
+    });
+    finding || TYPED.iter().any(|own| text.contains(own))
+}
+
 /// Words of a page that are SI units.
 fn si_units(page: &str) -> Vec<String> {
     let mut found = Vec::new();
-    for text in sources::shown(page) {
+    for text in sources::shown(page)
+        .into_iter()
+        .filter(|text| !may_stay(text))
+    {
         let words = text.split([' ', '\u{a0}', '\u{202f}', '[', ']', '(', ')', ',', ';', ':']);
         let units = words.filter(|word| SI.contains(&word.trim_end_matches('.')));
         found.extend(units.map(|unit| format!("{unit} in \"{text}\"")));
