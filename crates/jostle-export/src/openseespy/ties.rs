@@ -33,6 +33,7 @@ pub(super) fn is_held_by(support: Support, component: usize) -> bool {
         Support::Fixed => true,
         Support::Guided => component != 0,
         Support::Turning => component != 2,
+        Support::Swaying => component == 2,
     }
 }
 

@@ -572,15 +572,20 @@ pub(super) fn read_base(reader: &mut Reader<'_>, view: &View<'_>, is_shear: bool
     base.horizontal_damping = quantity("horizontal_damping", Dimension::Damping);
     base.mass = quantity("mass", Dimension::Mass);
     base.rotational_damping = quantity("rotational_damping", Dimension::RotationalDamping);
+    match is_shear {
+        true => {
+            let key = "torsional_damping";
+            base.torsional_damping = quantity(key, Dimension::RotationalDamping);
+        }
+        false => base.vertical_damping = quantity("vertical_damping", Dimension::Damping),
+    }
     if is_shear {
-        base.torsional_damping = quantity("torsional_damping", Dimension::RotationalDamping);
         let [turning, twisting] = ["rotational_stiffness", "torsional_stiffness"]
             .map(|key| or_rigid(reader, &view, key, Dimension::RotationalStiffness));
         (base.rotational_stiffness, base.torsional_stiffness) = (turning, twisting);
         base.across = read_across(reader, &view, &base);
     }
     if !is_shear {
-        base.vertical_damping = quantity("vertical_damping", Dimension::Damping);
         base.vertical_stiffness =
             or_rigid(reader, &view, "vertical_stiffness", Dimension::Stiffness);
         let uplift = reader.get(&view, "uplift");
