@@ -20,11 +20,14 @@ pub struct PlanStorey {
     pub height: f64,
 }
 
+/// Displacements, centre of mass and plan of what is below.
+type Below<'a> = ([Option<usize>; 3], PlanPoint, &'a [PlanPoint]);
+
 impl PlanStorey {
     /// Between a floor, given by its displacements, its centre and its plan, and what is below.
     pub(super) fn new(
         (above, centre, plan): ([usize; 3], PlanPoint, &[PlanPoint]),
-        below: Option<([Option<usize>; 3], PlanPoint, &[PlanPoint])>,
+        below: Option<Below<'_>>,
         height: f64,
     ) -> Self {
         let smaller = match below {
