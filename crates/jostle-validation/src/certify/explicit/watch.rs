@@ -395,22 +395,26 @@ fn place_in_plan(building: &BuildingSystem, add: &mut impl FnMut(Signal) -> usiz
     // Motion of a vertical line of a storey, at a place from the centre of mass above.
     let line = |storey: usize, at: [f64; 2]| -> [Row; 2] {
         let own = &building.plan_storeys[storey];
-        let place = |dofs: [usize; 3], arm: [f64; 2], sign: f64| {
-            let [x, y, turned] = dofs.map(|dof| dof + offset);
-            [
+        // What a footing keeps from moving has no displacement.
+        let place = |dofs: [Option<usize>; 3], arm: [f64; 2], sign: f64| {
+            let [x, y, turned] = dofs.map(|dof| dof.map(|dof| dof + offset));
+            let both = [
                 [(x, sign), (turned, -sign * arm[1])],
                 [(y, sign), (turned, sign * arm[0])],
-            ]
+            ];
+            both.map(|row| {
+                let shares = row.into_iter();
+                shares.filter_map(|(dof, share)| Some((dof?, share)))
+            })
         };
-        let above = place(own.above, at, 1.0);
+        let above = place(own.above.map(Some), at, 1.0);
         let below = own.below.map(|dofs| {
             let arm = [own.offset[0] + at[0], own.offset[1] + at[1]];
             place(dofs, arm, -1.0)
         });
         [0, 1].map(|axis| {
-            let mut row: Row = above[axis].to_vec();
-            row.extend(below.iter().flat_map(|below| below[axis]));
-            row
+            let below = below.iter().flat_map(|below| below[axis].clone());
+            above[axis].clone().chain(below).collect()
         })
     };
     let sum = |which: Direction, base: usize, arm: &dyn Fn(usize) -> f64| -> Row {
