@@ -865,6 +865,7 @@ mod tests {
             height_m: 3.0 * number as f64,
             response: response(with),
             without_contact: Some(response(without)),
+            without_contact_in_plan: None,
             amplification: None,
         }
     }

@@ -96,7 +96,7 @@ fn scripts_have_the_units_of_their_page() {
     let us = in_units(Some(Units::Us), || render(&run.page()));
     let units = part(&us, "page-units");
     assert_eq!(units["kN"]["name"], "kip");
-    assert!((units["kN"]["factor"].as_f64().unwrap() * 4448.221_615_260_5 - 1.0).abs() < 1e-12);
+    assert!((units["kN"]["factor"].as_f64().unwrap() * 4_448.221_615_260_5 - 1.0).abs() < 1e-12);
     assert_eq!(
         part(&us, "page-messages")["impact_in_words"],
         "{instant} s, {contact}: {force} kip"
