@@ -369,7 +369,7 @@ mod tests {
             for (own, si, text) in [
                 (LENGTH, 0.1, "3.94 in"),
                 (HEIGHT, 30.48, "100.0 ft"),
-                (FORCE, 4448.221_615, "1.0 kip"),
+                (FORCE, 4_448.221_615, "1.0 kip"),
                 (MOMENT, 1e6, "737.6 kip·ft"),
                 (IMPULSE, 1e4, "2.2 kip·s"),
                 (ENERGY, 1e3, "8.9 kip·in"),
