@@ -3,19 +3,17 @@
 //! Members of any direction between any points, with released ends and stiff lengths. Joints of a floor move with it in plan; all
 //! others are free. Unit loads on the floors give their flexibility, as unit loads in the source would.
 
-use std::collections::BTreeMap;
-
 use jostle_io::InputError;
 
-use crate::beam::{Beam, Stiffness};
+use crate::beam::Beam;
+use crate::element::{Element, Shares};
 use crate::facts::{Facts, Floor, fault};
+use crate::joints::{Joints, ONE_JOINT};
 use crate::matrix::{Envelope, symmetrise};
 use crate::member::TextModel;
 use crate::section::rigidity;
 use crate::wall_panel::{edges, panels};
 
-/// Points nearer than this are one joint \[m\].
-const ONE_JOINT: f64 = 0.002;
 /// A displacement whose pivot is less than this part of its stiffness has none: rounding leaves less than 1e-13.
 const LEAST_PIVOT: f64 = 1e-11;
 /// Most numbers of the factor: one gigabyte.
@@ -29,79 +27,6 @@ const MOVES: [&str; 6] = [
     "turn about Y",
     "turn about Z",
 ];
-
-/// Joints by cells a little larger than what is one joint.
-#[derive(Default)]
-pub(crate) struct Joints {
-    pub(crate) at: Vec<[f64; 3]>,
-    cells: BTreeMap<[i64; 3], Vec<usize>>,
-}
-
-impl Joints {
-    fn cell(at: [f64; 3]) -> [i64; 3] {
-        at.map(|own| (own / (2.0 * ONE_JOINT)).floor() as i64)
-    }
-
-    fn find(&self, at: [f64; 3]) -> Option<usize> {
-        let [x, y, z] = Self::cell(at);
-        let beside = |own: i64| own.saturating_sub(1)..=own.saturating_add(1);
-        let cells =
-            beside(x).flat_map(|x| beside(y).flat_map(move |y| beside(z).map(move |z| [x, y, z])));
-        let near = |joint: &&usize| distance(self.at[**joint], at) < ONE_JOINT;
-        cells
-            .filter_map(|cell| self.cells.get(&cell))
-            .flatten()
-            .find(near)
-            .copied()
-    }
-
-    pub(crate) fn add(&mut self, at: [f64; 3]) -> usize {
-        self.find(at).unwrap_or_else(|| {
-            self.at.push(at);
-            let joint = self.at.len() - 1;
-            self.cells.entry(Self::cell(at)).or_default().push(joint);
-            joint
-        })
-    }
-}
-
-impl Joints {
-    /// Where a joint lies inside a line from `a` to `b`, as a share of its length.
-    fn share(&self, joint: usize, [a, b]: [[f64; 3]; 2]) -> Option<f64> {
-        let at = self.at[joint];
-        let line = [0, 1, 2].map(|axis| b[axis] - a[axis]);
-        let square: f64 = line.iter().map(|own| own * own).sum();
-        let along: f64 = (0..3).map(|axis| (at[axis] - a[axis]) * line[axis]).sum();
-        let share = along / square;
-        let foot = [0, 1, 2].map(|axis| a[axis] + share * line[axis]);
-        let ends = [a, b].iter().any(|end| distance(at, *end) < ONE_JOINT);
-        let inside = share > 0.0 && share < 1.0 && !ends;
-        (inside && distance(at, foot) < ONE_JOINT).then_some(share)
-    }
-
-    /// Where the first of the joints inside a line between two of them lies.
-    pub(crate) fn inside(&self, [a, b]: [usize; 2]) -> Option<f64> {
-        let line = [self.at[a], self.at[b]];
-        let shares = (0..self.at.len()).filter_map(|joint| self.share(joint, line));
-        shares.min_by(f64::total_cmp)
-    }
-
-    /// The joint at a share of a line between two joints.
-    pub(crate) fn between(&mut self, [a, b]: [usize; 2], share: f64) -> usize {
-        let [a, b] = [self.at[a], self.at[b]];
-        self.add([0, 1, 2].map(|axis| a[axis] + share * (b[axis] - a[axis])))
-    }
-}
-
-fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
-    (0..3)
-        .map(|axis| (a[axis] - b[axis]).powi(2))
-        .sum::<f64>()
-        .sqrt()
-}
-
-/// What a displacement of a joint is: shares of free displacements of the structure.
-pub(crate) type Shares = Vec<(usize, f64)>;
 
 /// What was made of the members.
 pub(crate) struct Assembled {
@@ -370,45 +295,6 @@ fn numbered(
         shares[joint][5] = vec![(turn, 1.0)];
     }
     (shares, owners, masters)
-}
-
-/// A stiffness over rows of free displacements: its entries of the lower triangle.
-pub(crate) struct Element(Vec<(usize, usize, f64)>);
-
-impl Element {
-    pub(crate) fn new(rows: [Shares; 12], stiffness: &Stiffness) -> Self {
-        let mut entries = Vec::new();
-        for (row, values) in rows.iter().zip(stiffness) {
-            for (column, value) in rows.iter().zip(values).filter(|own| *own.1 != 0.0) {
-                for (i, a) in row {
-                    let below = column.iter().filter(|own| own.0 <= *i);
-                    entries.extend(below.map(|(j, b)| (*i, *j, a * b * value)));
-                }
-            }
-        }
-        Self(entries)
-    }
-
-    /// A spring against one combination of displacements.
-    pub(crate) fn spring(row: Shares, stiffness: f64) -> Self {
-        let mut entries = Vec::new();
-        for (i, a) in &row {
-            let below = row.iter().filter(|own| own.0 <= *i);
-            entries.extend(below.map(|(j, b)| (*i, *j, a * b * stiffness)));
-        }
-        Self(entries)
-    }
-}
-
-/// The sum of rows times factors, each displacement once.
-pub(crate) fn combined(rows: &[(&Shares, f64)]) -> Shares {
-    let mut sum: BTreeMap<usize, f64> = BTreeMap::new();
-    for (row, factor) in rows {
-        for (place, share) in *row {
-            *sum.entry(*place).or_default() += factor * share;
-        }
-    }
-    sum.into_iter().collect()
 }
 
 /// The elements of all pieces of members.

@@ -8,10 +8,10 @@ use jostle_io::InputError;
 
 use crate::assembled::assemble;
 use crate::facts::{Facts, Floor, Point, key};
+use crate::left_out::softer;
 use crate::matrix::{positive_definite, symmetrise};
 use crate::member::TextModel;
 use crate::options::{Direction, ImportOptions, Way};
-use crate::space_frame::softer;
 use crate::text::plain;
 
 /// Largest matrices that stand in the model file itself.

@@ -2,6 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::facts::Facts;
+use crate::member::TextModel;
+
 /// Words of names, and what it means to leave out what they stand for; the first that fits holds.
 const MEANINGS: [(&[&str], &str); 4] = [
     (
@@ -66,4 +69,14 @@ pub(crate) fn lines(file: &str, what: &str, names: &BTreeSet<&str>) -> Vec<Strin
         format!("{file}: {meaning} ({what} {})", names.join(", "))
     };
     found.into_iter().map(line).collect()
+}
+
+/// What stiffens the source and is in no building of its members.
+pub(crate) fn softer(facts: &mut Facts, model: &TextModel) {
+    if model.members.iter().any(|member| member.moved) {
+        facts.left_out.push(format!("{}: members aside of their joints, or end offsets that the source finds by itself: jostle's run from joint to joint, so that periods are longer", model.file));
+    }
+    if let Some(slab) = model.bending_slabs.first() {
+        facts.left_out.push(format!("{}: {} floor areas bend, such as those of slab \"{slab}\": their stiffness is missing, so that periods are longer, by 10 % and more where beams are shallow", model.file, model.bending_slabs.len()));
+    }
 }

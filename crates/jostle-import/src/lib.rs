@@ -8,9 +8,11 @@
 mod assembled;
 mod beam;
 mod e2k;
+mod element;
 mod facts;
 mod given;
 mod import;
+mod joints;
 mod left_out;
 mod listing;
 mod matrix;

@@ -7,6 +7,7 @@ use jostle_io::InputError;
 
 use crate::facts::{Facts, Point};
 use crate::given::{Built, digits, head, plans, point, quantities};
+use crate::left_out::softer;
 use crate::member::{Member, SectionFacts, TextModel};
 
 /// Joints nearer than this stand on one line \[m\].
@@ -249,16 +250,6 @@ pub(crate) fn build(facts: &mut Facts, model: &TextModel) -> Result<Built, Input
         in_space: true,
         axis: 0,
     })
-}
-
-/// What stiffens the source and is in no building of its members.
-pub(crate) fn softer(facts: &mut Facts, model: &TextModel) {
-    if model.members.iter().any(|member| member.moved) {
-        facts.left_out.push(format!("{}: members aside of their joints, or end offsets that the source finds by itself: jostle's run from joint to joint, so that periods are longer", model.file));
-    }
-    if let Some(slab) = model.bending_slabs.first() {
-        facts.left_out.push(format!("{}: {} floor areas bend, such as those of slab \"{slab}\": their stiffness is missing, so that periods are longer, by 10 % and more where beams are shallow", model.file, model.bending_slabs.len()));
-    }
 }
 
 /// 0 for a column, 1 for a beam along x, 2 for a beam along y.

@@ -5,9 +5,10 @@
 
 use jostle_io::InputError;
 
-use crate::assembled::{Element, Joints, Shares, combined};
 use crate::beam::Beam;
+use crate::element::{Element, Shares, combined};
 use crate::facts::fault;
+use crate::joints::Joints;
 use crate::member::{TextModel, Wall};
 
 /// Corners are at one height, or above each other, within this \[m\].

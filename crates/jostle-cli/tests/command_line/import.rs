@@ -89,7 +89,7 @@ fn wrong_files_exit_with_2_and_write_nothing() {
         (&["etabs", "nothing.xlsx"], "nothing.xlsx cannot be read"),
         (&["etabs", "a.e2k"], "has no line UNITS"),
         (&["sap2000", "a.e2k"], "jostle import etabs"),
-        (&["etabs", "hotel.xlsx", "--by", "modes"], "--direction x"),
+        (&["etabs", "hotel.xlsx", "--by", "modes"], "shapes of modes"),
         (
             &["etabs", "hotel.xlsx", "--by", "modes", "--direction", "x"],
             "has no stiffness",

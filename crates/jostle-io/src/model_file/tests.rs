@@ -161,6 +161,7 @@ elastic_modulus = 3e10
 lines_x = [0, 6]
 lines_y = [0, 5]
 beam_x = { width = 1, depth = 1 }
+wall = [{ along = "x", x = 1, length = 1, thickness = 0.2, hinge = { yield = 1 } }]
 hinges = { rule = "pinched", column = { x = { yield = 1 } }, beam = { yield = 1 } }
 [[building.column]]
 size = [1, 1]
