@@ -302,8 +302,8 @@ mod tests {
         );
         assert_eq!(
             text.matches("</script>").count(),
-            4,
-            "data, texts, the script, and that of light and dark"
+            5,
+            "data, texts, units, the script, and that of light and dark"
         );
     }
 

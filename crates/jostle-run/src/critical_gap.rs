@@ -256,6 +256,8 @@ struct OneGap<'a> {
     closing: f64,
     /// Widths that were run, and what they led to.
     known: Vec<GapPoint>,
+    /// Runs made with the other sign of the motion, for the numbers of runs.
+    others: usize,
 }
 
 impl<'a> OneGap<'a> {
@@ -266,12 +268,13 @@ impl<'a> OneGap<'a> {
             between: between.clone(),
             closing,
             known: Vec::new(),
+            others: 0,
         }
     }
 
-    /// Runs made, the one without contact included.
+    /// Runs made, the one without contact and those with the other sign included.
     fn runs(&self) -> usize {
-        self.known.len() + 1
+        self.known.len() + 1 + self.others
     }
 
     /// Widths that are not hit, since the buildings never come so close.
@@ -443,7 +446,9 @@ impl Search<'_> {
             rule.ratio = (bracket.free > 0.0).then(|| rule.gap_m / bracket.free);
             rule.ratio_of_both_signs = (free_of_both > 0.0).then(|| rule.gap_m / free_of_both);
             if let Some(other) = other.as_mut().filter(|_| settings.outcomes) {
+                other.others = one.known.len();
                 let led = other.at(rule.gap_m)?;
+                one.others = other.known.len();
                 rule.reversed_impact_count = Some(led.impact_count);
                 rule.reversed_peak_force_n = Some(led.peak_force_n);
             }
@@ -467,7 +472,7 @@ impl Search<'_> {
             pounding_at_m: bracket.pounding,
             closing_without_contact_m: closing,
             height_m: apart.system.contacts[nearest].height,
-            runs: one.runs() + other.as_ref().map_or(0, OneGap::runs),
+            runs: one.runs(),
             periods_s: modes.map(|mode| mode.map_or(0.0, |(period, _)| period)),
             damping: modes.map(|mode| mode.map_or(0.0, |(_, damping)| damping)),
             ddc_correlation: apart.summary.correlation(self.model, gap),
@@ -607,7 +612,10 @@ mod tests {
             }
             assert!(progress.time <= progress.duration * (1.0 + 1e-9));
         };
-        let settings = GapSettings::default();
+        let settings = GapSettings {
+            reversed: false,
+            ..GapSettings::default()
+        };
         let found = critical_gaps(&input.model, &motion, &settings, &|| false, &report);
         let found = found.unwrap_or_else(|error| panic!("{error}"));
         let gap = &found[0];

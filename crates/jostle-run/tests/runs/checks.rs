@@ -628,7 +628,7 @@ fn hinges_of_a_quiet_frame_keep_their_axial_force() {
         "gravity = true\np_delta = true",
     ] {
         let text = format!(
-            "[[building]]\nname = \"A\"\nstoreys = 3\nstorey_height = \"3 m\"\nspans = [\"5 m\"]\nconcrete = \"C20\"\nbeam_mass = \"6 t/m\"\ndamping = {{ ratio = 0.05 }}\nhinges = {{ rule = \"takeda\", from = \"section\" }}\ncolumn = {{ width = \"400 mm\", depth = \"400 mm\", steel = \"400 MPa\", bars = \"8 d20\" }}\nbeam = {{ width = \"250 mm\", depth = \"500 mm\", steel = \"400 MPa\", bars = \"6 d20\" }}\n{gravity}\n[analysis]\nmembers = true\n"
+            "[[building]]\nname = \"A\"\nstoreys = 3\nstorey_height = \"3 m\"\nspans = [\"5 m\"]\nconcrete = \"C20\"\nbeam_mass = \"6 t/m\"\ndamping = {{ ratio = 0.05 }}\nhinges = {{ rule = \"takeda\", from = \"section\" }}\ncolumn = {{ width = \"400 mm\", depth = \"400 mm\", steel = \"400 MPa\", bars = \"8 d20\" }}\nbeam = {{ width = \"250 mm\", depth = \"500 mm\", steel = \"400 MPa\", bars = \"6 d20\" }}\n{gravity}\n[output]\nmembers = true\n"
         );
         let (prepared, summary) = run(sound(&text), false);
         let quiet = |scale: f64| {
