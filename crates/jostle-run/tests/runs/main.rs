@@ -3,6 +3,7 @@
 mod checks;
 mod comparison;
 mod damage;
+mod gap_directions;
 mod given;
 mod indentation;
 mod isolation_bounds;
