@@ -78,7 +78,7 @@ pub(crate) fn assemble(
     }
     let panels = panels(model, &mut joints)?;
     let pieces = pieces(model, &joints)?;
-    // Floors: joints at their height, but for those that the source leaves free.
+    // Floors: joints at their height, except those that the source leaves free.
     let mut floor_of = vec![None; joints.at.len()];
     for (joint, at) in joints.at.iter().enumerate() {
         let height = at[2] - facts.base_height();

@@ -163,19 +163,11 @@ fn i_shape([depth, width]: [f64; 2], [flange, web]: [f64; 2]) -> [f64; 6] {
 /// Numbers of a profile of the catalogue.
 fn of_profile(profile: &Profile) -> [f64; 6] {
     let [strong, weak] = [Axis::Strong, Axis::Weak].map(|axis| profile.inertia(axis));
-    let torsion = match profile {
-        Profile::I(own) => i_shape([own.depth, own.width], [own.flange, own.web])[3],
-        Profile::Tube(own) => {
-            let [a, b] = [own.depth - own.wall, own.width - own.wall];
-            2.0 * own.wall * (a * b).powi(2) / (a + b)
-        }
-        Profile::Pipe(_) => 2.0 * strong,
-    };
     [
         profile.area(),
         profile.shear_area(Axis::Strong),
         profile.shear_area(Axis::Weak),
-        torsion,
+        profile.torsion_constant(),
         weak,
         strong,
     ]
