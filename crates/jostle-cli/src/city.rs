@@ -17,7 +17,7 @@ use jostle_run::{BOLD, FolderClaim, counted_grouped, styled};
 
 use crate::failure::Failure;
 use crate::live::module;
-use crate::progress::CountBar;
+use crate::progress::Bar;
 use crate::stop::stop_on_interrupt;
 use crate::study::shard;
 use crate::terminal;
@@ -317,13 +317,13 @@ fn run(args: &RunArgs) -> Result<(), Failure> {
             Some(_) => None,
         };
         let flag = stop_on_interrupt();
-        let bar = CountBar::new("pairs");
+        let bar = Bar::new("");
         let shard = args.shard.map(|(at, of)| (at as usize + 1, of as usize));
         let done = city.run(
             &out,
             RunOptions { shard },
             &|| flag.load(Ordering::Relaxed),
-            &mut |done| bar.show(done.cases, done.of),
+            &mut |done| bar.show_count(done.cases, done.of, "pairs"),
         );
         bar.finish();
         drop(claim);

@@ -9,7 +9,7 @@ use jostle_run::{FolderClaim, may_write, name_of};
 use jostle_study::classes::{ClassesError, FILES, run_classes, write_classes};
 
 use crate::failure::Failure;
-use crate::progress::CountBar;
+use crate::progress::Bar;
 use crate::stop::stop_on_interrupt;
 use crate::terminal;
 
@@ -63,8 +63,8 @@ pub(crate) fn classes(args: &ClassesArgs) -> Result<(), Failure> {
     let claim = FolderClaim::new(&out)?;
     let flag = stop_on_interrupt();
     let stop = || flag.load(Ordering::Relaxed);
-    let bar = CountBar::new("pairs");
-    let show = |finished: usize, pairs: usize| bar.show(finished, pairs);
+    let bar = Bar::new("");
+    let show = |finished: usize, pairs: usize| bar.show_count(finished, pairs, "pairs");
     let started = Instant::now();
     let jobs = args.jobs.map(|jobs| jobs as usize);
     let results = run_classes(&file, jobs, &stop, &show);

@@ -1,17 +1,16 @@
 //! `jostle gap`: the smallest gap without pounding, compared with rules and codes.
 
-use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 
 use jostle::separation::{Code, CodeInputs, JointSystem};
 use jostle_io::shown::{FORCE, GROUND_ACCELERATION, HEIGHT, LENGTH};
 use jostle_io::{Dimension, parse_option};
-use jostle_study::{CriticalGap, GapError, GapProgress, GapSettings, critical_gaps};
+use jostle_study::{CriticalGap, GapError, GapProgress, GapSettings, search_gaps};
 
 use crate::args::ModelArgs;
 use crate::failure::Failure;
-use crate::progress::TimeBar;
+use crate::progress::Bar;
 use crate::stop::stop_on_interrupt;
 use crate::terminal;
 use jostle_run::{RuleGap, counted, earlier_gap_curves, rounded_up, write_gap_curves};
@@ -75,13 +74,14 @@ pub(crate) fn gap(args: &GapArgs) -> Result<(), Failure> {
     let mut found: Vec<CriticalGap> = Vec::new();
     let (mut title, mut notes) = (String::new(), Vec::new());
     let mut out = None;
-    for record in records {
+    let (mut searched, mut stopped) = (0, false);
+    'records: for record in &records {
         let model = ModelArgs {
             model: args.model.clone(),
             pga: args.pga.clone(),
             angle: None,
             gap: None,
-            record,
+            record: record.clone(),
             accept_unusual: args.accept_unusual,
         };
         let opened = model.open()?;
@@ -99,46 +99,71 @@ pub(crate) fn gap(args: &GapArgs) -> Result<(), Failure> {
         for warning in &opened.input.warnings {
             note(&mut notes, warning);
         }
-        for input in opened.input.each_record() {
+        let inputs = opened.input.each_record();
+        let of = inputs.len() * records.len();
+        for input in inputs {
             let (motion, _) = opened.plan_of(&input)?;
             if let Some(warning) = input.unusual_motion(&motion) {
                 note(&mut notes, &warning);
             }
-            let shown = Shown::new(&motion.name);
-            let report = |progress: &GapProgress| shown.show(progress);
-            let gaps = critical_gaps(&input.model, &motion, &settings, &stop, &report);
-            shown.bar.borrow().finish();
-            match gaps {
-                Ok(gaps) => found.extend(gaps),
-                Err(GapError::Stopped) => {
-                    if let Some(out) = out.as_ref().filter(|_| !found.is_empty()) {
-                        write_gap_curves(out, &title, &found)?;
-                        terminal::remark(&format!(
-                            "stopped; the curves of the records before are in {}",
-                            out.display()
-                        ));
+            searched += 1;
+            let prefix = match of {
+                1 => motion.name.clone(),
+                _ => format!("{} ({searched} of {of})", motion.name),
+            };
+            let bar = Bar::new(&prefix);
+            let report = |progress: &GapProgress| {
+                let GapProgress { between, done, of } = progress;
+                bar.show(done / (*of).max(1) as f64, || {
+                    let runs = format!("{} of {of} runs", done.floor());
+                    match between {
+                        Some(between) => format!("{}, {runs}", between.join(" – ")),
+                        None => runs,
                     }
-                    return Err(Failure::Stopped);
+                });
+            };
+            let search = search_gaps(&input.model, &motion, &settings, &stop, &report);
+            bar.finish();
+            match search {
+                Ok(search) => {
+                    found.extend(search.gaps);
+                    stopped = search.stopped;
                 }
+                Err(GapError::Stopped) => stopped = true,
                 Err(error @ GapError::Run(_)) => {
                     return Err(Failure::Analysis(error.to_string()));
                 }
                 Err(error) => return Err(input.fault("gap", error.to_string()).into()),
             }
+            if stopped {
+                break 'records;
+            }
+        }
+    }
+    if stopped {
+        let rest = "stopped: what follows lacks the records and outcomes that were not run";
+        note(&mut notes, rest);
+        if found.is_empty() {
+            return Err(Failure::Stopped);
         }
     }
     if let Some(out) = &out {
         write_gap_curves(out, &title, &found)?;
     }
     if args.json {
-        return terminal::print(&json(&title, &found, &notes));
+        terminal::print(&json(&title, &found, &notes))?;
+    } else {
+        let mut text = describe(&title, &found);
+        if let Some(out) = &out {
+            let page = out.join("gap_curve.html");
+            text += &format!("\nforce over gap: {}\n", page.display());
+        }
+        terminal::print(&text)?;
     }
-    let mut text = describe(&title, &found);
-    if let Some(out) = &out {
-        let page = out.join("gap_curve.html");
-        text += &format!("\nforce over gap: {}\n", page.display());
+    match stopped {
+        true => Err(Failure::Stopped),
+        false => Ok(()),
     }
-    terminal::print(&text)
 }
 
 impl GapArgs {
@@ -187,40 +212,6 @@ fn note(notes: &mut Vec<String>, warning: &str) {
     if !notes.iter().any(|known| known == warning) {
         terminal::warn(warning);
         notes.push(warning.to_owned());
-    }
-}
-
-/// Progress of the current run on a terminal.
-struct Shown {
-    bar: RefCell<TimeBar>,
-    motion: String,
-    /// Neighbours and number of the run that is shown.
-    run: RefCell<(Option<[String; 2]>, usize)>,
-}
-
-impl Shown {
-    fn new(motion: &str) -> Self {
-        Self {
-            bar: RefCell::new(TimeBar::new("")),
-            motion: motion.to_owned(),
-            run: RefCell::default(),
-        }
-    }
-
-    fn show(&self, progress: &GapProgress) {
-        let now = (progress.between.clone(), progress.run);
-        let mut bar = self.bar.borrow_mut();
-        if *self.run.borrow() != now {
-            let what = match (&progress.between, progress.width) {
-                (Some(between), Some(width)) => {
-                    format!("{} at {}", between.join(" – "), millimetres(width))
-                }
-                _ => "without contact".to_owned(),
-            };
-            bar.restart(&format!("{}, run {}, {what}", self.motion, progress.run));
-            self.run.replace(now);
-        }
-        bar.show(progress.time, progress.duration);
     }
 }
 

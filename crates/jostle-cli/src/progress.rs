@@ -1,98 +1,120 @@
 //! Progress of a run on a terminal.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use jostle_run::Stage;
 
 use crate::terminal;
 
 /// Shortest duration with a progress bar.
 const PATIENCE: Duration = Duration::from_millis(500);
+/// Time between lines where no terminal shows a bar.
+const SILENCE: Duration = Duration::from_secs(30);
+/// Environment variable that keeps both away, with the value `off`.
+const SWITCH: &str = "JOSTLE_PROGRESS";
 
-/// A bar over the time of a run, which appears only on a terminal and only after a while.
-pub(crate) struct TimeBar {
+/// How far work has come and how long it takes: a bar on a terminal, after a while; elsewhere a line now and then.
+pub(crate) struct Bar {
     bar: ProgressBar,
-    started: Instant,
-    shown: bool,
+    state: Mutex<State>,
 }
 
-impl TimeBar {
+struct State {
+    /// What is worked on.
+    what: String,
+    started: Instant,
+    /// Whether a person watches, or a log may get lines.
+    is_watched: bool,
+    tells: bool,
+    shown: bool,
+    told: Instant,
+    /// Share at which this work began, and when \[–\].
+    first: Option<(f64, Instant)>,
+}
+
+impl Bar {
     /// A bar with a text before it.
-    pub(crate) fn new(prefix: &str) -> Self {
+    pub(crate) fn new(what: &str) -> Self {
         let bar = ProgressBar::with_draw_target(Some(1000), ProgressDrawTarget::hidden());
-        let template = "{prefix} {wide_bar} {percent:>3} %  {msg}  {eta} left";
-        if let Ok(style) = ProgressStyle::with_template(template) {
+        if let Ok(style) = ProgressStyle::with_template("{prefix}{wide_bar} {percent:>3} %  {msg}")
+        {
             bar.set_style(style);
         }
-        bar.set_prefix(prefix.to_owned());
-        Self {
-            bar,
+        let is_off = std::env::var_os(SWITCH).is_some_and(|value| value == "off");
+        let is_watched = terminal::is_watched() && !is_off;
+        let state = State {
+            what: String::new(),
             started: Instant::now(),
+            is_watched,
+            tells: !is_watched && !is_off,
             shown: false,
-        }
+            told: Instant::now(),
+            first: None,
+        };
+        let bar = Self {
+            bar,
+            state: Mutex::new(state),
+        };
+        bar.restart(what);
+        bar
     }
 
-    /// Begins with another run under another text; the bar stays where it is.
-    pub(crate) fn restart(&self, prefix: &str) {
+    /// Begins with other work; the bar stays where it is.
+    pub(crate) fn restart(&self, what: &str) {
+        let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
+        what.clone_into(&mut state.what);
+        state.first = None;
         self.bar.reset();
-        self.bar.set_prefix(prefix.to_owned());
+        let gap = if what.is_empty() { "" } else { " " };
+        self.bar.set_prefix(format!("{what}{gap}"));
+    }
+
+    /// Shows the share that is done, 0 to 1, and how far that is in words.
+    pub(crate) fn show(&self, share: f64, reached: impl FnOnce() -> String) {
+        let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
+        let now = Instant::now();
+        let (first, began) = *state.first.get_or_insert((share, now));
+        if state.is_watched && !state.shown && now - state.started > PATIENCE {
+            let target = ProgressDrawTarget::stderr_with_hz(5);
+            self.bar.set_draw_target(target);
+            state.shown = true;
+        }
+        let is_due = state.tells && now - state.told > SILENCE;
+        if !state.shown && !is_due {
+            return;
+        }
+        let mut text = reached();
+        let rate = (share - first) / (now - began).as_secs_f64().max(1e-3);
+        if rate > 0.0 {
+            let left = Duration::from_secs_f64(((1.0 - share).max(0.0) / rate).min(1e9));
+            text += &format!(", {} left", HumanDuration(left));
+        }
+        if is_due {
+            state.told = now;
+            let colon = if state.what.is_empty() { "" } else { ": " };
+            terminal::remark(&format!("{}{colon}{text}", state.what));
+        } else {
+            self.bar.set_position((1000.0 * share) as u64);
+            self.bar.set_message(text);
+        }
     }
 
     /// Shows the time reached, and the time to reach \[s\].
-    pub(crate) fn show(&mut self, time: f64, duration: f64) {
-        if !self.shown && terminal::is_watched() && self.started.elapsed() > PATIENCE {
-            self.bar.set_draw_target(ProgressDrawTarget::stderr());
-            self.shown = true;
-        }
-        if self.shown {
-            self.bar.set_position((1000.0 * time / duration) as u64);
-            self.bar
-                .set_message(format!("{time:.1} of {duration:.1} s"));
-        }
-    }
-
-    /// Removes the bar from the terminal.
-    pub(crate) fn finish(&self) {
-        self.bar.finish_and_clear();
-    }
-}
-
-/// A bar over a count of things, which appears only on a terminal and only after a while.
-pub(crate) struct CountBar {
-    bar: ProgressBar,
-    started: Instant,
-    shown: AtomicBool,
-}
-
-impl CountBar {
-    /// A bar with what is counted, such as `pairs`.
-    pub(crate) fn new(things: &str) -> Self {
-        let bar = ProgressBar::with_draw_target(Some(1), ProgressDrawTarget::hidden());
-        let template = format!(
-            "{{wide_bar}} {{percent:>3}} %  {{human_pos}} of {{human_len}} {things}  {{eta}} left"
-        );
-        if let Ok(style) = ProgressStyle::with_template(&template) {
-            bar.set_style(style);
-        }
-        Self {
-            bar,
-            started: Instant::now(),
-            shown: AtomicBool::new(false),
-        }
+    pub(crate) fn show_time(&self, time: f64, duration: f64) {
+        self.show(time / duration, || format!("{time:.1} of {duration:.1} s"));
     }
 
     /// Shows how many of how many are done.
-    pub(crate) fn show(&self, done: usize, of: usize) {
-        let due = terminal::is_watched() && self.started.elapsed() > PATIENCE;
-        if due && !self.shown.swap(true, Ordering::Relaxed) {
-            self.bar.set_draw_target(ProgressDrawTarget::stderr());
-        }
-        if self.shown.load(Ordering::Relaxed) {
-            self.bar.set_length(of as u64);
-            self.bar.set_position(done as u64);
-        }
+    pub(crate) fn show_count(&self, done: usize, of: usize, things: &str) {
+        let share = done as f64 / of.max(1) as f64;
+        self.show(share, || format!("{done} of {of} {things}"));
+    }
+
+    /// Prints a remark above the bar.
+    pub(crate) fn remark(&self, text: &str) {
+        self.bar.suspend(|| terminal::remark(text));
     }
 
     /// Removes the bar from the terminal.
@@ -103,7 +125,7 @@ impl CountBar {
 
 /// A bar for each stage of a run in turn.
 #[derive(Default)]
-pub(crate) struct StageBar(Option<(Stage, TimeBar)>);
+pub(crate) struct StageBar(Option<(Stage, Bar)>);
 
 impl StageBar {
     /// Shows the time reached, and the time to reach \[s\].
@@ -117,10 +139,10 @@ impl StageBar {
                 Stage::ContactSensitivity => "other contacts",
                 Stage::IsolationBounds => "bearing bounds ",
             };
-            self.0 = Some((stage, TimeBar::new(prefix)));
+            self.0 = Some((stage, Bar::new(prefix)));
         }
-        if let Some((_, bar)) = &mut self.0 {
-            bar.show(time, duration);
+        if let Some((_, bar)) = &self.0 {
+            bar.show_time(time, duration);
         }
     }
 

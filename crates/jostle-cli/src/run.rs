@@ -17,7 +17,7 @@ use jostle_section::capacity::ShearRule;
 use crate::args::{RunArgs, SolverName};
 use crate::failure::Failure;
 use crate::printer::Printer;
-use crate::progress::{CountBar, StageBar};
+use crate::progress::{Bar, StageBar};
 use crate::replace::Target;
 use crate::stop::stop_on_interrupt;
 use crate::terminal;
@@ -237,9 +237,9 @@ fn wanted_gradients(args: &RunArgs) -> Result<Option<GradientRequest>, Failure> 
 
 /// Derivatives of the peaks; empty, with a remark, if they were stopped.
 fn found_gradients(request: &GradientRequest, stop: &AtomicBool) -> Result<Vec<Gradient>, Failure> {
-    let bar = CountBar::new("runs for gradients");
+    let bar = Bar::new("");
     let found = request.gradients(&|| stop.load(Ordering::Relaxed), &|done, of| {
-        bar.show(done, of);
+        bar.show_count(done, of, "runs for gradients");
     });
     bar.finish();
     Ok(found?.unwrap_or_else(|| {

@@ -1,19 +1,16 @@
 //! `jostle size`: the least of something that keeps conditions.
 
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::sync::Arc;
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use jostle_io::shown::follow;
 use jostle_io::{Dimension, ModelTree, parse_option};
 use jostle_study::size::{Over, SizeProblem, SizeProgress, SizeRequest, earlier_size_files};
 
 use crate::failure::Failure;
+use crate::progress::Bar;
 use crate::stop::stop_on_interrupt;
 use crate::terminal;
-
-/// Shortest duration with a progress bar.
-const PATIENCE: Duration = Duration::from_millis(500);
 
 #[derive(Debug, clap::Args)]
 #[command(
@@ -98,16 +95,27 @@ pub(crate) fn size(args: &SizeArgs) -> Result<(), Failure> {
         }
     }
     let stop = stop_on_interrupt();
-    let bar = Bar::new(args.trials as u64);
-    let shown = bar.clone();
-    let progress = Box::new(move |progress| shown.show(progress));
+    let bar = Arc::new(Bar::new(""));
+    let (shown, trials) = (Arc::clone(&bar), args.trials);
+    let progress = Box::new(move |progress: SizeProgress| {
+        shown.show(progress.trials as f64 / trials as f64, || {
+            let best = match progress.best {
+                Some(best) => format!("least {best:.5e}"),
+                None => "none keeps the conditions".to_owned(),
+            };
+            format!(
+                "{} of {trials} trials, generation {}, {best}",
+                progress.trials, progress.generation
+            )
+        });
+    });
     let done = problem.run(
         out.as_deref(),
         args.jobs.map(|jobs| jobs as usize),
         &stop,
         progress,
     );
-    bar.0.finish_and_clear();
+    bar.finish();
     let results = done?;
     if args.json {
         terminal::print(&format!("{:#}", results.json()))?;
@@ -139,34 +147,4 @@ fn folder(args: &SizeArgs) -> Option<PathBuf> {
     );
     let default = || (!args.json).then(|| Path::new("jostle-out").join(format!("{name}-size")));
     args.out.clone().or_else(default)
-}
-
-/// A bar over the trials, which appears only on a terminal and only after a while.
-#[derive(Clone)]
-struct Bar(ProgressBar, Instant);
-
-impl Bar {
-    fn new(trials: u64) -> Self {
-        let bar = ProgressBar::with_draw_target(Some(trials), ProgressDrawTarget::hidden());
-        let template = "{wide_bar} {pos} of {len} trials  {msg}";
-        if let Ok(style) = ProgressStyle::with_template(template) {
-            bar.set_style(style);
-        }
-        Self(bar, Instant::now())
-    }
-
-    fn show(&self, progress: SizeProgress) {
-        if self.0.is_hidden() && terminal::is_watched() && self.1.elapsed() > PATIENCE {
-            self.0
-                .set_draw_target(ProgressDrawTarget::stderr_with_hz(5));
-        }
-        self.0.set_position(progress.trials as u64);
-        self.0.set_message(match progress.best {
-            Some(best) => format!("generation {}, least {best:.5e}", progress.generation),
-            None => format!(
-                "generation {}, none keeps the conditions",
-                progress.generation
-            ),
-        });
-    }
 }

@@ -1,12 +1,8 @@
 //! `jostle run` of a model with several records.
 
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
-use std::sync::PoisonError;
 use std::sync::atomic::Ordering;
-use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use jostle_motion::GoverningRule;
 use jostle_run::{FolderClaim, Opened};
 use jostle_study::suite::{Suite, SuiteOptions, SuiteProgress, earlier_suite_files};
@@ -14,11 +10,9 @@ use jostle_study::suite::{Suite, SuiteOptions, SuiteProgress, earlier_suite_file
 use crate::args::RunArgs;
 use crate::failure::Failure;
 use crate::printer::Printer;
+use crate::progress::Bar;
 use crate::stop::stop_on_interrupt;
 use crate::terminal;
-
-/// Shortest duration with a progress bar.
-const PATIENCE: Duration = Duration::from_millis(500);
 
 pub(crate) fn run(
     args: &RunArgs,
@@ -56,8 +50,12 @@ pub(crate) fn run(
     };
     let flag = stop_on_interrupt();
     let stop = || flag.load(Ordering::Relaxed);
-    let bar = Bar::new();
-    let show = |progress| bar.show(progress);
+    let bar = Bar::new("");
+    let show = |progress: SuiteProgress| {
+        bar.show(progress.share, || {
+            format!("{} of {} records", progress.finished, progress.records)
+        });
+    };
     let done = suite.run(out.as_deref(), &options, &stop, &show);
     drop(claim);
     bar.finish();
@@ -110,46 +108,4 @@ fn make(out: &Path) -> Result<(), Failure> {
     std::fs::create_dir_all(out).map_err(|error| {
         Failure::Input(format!("cannot make the folder {}: {error}", out.display()))
     })
-}
-
-/// A bar over all records, which appears only on a terminal and only after a while.
-struct Bar {
-    bar: ProgressBar,
-    started: Instant,
-    shown: Mutex<bool>,
-}
-
-impl Bar {
-    fn new() -> Self {
-        let bar = ProgressBar::with_draw_target(Some(1000), ProgressDrawTarget::hidden());
-        let template = "{wide_bar} {percent:>3} %  {msg}  {eta} left";
-        if let Ok(style) = ProgressStyle::with_template(template) {
-            bar.set_style(style);
-        }
-        Self {
-            bar,
-            started: Instant::now(),
-            shown: Mutex::new(false),
-        }
-    }
-
-    fn show(&self, progress: SuiteProgress) {
-        let mut shown = self.shown.lock().unwrap_or_else(PoisonError::into_inner);
-        if !*shown && terminal::is_watched() && self.started.elapsed() > PATIENCE {
-            self.bar
-                .set_draw_target(ProgressDrawTarget::stderr_with_hz(5));
-            *shown = true;
-        }
-        if *shown {
-            self.bar.set_position((1000.0 * progress.share) as u64);
-            self.bar.set_message(format!(
-                "{} of {} records",
-                progress.finished, progress.records
-            ));
-        }
-    }
-
-    fn finish(&self) {
-        self.bar.finish_and_clear();
-    }
 }

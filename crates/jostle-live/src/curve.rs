@@ -250,14 +250,8 @@ pub(crate) fn marks(
         curve: 0,
         codes: prepared.input.codes.clone(),
     };
-    let found = critical_gaps(
-        &prepared.input.model,
-        &prepared.motion,
-        &settings,
-        stop,
-        &|_| {},
-    )
-    .map_err(|error| error.to_string())?;
+    let (model, motion) = (&prepared.input.model, &prepared.motion);
+    let found = critical_gaps(model, motion, &settings, stop).map_err(|error| error.to_string())?;
     let mut marks = Vec::new();
     for gap in &found {
         let pair = if found.len() > 1 {

@@ -295,7 +295,7 @@ pub(crate) fn critical_gaps(
             let work = scope.spawn(|| {
                 let stop = || halt.load(Ordering::Relaxed);
                 let (model, motion) = (&prepared.input.model, &prepared.motion);
-                jostle_study::critical_gaps(model, motion, &settings, &stop, &|_| {})
+                jostle_study::critical_gaps(model, motion, &settings, &stop)
             });
             while !work.is_finished() {
                 std::thread::sleep(LOOK_UP / 10);

@@ -10,11 +10,10 @@ use crate::style::{DIM, LOUD, styled};
 const SHOWN: usize = 3;
 
 /// The findings for a terminal: at most three notes and warnings, worst first. `rest`: where the others are.
-pub(crate) fn write_findings(
-    text: &mut String,
-    findings: &[Finding],
-    rest: &str,
-) -> std::fmt::Result {
+///
+/// # Errors
+/// As the text that is written to.
+pub fn write_findings(text: &mut impl Write, findings: &[Finding], rest: &str) -> std::fmt::Result {
     let shown = findings.iter().filter(|own| own.grade >= Grade::Note);
     for finding in shown.clone().take(SHOWN) {
         writeln!(text, "{}", line(finding))?;

@@ -1,5 +1,7 @@
 //! The smallest gap without pounding, by bracketing on the response, compared with rules and codes.
 
+use std::sync::{Mutex, PoisonError};
+
 use jostle::separation::{Code, CodeInputs, Requirement};
 use jostle::{GroundMotion, Model, Pounding};
 use rayon::prelude::*;
@@ -145,16 +147,21 @@ impl RuleGap {
 /// How far a search has come.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GapProgress {
-    /// Names of the neighbours whose gap is searched; `None` in the run without contact, which serves all gaps.
+    /// Names of the neighbours whose gap is searched; `None` in the runs without contact, which serve all gaps.
     pub between: Option<[String; 2]>,
-    /// Number of the run, from 1.
-    pub run: usize,
-    /// Its gap \[m\]; `None` without contact.
-    pub width: Option<f64>,
-    /// Time reached in the run \[s\].
-    pub time: f64,
-    /// Time to reach \[s\].
-    pub duration: f64,
+    /// Runs made, with the parts done of those under way.
+    pub done: f64,
+    /// Runs known to be needed so far.
+    pub of: usize,
+}
+
+/// What a search has found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GapSearch {
+    /// Gaps in the order of the model. Of the last one outcomes or the curve are missing where the search was stopped.
+    pub gaps: Vec<CriticalGap>,
+    /// Whether it was stopped before its end.
+    pub stopped: bool,
 }
 
 /// A gap wider than the greatest closing without contact by this share of it is not hit: all that differs is rounding.
@@ -172,53 +179,142 @@ const MOST_RUNS: usize = 200;
 /// Buildings that do not touch do not feel the gap, so the greatest closing of a run without contact is the answer
 /// except for rounding: no wider gap is run, because there is no contact. A run with contact at a narrower one
 /// makes sure that there is an impact, and bisection narrows the bracket to `settings.tolerance`. No width is run
-/// twice. `report` is called often while a run is under way.
+/// twice. Both signs of the motion and the outcomes of rules are run on all cores. `report` is called often while runs
+/// are under way. A search that is stopped keeps what it has found.
 ///
 /// # Errors
-/// [`GapError`].
+/// [`GapError`]; [`GapError::Stopped`] where it is stopped before anything is found.
+pub fn search_gaps(
+    model: &Model,
+    motion: &GroundMotion,
+    settings: &GapSettings,
+    stop: &(dyn Fn() -> bool + Sync),
+    report: &(dyn Fn(&GapProgress) + Sync),
+) -> Result<GapSearch, GapError> {
+    if model.gaps.is_empty() {
+        return Err(GapError::NoGap);
+    }
+    let work = Work::new(report);
+    let widths = vec![NEVER; model.gaps.len()];
+    let apart = |motion| -> Result<_, GapError> {
+        let runs = GapRuns::new(model, motion, stop)?;
+        let apart = work.run(&runs, &widths, Pounding::Excluded)?;
+        Ok((runs, apart))
+    };
+    let other = motion.reversed();
+    work.expect(1 + usize::from(settings.reversed));
+    let (own, reversed) = rayon::join(
+        || apart(motion),
+        || settings.reversed.then(|| apart(&other)).transpose(),
+    );
+    let ((runs, apart), reversed) = (own?, reversed?);
+    let search = Search {
+        model,
+        motion,
+        work: &work,
+        runs: &runs,
+        apart: &apart,
+    };
+    let reversed = reversed.as_ref().map(|(runs, apart)| Search {
+        motion: &other,
+        runs,
+        apart,
+        ..search
+    });
+    let mut gaps = Vec::new();
+    for gap in 0..model.gaps.len() {
+        let (found, stopped) = match search.gap(gap, reversed, settings) {
+            Ok(found) => found,
+            Err(GapError::Stopped) if !gaps.is_empty() => {
+                return Ok(GapSearch {
+                    gaps,
+                    stopped: true,
+                });
+            }
+            Err(error) => return Err(error),
+        };
+        gaps.push(found);
+        if stopped {
+            return Ok(GapSearch { gaps, stopped });
+        }
+    }
+    Ok(GapSearch {
+        gaps,
+        stopped: false,
+    })
+}
+
+/// As [`search_gaps`], where only all of it is of use.
+///
+/// # Errors
+/// [`GapError`]; [`GapError::Stopped`] wherever it is stopped.
 pub fn critical_gaps(
     model: &Model,
     motion: &GroundMotion,
     settings: &GapSettings,
     stop: &(dyn Fn() -> bool + Sync),
-    report: &dyn Fn(&GapProgress),
 ) -> Result<Vec<CriticalGap>, GapError> {
-    if model.gaps.is_empty() {
-        return Err(GapError::NoGap);
+    let search = search_gaps(model, motion, settings, stop, &|_| {})?;
+    match search.stopped {
+        true => Err(GapError::Stopped),
+        false => Ok(search.gaps),
     }
-    let runs = GapRuns::new(model, motion, stop)?;
-    let search = Search {
-        model,
-        motion,
-        runs,
-        report,
-    };
-    let widths = vec![NEVER; model.gaps.len()];
-    let first = GapProgress {
-        between: None,
-        run: 1,
-        width: None,
-        time: 0.0,
-        duration: 0.0,
-    };
-    let apart = search.run(&widths, Pounding::Excluded, first.clone())?;
-    let other = motion.reversed();
-    let reversed = match settings.reversed {
-        true => {
-            let search = Search {
-                motion: &other,
-                runs: GapRuns::new(model, &other, stop)?,
-                ..search
-            };
-            let apart = search.run(&widths, Pounding::Excluded, first)?;
-            Some((search, apart))
-        }
-        false => None,
-    };
-    (0..model.gaps.len())
-        .map(|gap| search.gap(gap, &apart, reversed.as_ref(), settings))
-        .collect()
 }
+
+/// Counts what is done and known to be needed, for reports.
+struct Work<'a> {
+    report: &'a (dyn Fn(&GapProgress) + Sync),
+    now: Mutex<GapProgress>,
+}
+
+impl<'a> Work<'a> {
+    fn new(report: &'a (dyn Fn(&GapProgress) + Sync)) -> Self {
+        let now = Mutex::new(GapProgress {
+            between: None,
+            done: 0.0,
+            of: 0,
+        });
+        Self { report, now }
+    }
+
+    fn tell(&self, change: impl FnOnce(&mut GapProgress)) {
+        let mut now = self.now.lock().unwrap_or_else(PoisonError::into_inner);
+        change(&mut now);
+        (self.report)(&now);
+    }
+
+    /// Runs that are about to be made.
+    fn expect(&self, runs: usize) {
+        self.tell(|now| now.of += runs);
+    }
+
+    fn turn_to(&self, between: &[String; 2]) {
+        self.tell(|now| now.between = Some(between.clone()));
+    }
+
+    /// One run, counted as it goes on.
+    fn run(
+        &self,
+        runs: &GapRuns<'_>,
+        widths: &[f64],
+        pounding: Pounding,
+    ) -> Result<Tried, GapError> {
+        let mut counted = 0.0;
+        let tried = runs.run(widths, pounding, &mut |reached| {
+            // A run that is repeated begins anew; it counts on only where it was.
+            let part = reached.time / reached.duration;
+            if part > counted + TOLD {
+                self.tell(|now| now.done += part - counted);
+                counted = part;
+            }
+        })?;
+        self.tell(|now| now.done += 1.0 - counted);
+        Ok(tried)
+    }
+}
+
+/// Part of a run after which progress is told \[–\].
+const TOLD: f64 = 1e-3;
 
 /// Closing of a contact of a gap that the nearest of its contacts would have, as far as it is set back from that by some part of the
 /// gap: it needs that much less \[m\].
@@ -240,53 +336,47 @@ fn nearest_of(tried: &Tried, gap: usize) -> Option<(usize, f64)> {
     nearest.map(|(contact, closing)| (contact, closing.max(0.0)))
 }
 
+/// A model under a motion, or its reverse.
+#[derive(Clone, Copy)]
 struct Search<'a> {
     model: &'a Model,
     motion: &'a GroundMotion,
-    runs: GapRuns<'a>,
-    report: &'a dyn Fn(&GapProgress),
+    work: &'a Work<'a>,
+    runs: &'a GapRuns<'a>,
+    /// The run without contact.
+    apart: &'a Tried,
 }
 
 /// One gap, while all others are out of reach.
 struct OneGap<'a> {
-    search: &'a Search<'a>,
+    search: Search<'a>,
     gap: usize,
-    between: [String; 2],
+    /// The contact that comes nearest without contact forces.
+    nearest: usize,
     /// Greatest closing without contact \[m\].
     closing: f64,
     /// Widths that were run, and what they led to.
     known: Vec<GapPoint>,
-    /// Runs made with the other sign of the motion, for the numbers of runs.
-    others: usize,
 }
 
 impl<'a> OneGap<'a> {
-    fn new(search: &'a Search<'a>, gap: usize, between: &[String; 2], closing: f64) -> Self {
-        Self {
+    fn new(search: Search<'a>, gap: usize) -> Result<Self, GapError> {
+        let (nearest, closing) = nearest_of(search.apart, gap).ok_or_else(|| {
+            let between = search.apart.summary.gaps[gap].between.join(" and ");
+            GapError::NoContact(between)
+        })?;
+        Ok(Self {
             search,
             gap,
-            between: between.clone(),
+            nearest,
             closing,
             known: Vec::new(),
-            others: 0,
-        }
-    }
-
-    /// Runs made, the one without contact and those with the other sign included.
-    fn runs(&self) -> usize {
-        self.known.len() + 1 + self.others
+        })
     }
 
     /// Widths that are not hit, since the buildings never come so close.
     fn is_out_of_reach(&self, width: f64) -> bool {
         width >= self.closing * (1.0 + BEYOND) + LEAST_BEYOND
-    }
-
-    /// The widths of all gaps, all others out of reach.
-    fn widths(&self, width: f64) -> Vec<f64> {
-        let mut widths = vec![NEVER; self.search.model.gaps.len()];
-        widths[self.gap] = width;
-        widths
     }
 
     /// Outcome with a width, if no run is needed to know it.
@@ -298,64 +388,39 @@ impl<'a> OneGap<'a> {
         known.find(|known| known.width_m == width).copied()
     }
 
+    /// Runs the model with a width, and with all other gaps out of reach.
+    fn run(&self, width: f64) -> Result<GapPoint, GapError> {
+        let mut widths = vec![NEVER; self.search.model.gaps.len()];
+        widths[self.gap] = width;
+        let work = self.search.work;
+        let tried = work.run(self.search.runs, &widths, Pounding::Included)?;
+        Ok(GapPoint::new(width, self.gap, &tried))
+    }
+
     /// Outcome with a width; runs the model only if it is not known yet.
     fn at(&mut self, width: f64) -> Result<GapPoint, GapError> {
         if let Some(point) = self.known_at(width) {
             return Ok(point);
         }
-        let progress = GapProgress {
-            between: Some(self.between.clone()),
-            run: self.runs() + 1,
-            width: Some(width),
-            time: 0.0,
-            duration: 0.0,
-        };
-        let widths = self.widths(width);
-        let tried = self.search.run(&widths, Pounding::Included, progress)?;
-        let point = GapPoint::new(width, self.gap, &tried);
+        self.search.work.expect(1);
+        let point = self.run(width)?;
         self.known.push(point);
         Ok(point)
     }
 
-    /// Force and impacts at equally spaced widths from zero to the smallest without an impact, on all cores.
-    fn curve(&mut self, count: usize, free: f64) -> Result<Vec<GapPoint>, GapError> {
-        let share = 1.0 / (count.max(2) - 1) as f64;
-        let widths: Vec<f64> = (0..count).map(|i| share * i as f64 * free).collect();
-        // Progress is told from here, so a few at a time.
-        let at_once = 4 * rayon::current_num_threads();
-        for (index, several) in widths.chunks(at_once).enumerate() {
-            (self.search.report)(&GapProgress {
-                between: Some(self.between.clone()),
-                run: self.runs() + 1,
-                width: several.first().copied(),
-                time: (index * at_once) as f64,
-                duration: count as f64,
-            });
-            let unknown = several
-                .iter()
-                .filter(|width| self.known_at(**width).is_none());
-            let unknown: Vec<_> = unknown.map(|width| (*width, self.widths(*width))).collect();
-            let (gap, runs) = (self.gap, &self.search.runs);
-            let found: Vec<Result<GapPoint, GapError>> = unknown
-                .into_par_iter()
-                .map(|(width, widths)| {
-                    let tried = runs.run(&widths, Pounding::Included, &mut |_| {})?;
-                    Ok(GapPoint::new(width, gap, &tried))
-                })
-                .collect();
-            for point in found {
-                self.known.push(point?);
-            }
-        }
-        let points = widths.iter().filter_map(|width| self.known_at(*width));
-        Ok(points.collect())
+    /// Those of the widths that have to be run, each once.
+    fn unknown(&self, widths: impl Iterator<Item = f64>) -> Vec<f64> {
+        let mut unknown: Vec<f64> = widths.filter(|w| self.known_at(*w).is_none()).collect();
+        unknown.sort_by(f64::total_cmp);
+        unknown.dedup();
+        unknown
     }
 
     /// Narrows down the smallest gap without an impact, beginning with the closing of a run without contact.
     fn bracket(&mut self, tolerance: f64) -> Result<Bracket, GapError> {
         let closing = self.closing;
         let mut is_hit = |width: f64| {
-            if self.runs() > MOST_RUNS {
+            if self.known.len() > MOST_RUNS {
                 return Err(GapError::Run("the search did not come to an end".into()));
             }
             Ok(self.at(width)?.impact_count > 0)
@@ -402,80 +467,102 @@ impl<'a> OneGap<'a> {
     }
 }
 
-impl Search<'_> {
-    fn run(
-        &self,
-        widths: &[f64],
-        pounding: Pounding,
-        mut progress: GapProgress,
-    ) -> Result<Tried, GapError> {
-        self.runs.run(widths, pounding, &mut |reached| {
-            (progress.time, progress.duration) = (reached.time, reached.duration);
-            (self.report)(&progress);
-        })
+/// Runs gaps with all of these widths, on all cores, and keeps what they lead to: all that was known before a stop.
+fn run_all(gaps: &mut [OneGap<'_>], widths: &[f64]) -> Result<(), GapError> {
+    let mut tasks = Vec::new();
+    for (index, gap) in gaps.iter().enumerate() {
+        let unknown = gap.unknown(widths.iter().copied());
+        tasks.extend(unknown.into_iter().map(|width| (index, width)));
     }
+    let Some(first) = gaps.first() else {
+        return Ok(());
+    };
+    first.search.work.expect(tasks.len());
+    let led: Vec<_> = tasks
+        .par_iter()
+        .map(|(index, width)| gaps[*index].run(*width))
+        .collect();
+    let mut whole = Ok(());
+    for ((index, _), led) in tasks.into_iter().zip(led) {
+        match led {
+            Ok(point) => gaps[index].known.push(point),
+            Err(error) if whole.is_ok() => whole = Err(error),
+            Err(_) => {}
+        }
+    }
+    whole
+}
 
+impl Search<'_> {
+    /// What is found of a gap, and whether the search was stopped before its outcomes and its curve were known.
     fn gap(
-        &self,
+        self,
         gap: usize,
-        apart: &Tried,
-        reversed: Option<&(Search<'_>, Tried)>,
+        reversed: Option<Search<'_>>,
         settings: &GapSettings,
-    ) -> Result<CriticalGap, GapError> {
+    ) -> Result<(CriticalGap, bool), GapError> {
+        let (apart, model) = (self.apart, self.model);
         let between = apart.summary.gaps[gap].between.clone();
-        let Some((nearest, closing)) = nearest_of(apart, gap) else {
-            return Err(GapError::NoContact(between.join(" and ")));
-        };
-        let mut one = OneGap::new(self, gap, &between, closing);
-        let mut other = reversed.and_then(|(search, apart)| {
-            let closing = nearest_of(apart, gap)?.1;
-            Some(OneGap::new(search, gap, &between, closing))
-        });
-        let bracket = one.bracket(settings.tolerance)?;
+        self.work.turn_to(&between);
+        let mut signs = vec![OneGap::new(self, gap)?];
+        if let Some(reversed) = reversed {
+            signs.push(OneGap::new(reversed, gap)?);
+        }
+        let (closing, nearest) = (signs[0].closing, signs[0].nearest);
+        let reversed_closing = signs.get(1).map(|other| other.closing);
+        let bracket = signs[0].bracket(settings.tolerance)?;
         // A wall has no period, and so no double difference.
-        let modes = apart.summary.first_modes(self.model, gap);
-        let required = apart
-            .summary
-            .required_gaps(self.model, gap, &settings.codes);
+        let modes = apart.summary.first_modes(model, gap);
+        let required = apart.summary.required_gaps(model, gap, &settings.codes);
         let mut rules: Vec<RuleGap> = required.rules.into_iter().map(rule_gap).collect();
-        let free_of_both = other
-            .as_ref()
-            .map_or(0.0, |other| other.closing)
-            .max(bracket.free);
+        let mut known = Ok(());
+        if settings.outcomes {
+            let widths: Vec<f64> = rules.iter().map(|rule| rule.gap_m).collect();
+            known = run_all(&mut signs, &widths);
+        }
+        let curve: Vec<f64> = match settings.curve {
+            0 => Vec::new(),
+            count => {
+                let share = 1.0 / (count.max(2) - 1) as f64;
+                let widths = (0..count).map(|i| share * i as f64 * bracket.free);
+                widths.collect()
+            }
+        };
+        known = known.and_then(|()| run_all(&mut signs[..1], &curve));
+        let stopped = match known {
+            Err(GapError::Stopped) => true,
+            known => known.map(|()| false)?,
+        };
+        let free_of_both = reversed_closing.unwrap_or(0.0).max(bracket.free);
         for rule in &mut rules {
             rule.ratio = (bracket.free > 0.0).then(|| rule.gap_m / bracket.free);
             rule.ratio_of_both_signs = (free_of_both > 0.0).then(|| rule.gap_m / free_of_both);
-            if let Some(other) = other.as_mut().filter(|_| settings.outcomes) {
-                other.others = one.known.len();
-                let led = other.at(rule.gap_m)?;
-                one.others = other.known.len();
-                rule.reversed_impact_count = Some(led.impact_count);
-                rule.reversed_peak_force_n = Some(led.peak_force_n);
+            if !settings.outcomes {
+                continue;
             }
-            if settings.outcomes {
-                let led = one.at(rule.gap_m)?;
+            if let Some(led) = signs[0].known_at(rule.gap_m) {
                 rule.impact_count = Some(led.impact_count);
                 rule.peak_force_n = Some(led.peak_force_n);
                 rule.first_impact_s = led.first_impact_s;
             }
+            if let Some(led) = signs.get(1).and_then(|other| other.known_at(rule.gap_m)) {
+                rule.reversed_impact_count = Some(led.impact_count);
+                rule.reversed_peak_force_n = Some(led.peak_force_n);
+            }
         }
-        let curve = match settings.curve {
-            0 => Vec::new(),
-            count => one.curve(count, bracket.free)?,
-        };
-        Ok(CriticalGap {
+        let found = CriticalGap {
             between,
             motion: self.motion.name.clone(),
             pga_m_s2: self.motion.peak(),
             gap_m: bracket.free,
-            reversed_gap_m: other.as_ref().map(|other| other.closing),
+            reversed_gap_m: reversed_closing,
             pounding_at_m: bracket.pounding,
             closing_without_contact_m: closing,
             height_m: apart.system.contacts[nearest].height,
-            runs: one.runs(),
+            runs: 1 + signs.iter().map(|sign| sign.known.len()).sum::<usize>(),
             periods_s: modes.map(|mode| mode.map_or(0.0, |(period, _)| period)),
             damping: modes.map(|mode| mode.map_or(0.0, |(_, damping)| damping)),
-            ddc_correlation: apart.summary.correlation(self.model, gap),
+            ddc_correlation: apart.summary.correlation(model, gap),
             rules,
             left_out: required
                 .left_out
@@ -485,8 +572,12 @@ impl Search<'_> {
                     needs: rule.needs,
                 })
                 .collect(),
-            curve,
-        })
+            curve: curve
+                .iter()
+                .filter_map(|width| signs[0].known_at(*width))
+                .collect(),
+        };
+        Ok((found, stopped))
     }
 }
 
@@ -516,8 +607,6 @@ struct Bracket {
 
 #[cfg(test)]
 mod tests {
-    use std::cell::RefCell;
-
     use jostle::Structure;
     use jostle_io::builtin_model;
 
@@ -538,7 +627,7 @@ mod tests {
             ..GapSettings::default()
         };
         let rules = |model: &Model| -> Vec<String> {
-            let found = critical_gaps(model, &motion, &settings, &|| false, &|_| {});
+            let found = critical_gaps(model, &motion, &settings, &|| false);
             let found = found.unwrap_or_else(|error| panic!("{error}"));
             found[0].rules.iter().map(|r| r.rule.clone()).collect()
         };
@@ -578,7 +667,7 @@ mod tests {
             ..GapSettings::default()
         };
         let run = |model: &Model| {
-            let found = critical_gaps(model, &motion, &settings, &|| false, &|_| {});
+            let found = critical_gaps(model, &motion, &settings, &|| false);
             found.unwrap_or_else(|error| panic!("{error}")).remove(0)
         };
         let found = run(&input.model);
@@ -604,32 +693,31 @@ mod tests {
         let motion = input
             .ground_motion()
             .unwrap_or_else(|error| panic!("{error}"));
-        let runs: RefCell<Vec<(usize, Option<f64>)>> = RefCell::default();
+        let last = Mutex::new(None);
         let report = |progress: &GapProgress| {
-            let mut runs = runs.borrow_mut();
-            if runs.last().is_none_or(|last| last.0 != progress.run) {
-                runs.push((progress.run, progress.width));
-            }
-            assert!(progress.time <= progress.duration * (1.0 + 1e-9));
+            assert!(progress.done <= progress.of as f64 + 1e-9, "{progress:?}");
+            let before = last.lock().expect("no panic").replace(progress.clone());
+            assert!(before.is_none_or(|before: GapProgress| before.done <= progress.done));
         };
         let settings = GapSettings {
             reversed: false,
             ..GapSettings::default()
         };
-        let found = critical_gaps(&input.model, &motion, &settings, &|| false, &report);
+        let found = search_gaps(&input.model, &motion, &settings, &|| false, &report);
         let found = found.unwrap_or_else(|error| panic!("{error}"));
-        let gap = &found[0];
-        let runs = runs.into_inner();
-        assert_eq!(runs.len(), gap.runs, "{runs:?}");
-        let widths: Vec<f64> = runs.iter().filter_map(|run| run.1).collect();
-        assert_eq!(widths.len() + 1, runs.len(), "one run without contact");
-        for (index, width) in widths.iter().enumerate() {
-            assert!(
-                *width < gap.closing_without_contact_m * 1.000_002,
-                "{width} cannot close"
-            );
-            assert!(!widths[..index].contains(width), "{width} is run twice");
-        }
+        assert!(!found.stopped);
+        let gap = &found.gaps[0];
+        let last = last.into_inner().expect("no panic").expect("reports");
+        assert!(last.between.is_some_and(|between| between == gap.between));
+        assert_eq!(last.of, gap.runs);
+        assert!((last.done - gap.runs as f64).abs() < 1e-9, "{}", last.done);
+        // Without contact, below the closing, and every rule that closes.
+        let closing = gap.closing_without_contact_m;
+        let mut narrow: Vec<f64> = gap.rules.iter().map(|rule| rule.gap_m).collect();
+        narrow.retain(|width| *width < closing);
+        narrow.sort_by(f64::total_cmp);
+        narrow.dedup();
+        assert_eq!(gap.runs, 2 + narrow.len(), "{narrow:?}");
         let wide = gap.rules.iter().filter(|rule| rule.gap_m > gap.gap_m);
         assert!(wide.clone().count() > 0);
         for rule in wide {
@@ -640,28 +728,52 @@ mod tests {
             );
         }
         // Checks the assumptions: runs just above the greatest closing and at the result have no impact.
-        let search = Search {
-            model: &input.model,
-            motion: &motion,
-            runs: GapRuns::new(&input.model, &motion, &|| false)
-                .unwrap_or_else(|error| panic!("{error}")),
-            report: &|_| {},
-        };
-        for width in [
-            gap.closing_without_contact_m * (1.0 + 2.0 * BEYOND),
-            gap.gap_m,
-        ] {
-            let progress = GapProgress {
-                between: None,
-                run: 1,
-                width: Some(width),
-                time: 0.0,
-                duration: 0.0,
-            };
-            let tried = search.run(&[width], Pounding::Included, progress);
+        let runs = GapRuns::new(&input.model, &motion, &|| false);
+        let runs = runs.unwrap_or_else(|error| panic!("{error}"));
+        for width in [closing * (1.0 + 2.0 * BEYOND), gap.gap_m] {
+            let tried = runs.run(&[width], Pounding::Included, &mut |_| {});
             let tried = tried.unwrap_or_else(|error| panic!("{error}"));
             assert_eq!(tried.summary.gaps[0].impact_count, 0, "at {width}");
         }
+    }
+
+    /// A search that is stopped keeps the smallest gap, and the outcomes that are known; before that there is nothing.
+    #[test]
+    fn a_stopped_search_keeps_what_it_found() {
+        let mut input = builtin_model("paper").unwrap_or_else(|error| panic!("{error}"));
+        if let Some(motion) = &mut input.motion {
+            motion.duration = Some(6.0);
+        }
+        let motion = input
+            .ground_motion()
+            .unwrap_or_else(|error| panic!("{error}"));
+        let done = Mutex::new(0.0);
+        let until = |most: f64| {
+            let stop = || *done.lock().expect("no panic") >= most;
+            let report = |progress: &GapProgress| *done.lock().expect("no panic") = progress.done;
+            *done.lock().expect("no panic") = 0.0;
+            search_gaps(
+                &input.model,
+                &motion,
+                &GapSettings::default(),
+                &stop,
+                &report,
+            )
+        };
+        assert_eq!(until(0.5), Err(GapError::Stopped));
+        let whole = until(f64::INFINITY).unwrap_or_else(|error| panic!("{error}"));
+        // Two runs without contact, one below the closing.
+        let part = until(3.2).unwrap_or_else(|error| panic!("{error}"));
+        assert!(part.stopped && !whole.stopped);
+        let (part, whole) = (&part.gaps[0], &whole.gaps[0]);
+        assert_eq!(part.gap_m, whole.gap_m);
+        assert_eq!(part.reversed_gap_m, whole.reversed_gap_m);
+        let counted = |gap: &CriticalGap| {
+            let rules = gap.rules.iter();
+            rules.filter(|rule| rule.worse_outcome().is_some()).count()
+        };
+        assert!(counted(part) < counted(whole));
+        assert_eq!(counted(whole), whole.rules.len());
     }
 
     /// Every point of the curve is the run of a model with that width, assembled by itself.
@@ -679,7 +791,7 @@ mod tests {
             curve: 9,
             ..GapSettings::default()
         };
-        let found = critical_gaps(&input.model, &motion, &settings, &|| false, &|_| {});
+        let found = critical_gaps(&input.model, &motion, &settings, &|| false);
         let gap = &found.unwrap_or_else(|error| panic!("{error}"))[0];
         assert_eq!(gap.curve.len(), 9);
         assert_eq!(

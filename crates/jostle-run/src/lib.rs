@@ -54,7 +54,7 @@ mod workbook;
 
 pub use case_cache::{CaseCache, CaseError};
 pub use check::{Check, CheckedRecord, ExpectedWork, check};
-pub use checks_text::finding_with_remedy;
+pub use checks_text::{finding_with_remedy, write_findings};
 #[cfg(not(target_family = "wasm"))]
 pub use claim::FolderClaim;
 pub use collide::{CollideOptions, collide, collision_json};
@@ -67,7 +67,8 @@ pub use contact_advice::{
     contact_advice,
 };
 pub use critical_gap::{
-    CriticalGap, GapOutcome, GapProgress, GapSettings, LeftOutRule, RuleGap, critical_gaps,
+    CriticalGap, GapOutcome, GapProgress, GapSearch, GapSettings, LeftOutRule, RuleGap,
+    critical_gaps, search_gaps,
 };
 pub use error::RunError;
 pub use expectation::{Expectation, Pace};

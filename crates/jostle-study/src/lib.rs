@@ -28,7 +28,8 @@ mod verified;
 pub use dataset::{of_folder, settle};
 pub use design::{CaseDesign, Choice, DesignError};
 pub use jostle_run::{
-    CaseCache, CaseError, CriticalGap, GapError, GapProgress, GapSettings, RuleGap, critical_gaps,
+    CaseCache, CaseError, CriticalGap, GapError, GapProgress, GapSearch, GapSettings, RuleGap,
+    critical_gaps, search_gaps,
 };
 pub use layout::{Column, Kind, Layout, Named};
 pub use ready_made::{Incidence, incidence, ready_made, ready_made_names};

@@ -175,7 +175,7 @@ fn gap(files: &Files, arguments: Value, cancelled: Cancelled<'_>) -> Result<Stri
     let mut found = Vec::new();
     for input in opened.input.each_record() {
         let (motion, _) = opened.plan_of(&input)?;
-        match critical_gaps(&input.model, &motion, &settings, cancelled, &|_| {}) {
+        match critical_gaps(&input.model, &motion, &settings, cancelled) {
             Ok(gaps) => found.extend(gaps),
             Err(GapError::Stopped) => return Err(Failure::Stopped),
             Err(error @ GapError::Run(_)) => return Err(Failure::Analysis(error.to_string())),

@@ -1,6 +1,6 @@
 //! `jostle study`: many cases of one model.
 
-mod bar;
+mod columns;
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
@@ -9,11 +9,12 @@ use std::time::Instant;
 use jostle_io::shown::follow;
 use jostle_io::{Dimension, ModelTree, StudyFile, parse_option};
 use jostle_study::{
-    Done, Incidence, RunSettings, Study, StudyError, of_folder, run, run_case, run_folder, settle,
-    varied,
+    Done, Incidence, Progress, RunSettings, Study, StudyError, of_folder, run, run_case,
+    run_folder, settle, varied,
 };
 
 use crate::failure::Failure;
+use crate::progress::Bar;
 use crate::stop::stop_on_interrupt;
 use crate::terminal;
 use jostle_run::{counted_grouped, grouped};
@@ -114,8 +115,15 @@ pub(crate) fn study(args: &StudyArgs) -> Result<(), Failure> {
         only: None,
     };
     let started = Instant::now();
-    let bar = bar::Bar::new();
-    let show = |progress| bar.show(progress);
+    let bar = Bar::new("");
+    let show = |progress: Progress| {
+        let (finished, cases) = (progress.finished, progress.cases);
+        bar.show(finished as f64 / cases.max(1) as f64, || {
+            // Cases of earlier runs do not count for the rate.
+            let rate = progress.computed as f64 / started.elapsed().as_secs_f64().max(1e-3);
+            format!("{finished} of {cases} cases, {rate:.1} per second")
+        });
+    };
     let remark = |text: &str| bar.remark(&warning(text));
     let done = run(&study, &out, &settings, &stop, &show, &remark);
     bar.finish();
@@ -274,13 +282,15 @@ fn headline(study: &Study) -> String {
 }
 
 fn description(study: &Study) -> String {
+    let names = study.layout.names();
     format!(
-        "{}\n{} in {}; fingerprint {}\ncolumns: {}",
+        "{}\n{} in {}; fingerprint {}\n{} columns:\n{}",
         headline(study),
         counted_grouped(study.design.cases, "row"),
         counted_grouped(study.parts(), "part"),
         study.fingerprint,
-        study.layout.names().join(", ")
+        names.len(),
+        columns::by_owner(&names)
     )
 }
 

@@ -42,7 +42,7 @@ fn rules_follow_the_direction_in_which_buildings_meet() {
         let motion = input
             .ground_motion()
             .unwrap_or_else(|error| panic!("{error}"));
-        let found = critical_gaps(&input.model, &motion, &settings, &|| false, &|_| {});
+        let found = critical_gaps(&input.model, &motion, &settings, &|| false);
         found.unwrap_or_else(|error| panic!("{error}")).remove(0)
     });
     let near = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-6;
@@ -77,7 +77,7 @@ fn outcomes_of_rules_are_those_of_both_signs() {
             tolerance: 1e-5,
             ..GapSettings::default()
         };
-        let found = critical_gaps(&input.model, &motion, &settings, &|| false, &|_| {});
+        let found = critical_gaps(&input.model, &motion, &settings, &|| false);
         found.unwrap_or_else(|error| panic!("{error}")).remove(0)
     });
     let needed = own.gap_m.max(other.gap_m);

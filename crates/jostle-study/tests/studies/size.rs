@@ -71,7 +71,7 @@ fn critical(text: &str) -> [f64; 2] {
         reversed: false,
         curve: 0,
     };
-    let gaps = critical_gaps(&input.model, &motion, &settings, &|| false, &|_| {});
+    let gaps = critical_gaps(&input.model, &motion, &settings, &|| false);
     let gap = &gaps.unwrap_or_else(|error| panic!("{error}"))[0];
     [gap.pounding_at_m.unwrap_or(0.0), gap.gap_m]
 }

@@ -88,7 +88,7 @@ fn gap(input: &Input) -> Option<Value> {
         codes: input.codes.clone(),
         ..GapSettings::default()
     };
-    let found = critical_gaps(&input.model, &motion, &settings, &|| false, &|_| {}).ok()?;
+    let found = critical_gaps(&input.model, &motion, &settings, &|| false).ok()?;
     serde_json::to_value(found).ok()
 }
 
