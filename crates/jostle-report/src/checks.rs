@@ -7,7 +7,11 @@ use crate::{Page, format, message};
 
 /// The section on the first page.
 pub(crate) fn section(page: &Page) -> Markup {
-    let (checks, silenced) = (&page.summary.checks, &page.summary.silenced_checks);
+    found(&page.summary.checks, &page.summary.silenced_checks)
+}
+
+/// The section of these findings.
+pub(crate) fn found(checks: &[Finding], silenced: &[String]) -> Markup {
     html! {
         section #checks.checks {
             h2 { (message::assumptions_and_limits()) }

@@ -4,7 +4,8 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::{OWN_STYLE, Section, charts};
 use crate::document::{CALCULATION_STYLE, POLICY, STYLE, theme_button, theme_script};
-use crate::{format, message};
+use crate::{checks, format, message};
+use jostle::results::summary::Finding;
 
 /// Everything the page of a suite shows.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -15,6 +16,10 @@ pub struct SuitePage {
     pub headline: String,
     /// Warnings about the governing values.
     pub warnings: Vec<String>,
+    /// The accuracy of the worst record, in a sentence; empty if none reached its end.
+    pub accuracy: String,
+    /// Checks that records did not pass.
+    pub checks: Vec<Finding>,
     /// Records, in their order.
     pub records: Vec<SuiteRow>,
     /// Name with unit, mean, standard deviation, 16 to 84 %, greatest value, its record, governing value.
@@ -90,8 +95,10 @@ pub fn render_suite(page: &SuitePage) -> String {
                 }
                 main {
                     p.verdict { (page.headline) }
+                    @if !page.accuracy.is_empty() { p.quiet { (page.accuracy) } }
                     (quantities(page))
                     (records(page))
+                    (checks::found(&page.checks, &[]))
                     @for section in &page.sections { (charts(section)) }
                     section #files {
                         h2 { (message::files()) }

@@ -4,6 +4,7 @@
 //! folder of its own with the files of a single run, and [`SuiteResults`] has the statistics. Every number depends on the
 //! model and its records alone: not on threads, order or interruptions.
 
+mod findings;
 mod fingerprint;
 mod page;
 mod quantities;

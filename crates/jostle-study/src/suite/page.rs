@@ -83,6 +83,8 @@ impl SuiteResults {
             title: self.title.clone(),
             headline: self.governing.in_words(self.records.len()),
             warnings: self.warnings.clone(),
+            accuracy: self.accuracy_in_words().unwrap_or_default(),
+            checks: self.checks.clone(),
             records: self.rows(links),
             quantities: self.quantity_rows(),
             statistic: self.governing.statistic.name(),

@@ -2,11 +2,13 @@
 
 use std::path::Path;
 
+use jostle::results::summary::{Finding, PromiseSummary};
 use jostle_io::{Values, write_atomically, write_values_parquet};
 use jostle_motion::Governing;
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use super::findings::findings;
 use super::quantities::quantities;
 use super::statistics::QuantityStatistics;
 use super::{Suite, SuiteRecord};
@@ -54,6 +56,8 @@ pub struct SuiteResults {
     pub quantities: Vec<QuantityStatistics>,
     /// Warnings about the governing values.
     pub warnings: Vec<String>,
+    /// Checks that records did not pass, each by its worst record; the most severe first.
+    pub checks: Vec<Finding>,
 }
 
 impl RecordResult {
@@ -121,12 +125,14 @@ impl SuiteResults {
                 ));
             }
         }
+        let checks = findings(&records);
         Self {
             title: suite.title.clone(),
             governing,
             records,
             quantities,
             warnings,
+            checks,
         }
     }
 
@@ -134,6 +140,39 @@ impl SuiteResults {
     #[must_use]
     pub fn quantity(&self, name: &str) -> Option<&QuantityStatistics> {
         self.quantities.iter().find(|q| q.name == name)
+    }
+
+    /// The accuracy of the record that is worst, in one line; `None` without records that reached their end.
+    #[must_use]
+    pub fn accuracy_in_words(&self) -> Option<String> {
+        let done = |record: &&RecordResult| record.status == RecordStatus::Completed;
+        let promises = self.records.iter().filter(done).map(|record| {
+            let promise = &record.summary["promise"];
+            let known = PromiseSummary {
+                tolerance: promise["tolerance"].as_f64().unwrap_or(f64::NAN),
+                met: promise["met"].as_bool(),
+                met_until_s: promise["met_until_s"].as_f64(),
+                residual: promise["residual"].as_f64(),
+                sensitive_from_s: promise["sensitive_from_s"].as_f64(),
+            };
+            (record, known)
+        });
+        let rank = |promise: &PromiseSummary| {
+            let is_missed = promise.met != Some(true);
+            let is_cut = promise.met_until_s.is_some();
+            let is_sensitive = promise.sensitive_from_s.is_some();
+            (is_missed, is_cut, is_sensitive)
+        };
+        let (worst, promise) = promises.max_by(|(_, a), (_, b)| {
+            let residual = |promise: &PromiseSummary| promise.residual.unwrap_or(f64::INFINITY);
+            let order = rank(a).cmp(&rank(b));
+            order.then(residual(a).total_cmp(&residual(b)))
+        })?;
+        Some(format!(
+            "{} ({}, the worst record)",
+            promise.in_words(),
+            worst.motion()
+        ))
     }
 
     /// Text of `suite.json`, with a final line break.
@@ -168,6 +207,7 @@ impl SuiteResults {
             "records": records,
             "quantities": self.quantities,
             "warnings": self.warnings,
+            "checks": self.checks,
         });
         format!("{value:#}\n")
     }

@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use jostle_io::shown::{self, ACCELERATION, FORCE, LENGTH, MOMENT};
-use jostle_run::{BOLD, DIM, LOUD, plain, styled};
+use jostle_run::{BOLD, DIM, LOUD, plain, styled, write_findings};
 
 use super::quantities::list;
 use super::results::{RecordResult, SuiteResults};
@@ -131,6 +131,11 @@ impl SuiteResults {
                     record.motion()
                 )?;
             }
+        }
+        let rest = page.map_or("suite.json", |_| "suite.html");
+        write_findings(text, &self.checks, rest)?;
+        if let Some(accuracy) = self.accuracy_in_words() {
+            writeln!(text, "\n{accuracy}")?;
         }
         if let Some(page) = page {
             writeln!(text, "→ {}", styled(BOLD, &page.display().to_string()))?;
