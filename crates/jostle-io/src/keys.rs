@@ -623,7 +623,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Motion, "governing", Choice(&GoverningRule::NAMES), "the code of match, else \"maximum\"", "Rule for the governing value of several records: gb50011, en1998 and asce7 take the mean or the greatest by their number."),
     default(S::Motion, "reverse", Flag, "false", "Change the sign of the motion."),
     default(S::Motion, "angle", Quantity(D::Dimensionless), "0", "For buildings with a plan: angle from x to the motion, counter-clockwise, such as \"30 deg\".").usual("an angle", 1e-4, 6.3).signed(),
-    optional(S::Motion, "across", Kind::TextOrMotion, "For buildings with a plan: the motion at a right angle to this one, counter-clockwise from it: a record, or a table like [motion]. Without an amplitude or a scaling of its own it has the factor of this motion."),
+    optional(S::Motion, "across", Kind::TextOrMotion, "For buildings with a plan: the motion at a right angle to this one, counter-clockwise from it: a record, a list with one for every entry of record, or a table like [motion]. Without an amplitude or a scaling of its own it has the factor of this motion."),
     default(S::Motion, "duration", Quantity(D::Time), "the whole record", "Length of the analysis: cuts the record, or continues with the ground at rest.").usual("a duration", 0.01, 3600.0),
     optional(S::Motion, "unit", Text, "Unit of the numbers of a record that does not state it, such as \"g\"."),
     optional(S::Motion, "step", Quantity(D::Time), "Time step of a record that does not state it.").usual("a time step of a record", 1e-5, 1.0),
@@ -639,7 +639,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Read, "content", Choice(RECORD_CONTENTS), "Accelerations that continue from line to line, pairs of time and acceleration that do, or one instant on a line; values by default with per_line."),
     optional(S::Read, "widths", Counts, "Widths of numbers without separators: one that repeats, or one for every number of a line."),
 
-    optional(S::Motion, "vertical", Kind::TextOrMotion, "For frames, in plan and in space with gravity = true: vertical shaking, positive upwards: a record, or a table like [motion], such as `{ scale = 0.67 }` for that share of this motion. Without an amplitude or a scaling of its own it has the factor of this motion."),
+    optional(S::Motion, "vertical", Kind::TextOrMotion, "For frames, in plan and in space with gravity = true: vertical shaking, positive upwards: a record, a list with one for every entry of record, or a table like [motion], such as `{ scale = 0.67 }` for that share of this motion. Without an amplitude or a scaling of its own it has the factor of this motion."),
     optional(S::Motion, "apparent_velocity", Quantity(D::Speed), "Speed of the waves along the row: the motion arrives at a building after position / this.").usual("an apparent velocity", 50.0, 1e5),
     default(S::Motion, "wave_angle", Quantity(D::Dimensionless), "0", "For buildings with a plan: angle from x to the direction in which the waves travel, counter-clockwise, such as \"30 deg\". Positions follow from the plans.").usual("an angle", 1e-4, 6.3).signed(),
     optional(S::Motion, "baseline", Choice(&Baseline::NAMES), "Correction of the velocity of records: by a straight line or a parabola from rest, taken from the acceleration; or none. Required if records of buildings differ and their final velocities do."),

@@ -254,6 +254,13 @@ impl ModelTree {
     }
 
     fn change(&mut self, path: &str, change: &Change<'_>) -> Result<(), PathError> {
+        // A record out of the list of the model comes with its components across and vertical.
+        if let ("motion.record", Change::Replace(TreeValue::Text(name))) = (path, change)
+            && let Some(index) = self.records().iter().position(|own| own == name)
+        {
+            self.keep_record(index);
+            return Ok(());
+        }
         let wrong = |problem: String| PathError::new(path, problem);
         let parts = parts(path).map_err(wrong)?;
         let mut root = self.root.clone();

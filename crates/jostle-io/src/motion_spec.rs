@@ -76,6 +76,47 @@ pub enum MotionSource {
 }
 
 impl MotionSource {
+    /// A record, or several.
+    pub(crate) fn of_records(mut names: Vec<String>, files: Files, options: RecordOptions) -> Self {
+        if names.len() == 1 {
+            let name = names.remove(0);
+            return Self::Record {
+                name,
+                files,
+                options,
+            };
+        }
+        Self::Records {
+            names,
+            files,
+            options,
+        }
+    }
+
+    /// One of several records; any other source as it is.
+    fn one_of_several(&self, index: usize) -> Self {
+        match self {
+            Self::Records {
+                names,
+                files,
+                options,
+            } => Self::Record {
+                name: names[index].clone(),
+                files: files.clone(),
+                options: options.clone(),
+            },
+            other => other.clone(),
+        }
+    }
+
+    /// How many records a run may choose from.
+    pub(crate) fn count(&self) -> usize {
+        match self {
+            Self::Records { names, .. } => names.len(),
+            _ => 1,
+        }
+    }
+
     /// Whether it states the size of its accelerations, which a record in the factor of another motion does not.
     pub(crate) fn states_its_size(&self) -> bool {
         match self {
@@ -266,26 +307,21 @@ impl MotionSpec {
         }
     }
 
-    /// The same with one of several records, by its name as written; `None` if it is not among them.
+    /// The same with one of several records, by its name as written, and with its components across and vertical; `None` if it
+    /// is not among them.
     #[must_use]
     pub fn with_one_of_several(&self, record: &str) -> Option<Self> {
-        let MotionSource::Records {
-            names,
-            files,
-            options,
-        } = &self.source
-        else {
-            return None;
-        };
-        let name = names.iter().find(|name| *name == record)?;
-        Some(Self {
-            source: MotionSource::Record {
-                name: name.clone(),
-                files: files.clone(),
-                options: options.clone(),
-            },
-            ..self.clone()
-        })
+        let index = self.records().iter().position(|name| name == record)?;
+        let mut one = self.clone();
+        one.source = one.source.one_of_several(index);
+        if let Some(across) = one.bearing.as_mut().and_then(|own| own.across.as_mut()) {
+            across.source = across.source.one_of_several(index);
+        }
+        let vertical = one.grounds.as_mut().and_then(|own| own.vertical.as_mut());
+        if let Some(source) = vertical.and_then(|own| own.source.as_mut()) {
+            *source = source.one_of_several(index);
+        }
+        Some(one)
     }
 
     /// Reads the record, if it is one, and scales it.

@@ -1,4 +1,4 @@
-//! `record = ["a", "b.AT2"]`: several records of one model, one to a run.
+//! `record = ["a", "b.AT2"]`: several records of one model, one to a run, with their components across and vertical.
 
 use crate::tree::{Node, Value};
 
@@ -25,22 +25,34 @@ pub(crate) fn listed(root: &Node) -> Vec<String> {
         .unwrap_or_default()
 }
 
-/// Puts an entry of the list in its place, so that faults show the line of that entry.
+/// Puts an entry of the list in its place, so that faults show the line of that entry; likewise of lists of motions across and
+/// vertical.
 pub(crate) fn keep(root: &mut Node, index: usize) {
     let Some(motion) = child(root, "motion") else {
         return;
     };
-    let Some(record) = child(motion, "record") else {
-        return;
-    };
-    let entry = match &record.value {
-        Value::List(entries) => entries.get(index).cloned(),
-        _ => None,
-    };
-    if let Some(entry) = entry {
-        *record = entry;
+    for key in COMPONENTS {
+        let Some(mut component) = child(motion, key) else {
+            continue;
+        };
+        if matches!(component.value, Value::Table(_)) {
+            let Some(record) = child(component, "record") else {
+                continue;
+            };
+            component = record;
+        }
+        let entry = match &component.value {
+            Value::List(entries) => entries.get(index).cloned(),
+            _ => None,
+        };
+        if let Some(entry) = entry {
+            *component = entry;
+        }
     }
 }
+
+/// Keys of `[motion]` that may list records.
+const COMPONENTS: [&str; 3] = ["record", "across", "vertical"];
 
 fn child<'n>(node: &'n mut Node, key: &str) -> Option<&'n mut Node> {
     let Value::Table(table) = &mut node.value else {

@@ -515,7 +515,7 @@ fn value(key: &Key) -> String {
         Kind::Counts => "list of whole numbers".into(),
         Kind::Any => "value or list".into(),
         Kind::Named(_) => "table of tables".into(),
-        Kind::TextOrMotion => "text, or a table like `[motion]`".into(),
+        Kind::TextOrMotion => "text, a list of texts, or a table like `[motion]`".into(),
         Kind::Plan => "two lengths, a list of corners, or a list of tables".into(),
         Kind::PlanPoints => "two lengths; or a list of such pairs".into(),
         Kind::PlanStiffness => "stiffness, or a table; or a list from the ground up".into(),

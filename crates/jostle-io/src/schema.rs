@@ -97,7 +97,7 @@ fn kind(kind: Kind) -> Value {
         }
         Kind::TextOrNumbers => json!({ "anyOf": [{ "type": "string" }, { "type": "array" }] }),
         // The table is that of [motion], which contains this key.
-        Kind::TextOrMotion => json!({ "type": ["string", "object"] }),
+        Kind::TextOrMotion => json!({ "type": ["string", "array", "object"] }),
         Kind::Plan => json!({ "type": "array", "items": { "anyOf": [
             quantity(Dimension::Length),
             { "type": "array", "items": quantity(Dimension::Length) },

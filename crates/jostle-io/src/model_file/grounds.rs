@@ -7,10 +7,9 @@ use super::motion;
 use crate::baseline::Baseline;
 use crate::files::Files;
 use crate::keys::Section;
-use crate::motion_spec::{GroundsSpec, MotionSource, MotionSpec, OwnGroundSpec, OwnMotionSpec};
+use crate::motion_spec::{GroundsSpec, MotionSpec, OwnGroundSpec, OwnMotionSpec};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
-use crate::record::RecordOptions;
 
 /// Greatest seed, so that every format can write it.
 const GREATEST_SEED: u64 = 1 << 53;
@@ -101,14 +100,9 @@ fn read_vertical(
     field: &Field<'_>,
     files: &Files,
 ) -> Option<Box<OwnMotionSpec>> {
-    if let Some(name) = field.as_text() {
-        let source = MotionSource::Record {
-            name: name.to_owned(),
-            files: files.clone(),
-            options: RecordOptions::default(),
-        };
+    if motion::is_named(field) {
         return Some(Box::new(OwnMotionSpec {
-            source: Some(source),
+            source: Some(motion::named(reader, field, files)?),
             scaling: Default::default(),
             reverse: false,
         }));
@@ -283,9 +277,11 @@ fn read_building(
         .chain(motion::RECORD_KEYS);
     if others.iter().chain(of_sources).any(|key| view.has(key)) {
         ground.motion = motion::read_own(reader, &view, files).map(Box::new);
+        motion::refuse_several(reader, &view, "record", ground.motion.as_deref());
     }
     let vertical = reader.get(&view, "vertical");
     ground.vertical = vertical.and_then(|field| read_vertical(reader, &field, files));
+    motion::refuse_several(reader, &view, "vertical", ground.vertical.as_deref());
 }
 
 /// Positions go with a wave velocity or with coherency, and are then complete.

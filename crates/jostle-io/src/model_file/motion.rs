@@ -67,6 +67,16 @@ pub(crate) fn read_in(
     };
     let bearing = bearing(reader, &view, files);
     let grounds = grounds::read_common(reader, &view, files);
+    let across = bearing.as_ref().and_then(|own| own.across.as_ref());
+    let vertical = grounds.as_ref().and_then(|own| own.vertical.as_ref());
+    let components = [
+        ("across", across.map(|own| &own.source)),
+        ("vertical", vertical.and_then(|own| own.source.as_ref())),
+    ];
+    for (key, component) in components {
+        let records = source.as_ref().map_or(1, MotionSource::count);
+        check_count(reader, &view, key, component, records);
+    }
     let scaling = scaling(reader, &view, files);
     let reverse = reader
         .get(&view, "reverse")
@@ -88,12 +98,7 @@ pub(super) fn read_own(
     files: &Files,
 ) -> Option<OwnMotionSpec> {
     let source = if view.has("record") || view.has("kind") {
-        let source = source(reader, view, files)?;
-        if let (MotionSource::Records { .. }, Some(field)) = (&source, reader.get(view, "record")) {
-            *reader.bad(&field, "must be one record here") =
-                Some("only [motion] may list several".into());
-        }
-        Some(source)
+        Some(source(reader, view, files)?)
     } else {
         let keys = ["amplitude", "period", "centre"];
         refuse(reader, view, &keys, "the record of [motion]");
@@ -147,16 +152,12 @@ fn bearing(reader: &mut Reader<'_>, view: &View<'_>, files: &Files) -> Option<Bo
         .get(view, "angle")
         .and_then(|field| reader.quantity(&field, Dimension::Dimensionless));
     let across = reader.get(view, "across");
-    let across = across.and_then(|field| match field.as_text().map(str::to_owned) {
-        Some(name) => Some(MotionSpec {
-            source: MotionSource::Record {
-                name,
-                files: files.clone(),
-                options: RecordOptions::default(),
-            },
+    let across = across.and_then(|field| match is_named(&field) {
+        true => Some(MotionSpec {
+            source: named(reader, &field, files)?,
             ..MotionSpec::record("")
         }),
-        None => {
+        false => {
             let own = read(reader, &field, files)?;
             if own.bearing.is_some() {
                 *reader.bad(&field, "has an angle or a motion across of its own") =
@@ -176,6 +177,65 @@ fn bearing(reader: &mut Reader<'_>, view: &View<'_>, files: &Files) -> Option<Bo
         angle: angle.unwrap_or(0.0),
         across,
     }))
+}
+
+/// Whether a component is a record, or a list of records, rather than a table.
+pub(super) fn is_named(field: &Field<'_>) -> bool {
+    field.as_text().is_some() || field.entries().is_some()
+}
+
+/// A record by its name, or several of a list, without further data.
+pub(super) fn named(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    files: &Files,
+) -> Option<MotionSource> {
+    let names = record_names(reader, field)?;
+    let options = RecordOptions::default();
+    Some(MotionSource::of_records(names, files.clone(), options))
+}
+
+/// The ground under one building has one record.
+pub(super) fn refuse_several(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    key: &'static str,
+    own: Option<&OwnMotionSpec>,
+) {
+    let count = own
+        .and_then(|own| own.source.as_ref())
+        .map_or(1, MotionSource::count);
+    if count > 1
+        && let Some(field) = reader.get(view, key)
+    {
+        *reader.bad(&field, "must be one record here") =
+            Some("only [motion] may list several".into());
+    }
+}
+
+/// A list of components goes with as many records, in their order.
+fn check_count(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    key: &'static str,
+    component: Option<&MotionSource>,
+    records: usize,
+) {
+    let count = component.map_or(1, MotionSource::count);
+    if count > 1
+        && count != records
+        && let Some(field) = reader.get(view, key)
+    {
+        let problem = format!(
+            "lists {count} motions for {}",
+            match records {
+                1 => "one record".to_owned(),
+                several => format!("{several} records"),
+            }
+        );
+        *reader.bad(&field, problem) =
+            Some("list one for every entry of record, in the same order".into());
+    }
 }
 
 fn duration(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<f64> {
@@ -206,7 +266,7 @@ fn read_record(
     record: &Field<'_>,
     files: &Files,
 ) -> Option<MotionSource> {
-    let mut names = record_names(reader, record)?;
+    let names = record_names(reader, record)?;
     let mut options = RecordOptions::default();
     if let Some(field) = reader.get(view, "unit") {
         options.unit = reader.text(&field);
@@ -253,19 +313,7 @@ fn read_record(
         options.layout = read_layout(reader, &field).unwrap_or_default();
     }
     let files = files.clone();
-    Some(if names.len() == 1 {
-        MotionSource::Record {
-            name: names.remove(0),
-            files,
-            options,
-        }
-    } else {
-        MotionSource::Records {
-            names,
-            files,
-            options,
-        }
-    })
+    Some(MotionSource::of_records(names, files.clone(), options))
 }
 
 /// How the lines of the file are read.

@@ -127,6 +127,73 @@ fn wrong_matches_name_the_key() {
     }
 }
 
+/// Seven pairs: the components across and vertical of a record go with it, however it is chosen.
+#[test]
+fn components_are_listed_beside_their_records() {
+    let read = |motion: &str| {
+        let text = format!("[motion]\n{motion}\n{TOWER}");
+        read_model_text("m.toml", &text, Format::Toml, Path::new("")).map_err(|e| e.to_string())
+    };
+    let pair = "\"el-centro-1940-ns\", \"nanjing-artificial\"";
+    let swapped = "\"nanjing-artificial\", \"el-centro-1940-ns\"";
+    let names = |input: &jostle_io::ModelInput| {
+        let motion = input.ground_motion().expect("a motion");
+        let across = motion.bearing.expect("across").across.expect("a motion");
+        let vertical = motion.grounds.first().and_then(|own| own.vertical.as_ref());
+        (
+            motion.name,
+            across.name,
+            vertical.map(|own| own.name.clone()),
+        )
+    };
+    let (ns, artificial) = (
+        "el-centro-1940-ns".to_owned(),
+        "nanjing-artificial".to_owned(),
+    );
+    for across in [
+        format!("[{swapped}]"),
+        format!("{{ record = [{swapped}], scale = 0.5 }}"),
+    ] {
+        let text = format!("record = [{pair}]\nacross = {across}");
+        let each = read(&text).expect("pairs").each_record();
+        let found: Vec<_> = each.iter().map(names).collect();
+        let due = [
+            (ns.clone(), artificial.clone(), None),
+            (artificial.clone(), ns.clone(), None),
+        ];
+        assert_eq!(found, due);
+    }
+    // Chosen by its name in the tree of the model, as studies do.
+    let text = format!("[motion]\nrecord = [{pair}]\nacross = [{swapped}]\n{TOWER}");
+    let mut tree =
+        jostle_io::ModelTree::parse("m.toml", &text, Format::Toml, Path::new("")).expect("a model");
+    let chosen = jostle_io::TreeValue::Text(artificial.clone());
+    tree.set("motion.record", &chosen)
+        .expect("a record of the list");
+    assert_eq!(
+        names(&tree.input().expect("one pair")),
+        (artificial, ns, None)
+    );
+
+    for (wrong, part) in [
+        (
+            format!("record = \"el-centro-1940-ns\"\nacross = [{pair}]"),
+            "motion.across: lists 2 motions for one record",
+        ),
+        (
+            format!("record = [{pair}]\nvertical = [{pair}, \"c\"]"),
+            "motion.vertical: lists 3 motions for 2 records",
+        ),
+        (
+            format!("record = [{pair}]\nacross = {{ record = [{pair}, \"c\"] }}"),
+            "motion.across: lists 3 motions for 2 records",
+        ),
+    ] {
+        let error = read(&wrong).expect_err(&wrong);
+        assert!(error.contains(part), "{error}");
+    }
+}
+
 #[test]
 fn of_several_records_a_run_takes_one() {
     let read = |motion: &str| {
