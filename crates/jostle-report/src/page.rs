@@ -82,7 +82,6 @@ pub(crate) fn page(page: &Page) -> Markup {
                     @if let Some(why) = &outside { p.outside role="alert" { b { (message::outside_the_model()) } " " (why) } }
                     p.verdict.muted[outside.is_some()] { @if page.summary.ended_early.is_some() { (message::until_the_run_ended()) " " } (headline) }
                     (tiles(page))
-                    (accuracy(page))
                     (checks::section(page))
                     (bounds::section(page))
                     @if let Some(spread) = spread::section(page) { (spread) }
@@ -163,13 +162,6 @@ pub(crate) fn warnings(page: &Page) -> Markup {
             }
         }
     }
-}
-
-/// The estimated error of the peaks, as the command line says it.
-fn accuracy(page: &Page) -> Markup {
-    let words = page.summary.promise.in_words();
-    let words = words.strip_prefix("accuracy: ").unwrap_or(&words);
-    html! { p.quiet #accuracy { b { (message::accuracy()) " " } (words) "." } }
 }
 
 /// The animation, with the controls of a run without contact and of yielding places.

@@ -1,6 +1,8 @@
-//! The answers of a run, at the head of its page: how much gap, what is hurt, where, and what is left.
+//! The answers of a run, at the head of its page: how sure they are, how much gap, what is hurt, where, and what is left.
 
-use jostle::results::summary::{BuildingSummary, FloorSummary, GapSummary, Summary};
+use jostle::results::summary::{
+    BuildingSummary, FloorSummary, GapSummary, MemberSummary, StruckSummary, Summary,
+};
 use maud::{Markup, html};
 
 use crate::verdict::{closest_approach, nearest, outside, peak_closing, place};
@@ -22,10 +24,12 @@ pub(crate) fn tiles(page: &Page) -> Markup {
     let mut tiles = gaps(summary);
     tiles.extend(drift(summary));
     tiles.extend(members(summary));
+    tiles.extend(struck_column(summary));
     tiles.extend(yielding(summary));
     tiles.extend(impacts(summary));
     tiles.extend(roofs(summary));
     html! {
+        (accuracy(summary))
         div.tiles.muted[outside(summary).is_some()] {
             @for Tile { name, value, note } in &tiles {
                 div.tile { p.tile-name { (name) } p.tile-value { (value) } p.tile-note { (note) } }
@@ -33,6 +37,13 @@ pub(crate) fn tiles(page: &Page) -> Markup {
         }
         p.quiet { (motion(summary)) }
     }
+}
+
+/// How sure the numbers are.
+fn accuracy(summary: &Summary) -> Markup {
+    let words = summary.promise.in_words();
+    let words = words.strip_prefix("accuracy: ").unwrap_or(&words);
+    html! { p.quiet #accuracy { b { (message::accuracy()) " " } (words) "." } }
 }
 
 fn tile(name: impl Into<String>, value: impl Into<String>, note: impl Into<String>) -> Tile {
@@ -150,6 +161,37 @@ fn members(summary: &Summary) -> Option<Tile> {
     let note = message::worst_member(&member.member, member.kind, ratio);
     let value = message::one_of_all(beyond, all);
     Some(tile(message::members_beyond_capacity(), value, note))
+}
+
+/// Of the columns that a neighbour struck between floors, the one with the greatest demand over capacity, or with the hardest
+/// impact where no capacity is known.
+fn struck_column(summary: &Summary) -> Option<Tile> {
+    let hardest = |member: &MemberSummary| {
+        let forces = member.struck.iter().map(|point| point.peak_force_n);
+        forces.fold(0.0, f64::max)
+    };
+    let ratio = |member: &MemberSummary| {
+        let ratio = member.ratio.as_ref()?;
+        Some(ratio.bending.max(ratio.shear.unwrap_or(0.0)))
+    };
+    let members = summary.buildings.iter().flat_map(|own| &own.members);
+    let struck = members.filter(|member| hardest(member) > 0.0);
+    let worst = struck.max_by(|a, b| {
+        let of = |member| (ratio(member).unwrap_or(0.0), hardest(member));
+        let ((a, a_force), (b, b_force)) = (of(a), of(b));
+        a.total_cmp(&b).then(a_force.total_cmp(&b_force))
+    })?;
+    let count = worst
+        .struck
+        .iter()
+        .map(|point: &StruckSummary| point.impact_count);
+    let impacts = message::struck_up_to(count.sum::<usize>(), format::force(hardest(worst)));
+    let value = match ratio(worst) {
+        Some(ratio) => message::times_its_capacity(format::fixed(ratio, 2)),
+        None => format::force(hardest(worst)),
+    };
+    let note = format!("{}, {impacts}", worst.name);
+    Some(tile(message::worst_struck_column(), value, note))
 }
 
 /// Hinges that yielded, and the greatest ductility.

@@ -509,6 +509,9 @@ messages! {
     storey_of(name, storey) = "{name}, storey {storey}";
     members_beyond_capacity = "Members beyond capacity";
     worst_member(member, kind, ratio) = "{member} in {kind}: {ratio} times its capacity";
+    worst_struck_column = "Worst struck column";
+    times_its_capacity(ratio) = "{ratio} × capacity";
+    struck_up_to(times, force) = "struck {times} ×, up to {force}";
     hinges_yielded = "Hinges yielded";
     peak_ground_acceleration = "Peak ground acceleration";
     under_the_motion(name, peak, percent, imbalance) = "Under {name}, peak {peak} ({percent} % g). Energy imbalance {imbalance}.";
