@@ -299,7 +299,7 @@ pub fn describe(compared: &[Compared], tolerance: f64) -> String {
 }
 
 /// Seeds of the reduced study.
-const FEW: u64 = 40;
+const FEW: u64 = 20;
 /// Seeds of the full one.
 const MANY: u64 = 1000;
 

@@ -4,7 +4,7 @@ use jostle::Solver;
 use jostle_validation::certify;
 
 /// Models drawn; the whole proof takes a thousand, and `./check-all` draws thirty others every time.
-const MODELS: u64 = 8;
+const MODELS: u64 = 5;
 
 #[test]
 fn random_models_hold_the_tolerance() {
@@ -24,7 +24,7 @@ fn random_models_hold_the_tolerance() {
         });
         let errors: Vec<f64> = errors.collect();
         assert!(
-            errors.len() > 600,
+            errors.len() > 400,
             "{solver}: only {} numbers",
             errors.len()
         );
