@@ -321,15 +321,27 @@ fn describe(
                 text.push_str(&walls(frame));
             }
             Structure::Tiers(tiers) => {
-                // Frames of one plan are as high; the file says it of each.
-                let mut lines: Vec<String> = tiers
+                // Frames that are alike share a line.
+                let mut lines: Vec<(String, Vec<&str>)> = Vec::new();
+                for own in &tiers.frames {
+                    let line = axial_of_columns(&own.frame, None) + &members(&own.frame);
+                    match lines.iter_mut().find(|(known, _)| *known == line) {
+                        Some((_, names)) => names.push(&own.name),
+                        None => lines.push((line, vec![&own.name])),
+                    }
+                }
+                for (line, names) in lines {
+                    writeln!(text, "  {}: {line}", names.join(", "))?;
+                }
+                for own in tiers
                     .frames
                     .iter()
-                    .map(|own| axial_of_columns(&own.frame, None))
-                    .collect();
-                lines.dedup();
-                for line in lines {
-                    writeln!(text, "  {line}")?;
+                    .filter(|own| !own.frame.walls.is_empty())
+                {
+                    let walls = walls(&own.frame);
+                    for line in walls.lines() {
+                        writeln!(text, "  {}: {}", own.name, line.trim_start())?;
+                    }
                 }
             }
             Structure::Shear(_) | Structure::Given(_) => {}
@@ -672,7 +684,12 @@ fn describe_building(
         .take(5)
         .map(|mode: &Mode| decimals(mode.period(), 4))
         .collect();
-    writeln!(text, "  lateral periods {} s", periods.join(", "))?;
+    let torsion = building
+        .first_torsional_mode()
+        .map_or_else(String::new, |mode| {
+            format!("; first in torsion {} s", decimals(mode.period(), 4))
+        });
+    writeln!(text, "  lateral periods {} s{torsion}", periods.join(", "))?;
     let lateral = building.lateral_modes().count();
     let damped = match damping {
         Damping::AllModes { ratio } => format!("damping {} % in every mode", percent(*ratio)),

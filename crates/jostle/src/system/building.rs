@@ -7,7 +7,9 @@ use super::plan_mat::MatInPlan;
 use super::plan_storey::PlanStorey;
 use super::soil::FoundationPlace;
 use super::weakening::Weakening;
-use crate::eigen::{Mode, lateral_modes_along, modes_dense, symmetric, vertical_modes_along};
+use crate::eigen::{
+    LATERAL_SHARE, Mode, lateral_modes_along, modes_dense, symmetric, vertical_modes_along,
+};
 use crate::hysteresis::HysteresisMemory;
 use crate::linear::Row;
 use crate::model::{
@@ -331,6 +333,17 @@ impl BuildingSystem {
     /// Lateral modes, longest period first.
     pub fn lateral_modes(&self) -> impl Iterator<Item = &Mode> {
         self.modes.iter().filter(|mode| mode.is_lateral())
+    }
+
+    /// The mode of the longest period that carries more of the polar mass than of the mass in either direction; none in one plane.
+    #[must_use]
+    pub fn first_torsional_mode(&self) -> Option<&Mode> {
+        self.modes.iter().find(|mode| {
+            let lateral = mode
+                .effective_mass_ratio_x
+                .max(mode.effective_mass_ratio_across);
+            mode.effective_mass_ratio_torsion > lateral.max(LATERAL_SHARE)
+        })
     }
 
     /// Periods of the fundamental modes along x and across: the longest of those that carry at least half as much mass that way as any
