@@ -1182,7 +1182,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Gap, "design_speed", Quantity(D::Speed), "bilinear: impact speed for which its stiffnesses are computed; without it, the speed of each impact.").usual("an impact speed", 0.01, 20.0),
     optional(S::Gap, "second_stiffness", Quantity(D::Stiffness), "bilinear: stiffness beyond yield, instead of restitution; stiffness is then the first one, in N/m.").usual("a contact stiffness", 1e5, 1e13),
     optional(S::Gap, "yield", Quantity(D::Length), "bilinear, with second_stiffness: indentation at which it yields.").usual("a yield indentation", 1e-6, 0.1),
-    optional(S::Gap, "crush", Kind::Table(S::Crush), "linear: the face crushes, such as `{ force = \"600 kN\", hardening = 0.05 }`, and stays crushed: the gap is wider afterwards."),
+    optional(S::Gap, "crush", Kind::Table(S::Crush), "linear and hertz: the face crushes, such as `{ force = \"600 kN\", hardening = 0.05 }`, and stays crushed: the gap is wider afterwards."),
     optional(S::Gap, "thickness", Quantity(D::Length), "rubber: thickness of the bumper.").usual("a bumper thickness", 0.001, 1.0).possible(0.0, 10.0),
     default(S::Gap, "exponent", Quantity(D::Dimensionless), "2.65", "rubber: exponent of the compression.").usual("an exponent", 0.5, 10.0),
     optional(S::Gap, "stiffness_per_length", ContactStiffness, "Between plans, instead of stiffness: that of a face per metre of its length.").usual("a contact stiffness per length", 1e4, 1e13),
@@ -1193,7 +1193,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Gap, "minimum_separation", Quantity(D::Time), "0", "Impacts of one contact closer in time than this count as one.").usual("a time", 1e-5, 10.0),
 
     required(S::Crush, "force", Quantity(D::Force), "Force at which the face begins to crush; between plans that of a whole face.").usual("a crushing force", 1e3, 1e9),
-    default(S::Crush, "hardening", Quantity(D::Dimensionless), "0", "Stiffness while it crushes ÷ stiffness, from 0 to below 1.").usual("a hardening ratio", 1e-4, 1.0),
+    default(S::Crush, "hardening", Quantity(D::Dimensionless), "0", "Stiffness while it crushes ÷ that where it begins to, from 0 to below 1; with hertz below 2/3.").usual("a hardening ratio", 1e-4, 1.0),
 
     required(S::Link, "between", Neighbours, "Names of the left and the right neighbour; \"wall\" is a rigid wall at an end of the row. One building twice: links between its own floors."),
     default(S::Link, "floors", FloorPairs, "\"common\"", "Points that are joined, as for gaps. Inside one building: pairs of its floors, such as [[0, 1], [1, 2]]; 0 is its base.").any("heights are compared with those of the floors"),
