@@ -198,6 +198,11 @@ impl StickModel {
                 position: positions[index],
             };
             let foot = node.support == Support::Fixed;
+            let mut node = node;
+            if foot && self.rocks() {
+                // Its mass rises with the base.
+                node.support = Support::Free;
+            }
             let own = self.nodes.len();
             let at = [0, 1].map(|axis| origin[axis] + node.x * direction[axis]);
             self.turns.insert(own, turn);
