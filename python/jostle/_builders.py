@@ -265,6 +265,7 @@ class Shear(Part):
             ``"bounds": {"lower": 0.85, "upper": 1.3}`` a run also makes those at both bounds of the bearings.
         foundation: rigid foundation on the ``soil`` of the model, ``{"length": "12 m", "width": "12 m", "mass": "120 t"}``;
             ``"uplift": True, "springs": 11`` lets it lift off, with ``gravity=True``.
+            With a plan, ``length`` is along x, and ``"torsional_stiffness"`` replaces that of the soil.
         hinges: cracking and yield of the storeys; without it they are elastic: ``{"rule": "bilinear", "yield": "20 mm",
             "post_yield": 0.05}``; timber and masonry: ``{"rule": "pinched", "pinching": {"deformation": 0.8, "force": 0.2}, …}``.
         elevation: height of the base above a datum that all buildings share, 0 by default; neighbours face each other by it.
@@ -414,6 +415,10 @@ class SpaceFrame(Part):
             ``[{"at": ["1 m", "1 m"], "stiffness": {"x": "10 MN/m", "y": "12 MN/m"}}]``.
         damping: ``{"ratio": 0.05, "modes": [1, 3]}`` or ``{"alpha": …, "beta": …}``; 5 % by default, 3 % or less is usual with
             hinges.
+        base: springs and dashpots under the building: ``"fixed"`` (default) or ``{"horizontal_stiffness": …,
+            "rotational_stiffness": …, "torsional_stiffness": …}``.
+        foundation: rigid foundation on the ``soil`` of the model, ``{"length": "12 m", "width": "12 m", "mass": "120 t"}``;
+            ``length`` is along x, and ``"torsional_stiffness"`` replaces that of the soil.
         isolation: bearings and a mat under the building, such as ``{"kind": "lead-rubber", "mat_mass": "150 t", …}``; with
             ``"bounds": {"lower": 0.85, "upper": 1.3}`` a run also makes those at both bounds of the bearings.
         gravity: whether the run starts from the displacements under self weight; ``False`` by default. Fibres need it.
@@ -476,6 +481,8 @@ class SpaceFrame(Part):
         eccentricity: Sequence[Any] | None = None,
         element: Sequence[Any] | None = None,
         damping: Table | None = None,
+        base: Literal["fixed"] | Table | None = None,
+        foundation: Table | None = None,
         isolation: Table | None = None,
         gravity: bool | None = None,
         p_delta: bool | None = None,
@@ -521,6 +528,8 @@ class SpaceFrame(Part):
                 "eccentricity": eccentricity,
                 "element": element,
                 "damping": damping,
+                "base": base,
+                "foundation": foundation,
                 "isolation": isolation,
                 "gravity": gravity,
                 "p_delta": p_delta,
@@ -675,7 +684,7 @@ class Gap(Part):
         second_stiffness: of the law ``"bilinear"``: stiffness beyond yield, in N/m, instead of ``restitution``;
             ``stiffness`` is then the first one, in N/m.
         yield_: of the law ``"bilinear"`` with ``second_stiffness``: indentation at which it yields.
-        crush: of the law ``"linear"``: the face crushes, as ``{"force": "600 kN", "hardening": 0.05}``, and stays
+        crush: of the laws ``"linear"`` and ``"hertz"``: the face crushes, as ``{"force": "600 kN", "hardening": 0.05}``, and stays
             crushed: the gap is wider afterwards.
         thickness: of the law ``"rubber"``: thickness of the bumper.
         exponent: of the law ``"rubber"``: exponent of the compression, 2.65 by default.

@@ -5,7 +5,7 @@ use jostle::model::{
     Building, Damping, FloorPairs, Frame, Gap, Link, LinkLaw, Shear, Solver, Structure,
 };
 use jostle::motion::Wave;
-use jostle::results::summary::{BuildingSummary, GapSummary, LinkSummary};
+use jostle::results::summary::{BuildingSummary, FoundationSummary, GapSummary, LinkSummary};
 use maud::{Markup, html};
 
 use crate::facts::{Facts, by_place, grouped};
@@ -106,38 +106,7 @@ fn building(
             format::millimetres(summary.response.residual_roof_displacement_m),
         ));
         if let Some(own) = &summary.foundation {
-            facts.push((
-                message::foundation(),
-                message::sways_rocks(
-                    format::millimetres(own.sway_peak_m),
-                    format::unit(format::plain(own.rocking_peak_rad * 1e3, 3), "mrad"),
-                ),
-            ));
-            facts.push((
-                message::first_period_on_the_soil(),
-                message::times_that_on_rigid_ground(
-                    format::unit(format::plain(own.period_s, 3), "s"),
-                    format::plain(own.period_ratio, 4),
-                ),
-            ));
-            facts.push((
-                message::damping_of_that_mode(),
-                message::on_rigid_ground(
-                    format::plain(100.0 * own.damping_ratio, 3),
-                    format::plain(100.0 * own.damping_ratio_fixed, 3),
-                ),
-            ));
-            let parts = [
-                (own.sway_stiffness_n_m, "N/m"),
-                (own.sway_damping_n_s_m, "N·s/m"),
-                (own.rocking_stiffness_n_m_rad, "N·m/rad"),
-                (own.rocking_damping_n_m_s_rad, "N·m·s/rad"),
-            ];
-            let parts = parts.map(|(value, unit)| {
-                let (factor, unit) = format::factor_of(unit);
-                format::unit(format::plain(factor * value, 4), unit)
-            });
-            facts.push((message::springs_and_dashpots(), parts.join(", ")));
+            facts.extend(foundation(own));
         }
         if summary.hinges.cracked + summary.hinges.yielded > 0 {
             facts.push((
@@ -628,5 +597,86 @@ fn energy(page: &Page) -> Facts {
             format::plain(energy.worst_imbalance, 2),
         ),
     ]);
+    facts
+}
+
+/// How a foundation moves, and what the soil does to the fundamental modes; of a building with a plan also across, and in torsion.
+fn foundation(own: &FoundationSummary) -> Facts {
+    let milliradians = |value: f64| format::unit(format::plain(value * 1e3, 3), "mrad");
+    let mut facts = Facts::new();
+    let mut add = |name: &'static str,
+                   [sway, rocking, period, ratio, damping, fixed]: [f64; 6],
+                   parts: &[(f64, &str)]| {
+        let parts = parts.iter().map(|(value, unit)| {
+            let (factor, unit) = format::factor_of(unit);
+            format::unit(format::plain(factor * value, 4), unit)
+        });
+        let parts: Vec<String> = parts.collect();
+        facts.extend([
+            (
+                name,
+                message::sways_rocks(format::millimetres(sway), milliradians(rocking)),
+            ),
+            (
+                message::first_period_on_the_soil(),
+                message::times_that_on_rigid_ground(
+                    format::unit(format::plain(period, 3), "s"),
+                    format::plain(ratio, 4),
+                ),
+            ),
+            (
+                message::damping_of_that_mode(),
+                message::on_rigid_ground(
+                    format::plain(100.0 * damping, 3),
+                    format::plain(100.0 * fixed, 3),
+                ),
+            ),
+            (message::springs_and_dashpots(), parts.join(", ")),
+        ]);
+    };
+    let units = ["N/m", "N·s/m", "N·m/rad", "N·m·s/rad"];
+    add(
+        message::foundation(),
+        [
+            own.sway_peak_m,
+            own.rocking_peak_rad,
+            own.period_s,
+            own.period_ratio,
+            own.damping_ratio,
+            own.damping_ratio_fixed,
+        ],
+        &[
+            (own.sway_stiffness_n_m, units[0]),
+            (own.sway_damping_n_s_m, units[1]),
+            (own.rocking_stiffness_n_m_rad, units[2]),
+            (own.rocking_damping_n_m_s_rad, units[3]),
+        ],
+    );
+    let Some(own) = &own.in_plan else {
+        return facts;
+    };
+    add(
+        message::foundation_across(),
+        [
+            own.sway_across_peak_m,
+            own.rocking_across_peak_rad,
+            own.period_across_s,
+            own.period_ratio_across,
+            own.damping_ratio_across,
+            own.damping_ratio_across_fixed,
+        ],
+        &[
+            (own.sway_across_stiffness_n_m, units[0]),
+            (own.sway_across_damping_n_s_m, units[1]),
+            (own.rocking_across_stiffness_n_m_rad, units[2]),
+            (own.rocking_across_damping_n_m_s_rad, units[3]),
+            (own.torsional_stiffness_n_m_rad, units[2]),
+            (own.torsional_damping_n_m_s_rad, units[3]),
+        ],
+    );
+    facts.push((
+        message::foundation_turns(),
+        milliradians(own.torsion_peak_rad),
+    ));
     facts
 }

@@ -15,7 +15,9 @@ use jostle::model::{Damping, Structure, Tiers, usual_damping_modes};
 use jostle::system::BuildingSystem;
 use jostle::{Building, LinkLaw, Model, SpaceMember, SpacePlace, System};
 
-use base::{describe_bearing_places, describe_bearings, describe_foundation};
+use base::{
+    describe_bearing_places, describe_bearings, describe_foundation, describe_foundation_in_plan,
+};
 use frames::{axial_of_columns, diagonals, members, rigid_ends, walls};
 use hinges::{describe_hinges, describe_yielding_in_plan};
 use jostle::results::summary::Finding;
@@ -364,6 +366,9 @@ fn describe(
             let sticks = &building.discretization.stick_model;
             let bed = sticks.foundation.as_ref().map(|own| &own.bed[..]);
             describe_foundation(text, &foundation, mass, bed.unwrap_or_default())?;
+        }
+        if let Some(foundation) = &building.foundation_in_plan {
+            describe_foundation_in_plan(text, foundation)?;
         }
         if let Some(hinges) = &model.buildings[index].hinges {
             describe_hinges(text, hinges)?;
@@ -775,6 +780,7 @@ fn special(building: &Building) -> Vec<String> {
         let springs = list(&[
             ("rotation", base.rotational_stiffness, "N.m/rad"),
             ("sideways", base.horizontal_stiffness, "N/m"),
+            ("torsion", base.torsional_stiffness, "N.m/rad"),
             ("vertical", base.vertical_stiffness, "N/m"),
         ]);
         let lifts = if base.uplift { "; feet lift off" } else { "" };
@@ -782,10 +788,24 @@ fn special(building: &Building) -> Vec<String> {
         let dashpots = list(&[
             ("rotation", Some(base.rotational_damping), "N.m.s/rad"),
             ("sideways", Some(base.horizontal_damping), "N.s/m"),
+            ("torsion", Some(base.torsional_damping), "N.m.s/rad"),
             ("vertical", Some(base.vertical_damping), "N.s/m"),
         ]);
         if !dashpots.is_empty() {
             lines.push(format!("base with dashpots: {dashpots}"));
+        }
+        if let Some(own) = &base.across {
+            let across = list(&[
+                ("rotation", own.rotational_stiffness, "N.m/rad"),
+                ("sideways", own.horizontal_stiffness, "N/m"),
+                (
+                    "dashpot of rotation",
+                    Some(own.rotational_damping),
+                    "N.m.s/rad",
+                ),
+                ("dashpot sideways", Some(own.horizontal_damping), "N.s/m"),
+            ]);
+            lines.push(format!("base across: {across}"));
         }
         if base.mass > 0.0 {
             lines.push(format!("footings of {}", MASS.text(base.mass, 2)));

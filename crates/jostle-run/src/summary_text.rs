@@ -318,6 +318,18 @@ fn write_foundations(text: &mut String, summary: &Summary) -> std::fmt::Result {
             100.0 * own.damping_ratio,
             100.0 * own.damping_ratio_fixed
         )?;
+        if let Some(own) = &own.in_plan {
+            writeln!(
+                text,
+                "  across: {} sway, {:.3} mrad rocking, {:.3} times the period, damping {:.2} % instead of {:.2} %; {:.3} mrad torsion",
+                LENGTH.text(own.sway_across_peak_m, 2),
+                own.rocking_across_peak_rad * 1e3,
+                own.period_ratio_across,
+                100.0 * own.damping_ratio_across,
+                100.0 * own.damping_ratio_across_fixed,
+                own.torsion_peak_rad * 1e3
+            )?;
+        }
         between = "";
     }
     Ok(())

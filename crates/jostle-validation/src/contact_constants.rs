@@ -161,6 +161,7 @@ fn along_path(name: &str, path: &Value) -> Row {
         let crush = Crush {
             force: value("/Fy"),
             hardening: value("/eta"),
+            hertzian: false,
         };
         (LawKind::Crushing(crush), value("/k"))
     } else {

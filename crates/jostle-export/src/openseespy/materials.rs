@@ -327,6 +327,11 @@ impl Materials {
                 ),
                 Some(FIRST_ORDER),
             ),
+            ForceLaw::Crushing(law) if law.hertzian => {
+                return Err(
+                    "OpenSees has no contact after Hertz that stays crushed; write law = \"linear\" with crush, or leave crush out",
+                );
+            }
             // Crushed material stays crushed: the gap widens.
             ForceLaw::Crushing(law) => (
                 self.add(

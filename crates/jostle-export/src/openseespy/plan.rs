@@ -46,9 +46,13 @@ impl Script<'_> {
             );
         }
         if own.base.isolation.is_none() && !own.base.is_fixed() {
+            let key = match own.base.foundation {
+                Some(_) => ".foundation",
+                None => ".base",
+            };
             return refuse(
-                ".base",
-                "springs under a building with a plan are not exported to OpenSees yet; leave base out, or use isolation with linear bearings",
+                key,
+                "springs under a building with a plan are not exported to OpenSees yet; leave them out, or use isolation with linear bearings",
             );
         }
         if tiers.matrices.is_some() {

@@ -201,6 +201,7 @@ fn constants_of_contacts_are_exported() {
         jostle::LawKind::Crushing(Crush {
             force: 6e5,
             hardening: 0.05,
+            hertzian: false,
         }),
         2e8,
     );

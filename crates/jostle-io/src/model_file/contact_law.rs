@@ -197,6 +197,7 @@ fn with_constants(
         return kind;
     }
     let is_bilinear = matches!(kind, LawKind::Bilinear(_));
+    let crushes = matches!(kind, LawKind::Linear | LawKind::Hertz);
     let dashpot = match kind {
         LawKind::Kelvin => Some(DashpotLaw::Kelvin),
         LawKind::KelvinNoTension => Some(DashpotLaw::KelvinNoTension),
@@ -224,9 +225,9 @@ fn with_constants(
         ),
         (
             "crush",
-            kind == LawKind::Linear,
-            "linear",
-            "write law = \"linear\", or leave it out",
+            crushes,
+            "linear and hertz",
+            "write law = \"linear\" or \"hertz\", or leave it out",
         ),
     ];
     for (key, fits, owners, remedy) in allowed {
@@ -245,7 +246,10 @@ fn with_constants(
         return bilinear(reader, view, second, yields);
     }
     match crush {
-        Some(crush) if kind == LawKind::Linear => LawKind::Crushing(crush),
+        Some(crush) if crushes => LawKind::Crushing(Crush {
+            hertzian: kind == LawKind::Hertz,
+            ..crush
+        }),
         _ => kind,
     }
 }
@@ -292,6 +296,7 @@ fn crush(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Crush> {
     Some(Crush {
         force: force?,
         hardening: hardening.unwrap_or(0.0),
+        hertzian: false,
     })
 }
 

@@ -32,9 +32,23 @@ pub(super) fn read_foundation(reader: &mut Reader<'_>, building: &View<'_>) -> O
     let embedment = given(reader, &view, "embedment", Dimension::Length);
     let rotary_inertia = given(reader, &view, "rotary_inertia", Dimension::PolarMass);
     let uplift = read_uplift(reader, &view)?;
+    let torsion = given(
+        reader,
+        &view,
+        "torsional_stiffness",
+        Dimension::RotationalStiffness,
+    );
+    let torsional_damping = given(
+        reader,
+        &view,
+        "torsional_damping",
+        Dimension::RotationalDamping,
+    );
     let plate = Foundation::rectangle(length?, width?, mass?);
     Some(Foundation {
         uplift,
+        torsional_stiffness: torsion,
+        torsional_damping,
         embedment: embedment.unwrap_or(0.0),
         rotary_inertia: rotary_inertia.unwrap_or(plate.rotary_inertia),
         ..plate

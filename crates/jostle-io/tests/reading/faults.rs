@@ -638,6 +638,7 @@ fn parameters_belong_to_their_law() {
         "law = \"bilinear\"\nstiffness = \"400 MN/m\"\nsecond_stiffness = \"120 MN/m\"\nyield = \"1.5 mm\"",
         "law = \"linear\"\nstiffness = \"200 MN/m\"\ncrush = { force = \"600 kN\", hardening = 0.05 }",
         "law = \"linear\"\nstiffness = \"200 MN/m\"\ncrush = { force = \"600 kN\" }",
+        "law = \"hertz\"\nstiffness = \"2e9 N/m^1.5\"\ncrush = { force = \"600 kN\", hardening = 0.05 }",
     ] {
         if let Err(error) = read(gap) {
             panic!("{gap}: {error}");
@@ -745,8 +746,8 @@ fn parameters_belong_to_their_law() {
             "gap[0].formula: belongs to the law formula, not to kelvin",
         ),
         (
-            "law = \"hertz\"\ncrush = { force = \"600 kN\" }",
-            "gap[0].crush: belongs to the law linear, not to hertz",
+            "law = \"hertz-damp\"\ncrush = { force = \"600 kN\" }",
+            "gap[0].crush: belongs to the law linear and hertz, not to hertz-damp",
         ),
         (
             "law = \"linear\"\nstiffness = \"200 MN/m\"\ncrush = { hardening = 0.05 }",
@@ -755,6 +756,10 @@ fn parameters_belong_to_their_law() {
         (
             "law = \"linear\"\nstiffness = \"200 MN/m\"\ncrush = { force = 0 }",
             "gap[0].crush.force: must be greater than zero, found 0 N",
+        ),
+        (
+            "law = \"hertz\"\nstiffness = \"2e9 N/m^1.5\"\ncrush = { force = \"600 kN\", hardening = 0.7 }",
+            "gap[0].crush.hardening: must be at least 0 and below 2/3 for the law hertz, found 0.7; it is the stiffness while crushing over that where the face begins to crush",
         ),
         (
             "law = \"linear\"\nstiffness = \"200 MN/m\"\ncrush = { force = \"600 kN\", hardening = 1 }",

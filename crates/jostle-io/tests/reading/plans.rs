@@ -794,3 +794,32 @@ fn a_base_differs_across_where_it_says_so() {
     let lifts = "base = { vertical_stiffness = \"900 MN/m\" }\n";
     assert!(refusal(&format!("{A}{lifts}")).contains("vertical_stiffness"));
 }
+
+/// A foundation on soil may state its springs in torsion; it does not lift off, and foundations in plan do not act on each other.
+#[test]
+fn a_foundation_stands_under_a_plan() {
+    let soil = "[soil]\nshear_wave_velocity = \"200 m/s\"\ndensity = 1900\npoisson_ratio = 0.33\n";
+    let plate = r#"foundation = { length = "18 m", width = "12 m", mass = "400 t", torsional_stiffness = "120 GN.m/rad", torsional_damping = "900 MN.m.s/rad" }"#;
+    let input = read(&format!("{soil}{A}{plate}\n")).expect("a sound model");
+    let own = input.model.buildings[0].base.foundation;
+    let own = own.expect("it stands on one");
+    assert_eq!([own.length, own.width, own.mass], [18.0, 12.0, 4e5]);
+    assert_eq!(own.torsional_stiffness, Some(1.2e11));
+    assert_eq!(own.torsional_damping, Some(9e8));
+    let plain = "foundation = { length = \"18 m\", width = \"12 m\", mass = \"400 t\" }";
+    let own = read(&format!("{soil}{A}{plain}\n")).expect("a sound model");
+    let own = own.model.buildings[0].base.foundation.expect("one");
+    assert_eq!(
+        (own.torsional_stiffness, own.torsional_damping),
+        (None, None)
+    );
+    let negative = plate.replace("\"900 MN.m.s/rad\"", "-1");
+    let error = refusal(&format!("{soil}{A}{negative}\n"));
+    assert!(error.contains("torsional_damping"), "{error}");
+    let lifts = plain.replace(" }", ", uplift = true, springs = 5 }");
+    let error = refusal(&format!("{soil}{A}{lifts}\n"));
+    assert!(
+        error.contains("not possible under a building with a plan yet"),
+        "{error}"
+    );
+}

@@ -147,6 +147,8 @@ messages! {
     peak_base_shear = "peak base shear";
     roof_displacement_at_the_end = "roof displacement at the end";
     foundation = "foundation";
+    foundation_across = "foundation across";
+    foundation_turns = "rotation of the foundation about the vertical axis";
     sways_rocks(sway_peak, rocking_peak) = "sways {sway_peak}, rocks {rocking_peak}";
     first_period_on_the_soil = "first period on the soil";
     times_that_on_rigid_ground(period, period_ratio) = "{period}, {period_ratio} times that on rigid ground";

@@ -2,19 +2,13 @@
 
 use std::fmt::Write as _;
 
-use jostle::BedSpring;
+use jostle::{BedSpring, Foundation};
 use jostle_io::shown::{FORCE, HEIGHT, LENGTH, MASS, MOMENT};
 
 use super::short;
 
-/// Foundation, springs and dashpots of the soil, and what they do to the first mode.
-pub(super) fn describe_foundation(
-    text: &mut String,
-    own: &jostle::system::FoundationPlace,
-    mass: f64,
-    bed: &[BedSpring],
-) -> std::fmt::Result {
-    let (foundation, springs) = (&own.foundation, &own.springs);
+/// Dimensions and mass of a foundation.
+fn describe_plate(text: &mut String, foundation: &Foundation) -> std::fmt::Result {
     let depth = match foundation.embedment > 0.0 {
         true => format!(", {} deep", HEIGHT.text(foundation.embedment, 2)),
         false => String::new(),
@@ -25,7 +19,57 @@ pub(super) fn describe_foundation(
         HEIGHT.number(foundation.length, 2),
         HEIGHT.text(foundation.width, 2),
         MASS.text(foundation.mass, 1)
+    )
+}
+
+/// The foundation of a building with a plan: springs and dashpots in both directions, and what they do to the fundamental modes.
+pub(super) fn describe_foundation_in_plan(
+    text: &mut String,
+    own: &jostle::system::FoundationInPlan,
+) -> std::fmt::Result {
+    describe_plate(text, &own.foundation)?;
+    let springs = &own.springs;
+    let directions = [("along x", &springs.along), ("across", &springs.across)];
+    for (direction, springs) in directions {
+        writeln!(
+            text,
+            "  soil {direction}: sway {} and {}, rocking {} and {}",
+            short(springs.sway_stiffness, "N/m"),
+            short(springs.sway_damping, "N.s/m"),
+            short(springs.rocking_stiffness, "N.m/rad"),
+            short(springs.rocking_damping, "N.m.s/rad")
+        )?;
+    }
+    let [stiffness, damping] = springs.torsion;
+    writeln!(
+        text,
+        "  soil in torsion: {} and {}",
+        short(stiffness, "N.m/rad"),
+        short(damping, "N.m.s/rad")
     )?;
+    for (axis, (direction, _)) in directions.into_iter().enumerate() {
+        writeln!(
+            text,
+            "  first period {direction} {:.3} s instead of {:.3} s on rigid ground ({:.3} times), damping {:.2} % instead of {:.2} %",
+            own.periods[axis],
+            own.fixed_periods[axis],
+            own.periods[axis] / own.fixed_periods[axis],
+            100.0 * own.damping[axis],
+            100.0 * own.fixed_damping[axis]
+        )?;
+    }
+    Ok(())
+}
+
+/// Foundation, springs and dashpots of the soil, and what they do to the first mode.
+pub(super) fn describe_foundation(
+    text: &mut String,
+    own: &jostle::system::FoundationPlace,
+    mass: f64,
+    bed: &[BedSpring],
+) -> std::fmt::Result {
+    let (foundation, springs) = (&own.foundation, &own.springs);
+    describe_plate(text, foundation)?;
     let sway = match own.sway {
         Some(_) => format!(
             "sway {} and {}",

@@ -35,7 +35,7 @@ pub(super) fn losses(gap: &Gap, contacts: &[&Contact]) -> String {
             LENGTH.text(own.yield_indentation, 1)
         ),
         LawKind::Crushing(own) => format!(
-            "crushes from {} on, with {} of the stiffness, and stays crushed",
+            "crushes from {} on, with {} of its stiffness there, and stays crushed",
             FORCE.text(own.force, 1),
             own.hardening
         ),

@@ -339,10 +339,18 @@ fn check_shape(faults: &mut Faults, path: &str, law: &ContactLaw) {
         LawKind::Crushing(crush) => {
             faults.positive(crush.force, format!("{path}.crush.force"), "N");
             let share = crush.hardening;
+            let (most, text, over) = match crush.hertzian {
+                true => (
+                    2.0 / 3.0,
+                    "2/3 for the law hertz",
+                    "that where the face begins to crush",
+                ),
+                false => (1.0, "1", "the contact stiffness"),
+            };
             faults.require(
-                (0.0..1.0).contains(&share),
+                (0.0..most).contains(&share),
                 format!("{path}.crush.hardening"),
-                || format!("must be at least 0 and below 1, found {share}; it is the stiffness while crushing over the contact stiffness"),
+                || format!("must be at least 0 and below {text}, found {share}; it is the stiffness while crushing over {over}"),
             );
         }
         LawKind::Formula(formula) => {

@@ -163,9 +163,6 @@ pub(super) fn check_tiers(faults: &mut Faults, path: &str, tiers: &Tiers, buildi
 
 /// Faults of the springs under a building with a plan.
 fn check_plan_base(faults: &mut Faults, path: &str, tiers: &Tiers, base: &Base) {
-    faults.require(base.foundation.is_none(), path, || {
-        "is not possible as a foundation on soil for a building with a plan yet; give the springs of the soil as base = { horizontal_stiffness, rotational_stiffness, torsional_stiffness }, or leave it out".into()
-    });
     for (key, given) in [
         ("horizontal_hinge", base.horizontal_hinge.is_some()),
         ("rotational_hinge", base.rotational_hinge.is_some()),
@@ -212,10 +209,16 @@ fn check_plan_base(faults: &mut Faults, path: &str, tiers: &Tiers, base: &Base) 
             });
         }
     }
-    let follows = tiers.frames.is_empty() && tiers.space_frame.is_none();
-    faults.require(follows || along.rotational_stiffness.is_none(), format!("{path}.rotational_stiffness"), || {
-        "is for storeys given by stiffness or elements; under frames with a plan the base sways and turns about the vertical axis only: leave it out, or give it to the base of a frame".into()
-    });
+    for (index, frame) in tiers.frames.iter().enumerate() {
+        let sways = frame.base.horizontal_stiffness.is_some();
+        let at = format!(
+            "{}frame[{index}].base.horizontal_stiffness",
+            path.trim_end_matches("base")
+        );
+        faults.require(base.is_fixed() || !sways, at, || {
+            "has nothing to do on a base that moves as a whole and holds the feet of the frame; leave it out".into()
+        });
+    }
 }
 
 /// What is wrong with a polygon.
@@ -360,6 +363,10 @@ fn check_overlaps(faults: &mut Faults, model: &Model) {
             let common = own.floors.iter().zip(&others.floors);
             let sound = |plan: &[PlanPoint]| polygon_fault(plan).is_none();
             for (floor, (a, b)) in common.enumerate() {
+                if floor == 0 {
+                    let pair = [(own, building), (others, other)];
+                    check_foundations_apart(faults, index, pair);
+                }
                 if sound(&a.plan) && sound(&b.plan) && overlap(&a.plan, &b.plan) {
                     faults.add(
                         format!("building[{index}].at"),
@@ -374,6 +381,30 @@ fn check_overlaps(faults: &mut Faults, model: &Model) {
             }
         }
     }
+}
+
+/// Foundations of two buildings that overlap; those of the second are known to be sound.
+fn check_foundations_apart(faults: &mut Faults, index: usize, pair: [(&Tiers, &Building); 2]) {
+    let plans = pair.map(|(tiers, building)| {
+        building.base.foundation?;
+        Some(tiers.carrier(&building.base)?.tier.plan)
+    });
+    let [Some(own), Some(other)] = plans else {
+        return;
+    };
+    let sound = [&own, &other]
+        .iter()
+        .all(|plan| polygon_fault(plan).is_none());
+    faults.require(
+        !(sound && overlap(&own, &other)),
+        format!("building[{index}].foundation"),
+        || {
+            format!(
+                "overlaps the foundation of \"{}\": foundations are centred below the plan of the lowest floor",
+                pair[1].1.name
+            )
+        },
+    );
 }
 
 /// Faults of a gap between two buildings with plans.

@@ -23,13 +23,33 @@ pub(super) fn check_foundation(faults: &mut Faults, path: &str, building: &Build
     faults.require(building.base == plain, own.as_str(), || {
         "cannot stand beside base or isolation: the soil is the base; leave out one of them".into()
     });
-    let stands = matches!(
-        building.structure,
-        Structure::Frame(_) | Structure::Shear(_)
-    );
-    faults.require(stands, own.as_str(), || {
-        "is for frames and shear buildings in one plane; leave it out".into()
+    let (has_floors, has_plan) = match &building.structure {
+        Structure::Frame(_) | Structure::Shear(_) => (true, false),
+        Structure::Tiers(tiers) => (tiers.matrices.is_none(), true),
+        Structure::Given(_) => (false, false),
+    };
+    faults.require(has_floors, own.as_str(), || {
+        "is for frames and shear buildings, with a plan or without; leave it out".into()
     });
+    faults.require(
+        !has_plan || foundation.uplift.is_none(),
+        format!("{own}.uplift"),
+        || "is not possible under a building with a plan yet; leave it out".into(),
+    );
+    if let Some(stiffness) = foundation.torsional_stiffness {
+        faults.positive(stiffness, format!("{own}.torsional_stiffness"), "N.m/rad");
+    }
+    if let Some(damping) = foundation.torsional_damping {
+        faults.not_negative(damping, format!("{own}.torsional_damping"), "N.m.s/rad");
+    }
+    for (key, given) in [
+        ("torsional_stiffness", foundation.torsional_stiffness),
+        ("torsional_damping", foundation.torsional_damping),
+    ] {
+        faults.require(has_plan || given.is_none(), format!("{own}.{key}"), || {
+            "is for buildings with a plan, which turn; leave it out".into()
+        });
+    }
     if let Structure::Frame(frame) = &building.structure {
         let rises = foundation.uplift.is_some();
         faults.require(rises || !frame.axial.columns_flexible, own.as_str(), || {
@@ -161,6 +181,15 @@ pub(super) fn check_soil(faults: &mut Faults, model: &Model) {
                     .into()
             },
         );
+    }
+    let in_plan = |index: usize| matches!(model.buildings[index].structure, Structure::Tiers(_));
+    for index in founded.iter().copied().filter(|index| in_plan(*index)) {
+        faults.require(soil.coupling == SoilCoupling::None, "soil.coupling", || {
+            format!(
+                "is for foundations in one plane, and \"{}\" has a plan: leave coupling out",
+                model.buildings[index].name
+            )
+        });
     }
     faults.require(!founded.is_empty(), "soil", || {
         "carries no foundation: give a building a foundation, or leave out [soil]".into()

@@ -264,7 +264,7 @@ impl ForceLaw {
     /// indentation along lines that meet at corners, which a cubic through the slopes at the ends would overshoot.
     #[must_use]
     pub(crate) fn stays_between_ends(&self) -> bool {
-        matches!(self, Self::Crushing(_))
+        matches!(self, Self::Crushing(own) if !own.hertzian)
     }
 
     /// Whether the stiffness grows so steeply that most of an impact happens in a small part of it.
@@ -339,6 +339,10 @@ impl ForceLaw {
                 linear(bilinear.first_stiffness * bilinear.scale(impact_speed))
             }
             Self::Rubber(rubber) => rubber.elastic_duration(effective_mass, impact_speed),
+            Self::Crushing(crushing) if crushing.hertzian => {
+                HERTZ_DURATION * hertz_indentation(crushing.stiffness, effective_mass, impact_speed)
+                    / impact_speed
+            }
             Self::Crushing(crushing) => linear(crushing.stiffness),
             Self::Formula(formula) => formula.elastic_duration(effective_mass, impact_speed),
         }

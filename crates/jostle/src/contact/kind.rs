@@ -41,7 +41,7 @@ pub enum LawKind {
     Dashpot(Dashpot),
     /// The bilinear law with given stiffnesses and yield indentation.
     BilinearGiven(BilinearConstants),
-    /// F = k δ up to a force at which the face crushes; it stays crushed.
+    /// F = k δ, or k δ^1.5, up to a force at which the face crushes; it stays crushed.
     Crushing(Crush),
     /// A formula of the user in indentation, rate and impact speed.
     Formula(Formula),
@@ -125,6 +125,7 @@ impl LawKind {
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
+            Self::Crushing(crush) if crush.hertzian => "hertz",
             Self::Linear | Self::Crushing(_) => "linear",
             Self::Kelvin => "kelvin",
             Self::KelvinNoTension => "kelvin-no-tension",
@@ -166,6 +167,7 @@ impl LawKind {
         match self {
             Self::Hertz | Self::HertzDamp | Self::Ye | Self::Jankowski | Self::Bilinear(_) => true,
             Self::Formula(formula) => formula.is_hertzian(),
+            Self::Crushing(crush) => crush.hertzian,
             _ => false,
         }
     }

@@ -104,6 +104,8 @@ pub enum Kind {
     Force,
     /// Force of the ring that stops a mat, in any direction \[N\].
     RingForce,
+    /// Rocking of a foundation in plan along and across, as displacement of floors per height \[rad\].
+    Rocking,
     /// Closing of a contact, u_left − u_right \[m\].
     Closing,
     /// Shortening of a link since rest, or length of the displacement of a bearing \[m\].
@@ -282,6 +284,7 @@ impl Column {
                 _ => "force",
             }),
             (Kind::RingForce, _) => ("ring_force", Unit::N, "force of the ring that stops the mat, in any direction"),
+            (Kind::Rocking, _) => ("rocking", Unit::RAD, "rocking of a foundation in plan: displacement of floors per height"),
             (Kind::Closing, _) => ("closing", Unit::M, "closing; only of contacts on a column between floors, or where grounds move apart"),
             (Kind::Stroke, _) => ("stroke", Unit::M, "shortening of the link since rest; with `links = true` under `[output]`"),
             (Kind::Speed, _) => ("speed", Unit::M_S, "its rate; with `links = true` under `[output]`"),

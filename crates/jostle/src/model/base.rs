@@ -45,7 +45,8 @@ pub struct Base {
     pub horizontal_hinge: Option<Hysteresis>,
     /// Bearings and a mat under the whole building, instead of all of the above.
     pub isolation: Option<Isolation>,
-    /// Rigid foundation on the soil of the model, instead of all of the above.
+    /// Rigid foundation on the soil of the model, instead of all of the above. Of a building with a plan, assembly adds the springs and
+    /// dashpots of the soil under it.
     pub foundation: Option<Foundation>,
     /// Whether the vertical springs bear compression alone, so that feet of columns lift off; needs `vertical_stiffness`.
     pub uplift: bool,
@@ -82,8 +83,17 @@ impl Base {
     /// building stands on the ground \[kg\].
     #[must_use]
     pub fn carrying_mass(&self) -> Option<f64> {
-        let mat = self.isolation.map(|own| own.mat_mass);
-        mat.or((!self.is_fixed()).then_some(self.mass))
+        let carrier = self.isolation.map(|own| own.mat_mass);
+        let carrier = carrier.or(self.foundation.map(|own| own.mass));
+        carrier.or((!self.is_fixed()).then_some(self.mass))
+    }
+
+    /// Whether a building with a plan rocks on it.
+    #[must_use]
+    pub fn rocks_in_plan(&self) -> bool {
+        self.in_plan()
+            .iter()
+            .all(|own| own.rotational_stiffness.is_some())
     }
 
     /// Whether it can lift off the ground.

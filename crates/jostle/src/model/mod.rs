@@ -17,6 +17,7 @@ mod isolation;
 mod link_law;
 mod members;
 mod plan_bearings;
+mod plan_foundation;
 mod plan_frame;
 mod plan_spring;
 mod shear_spring;
@@ -49,6 +50,7 @@ pub use isolation::{
 };
 pub use link_law::LinkLaw;
 pub use members::{JointRequest, MemberRequest};
+pub use plan_foundation::PlanFoundationSprings;
 pub use plan_frame::{LumpedFloor, PlanFrame, SharedColumn};
 pub use plan_spring::{PlanAxis, PlanSpring};
 pub use shear_spring::{ShearEnds, ShearSpring};

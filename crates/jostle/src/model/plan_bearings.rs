@@ -1,6 +1,6 @@
 //! Where the bearings of an isolated building in plan stand.
 
-use super::{LumpedFloor, PlanArea, PlanPoint, Tier, Tiers};
+use super::{Base, LumpedFloor, PlanArea, PlanPoint, Tier, Tiers};
 
 /// Radii of gyration of a plan closer than this share of each other have no principal axes of their own \[–\].
 const ALIKE: f64 = 1e-9;
@@ -21,8 +21,27 @@ impl Tiers {
     /// their masses.
     #[must_use]
     pub fn mat(&self, mass: f64) -> LumpedFloor {
+        self.plate(mass, self.lowest_plan())
+    }
+
+    /// What carries the building and moves against the ground: a mat or a footing, spread evenly over the plan of the lowest floor, or
+    /// a rectangular foundation about the centroid of that plan; `None` if it stands on the ground.
+    #[must_use]
+    pub fn carrier(&self, base: &Base) -> Option<LumpedFloor> {
+        let plan = self.lowest_plan();
+        let plan = match base.foundation {
+            Some(own) => own.corners(PlanArea::new(&plan).centroid),
+            None => plan,
+        };
+        Some(self.plate(base.carrying_mass()?, plan))
+    }
+
+    fn lowest_plan(&self) -> Vec<PlanPoint> {
         let plan = self.floors.first().map(|floor| floor.plan.clone());
-        let plan = plan.unwrap_or_default();
+        plan.unwrap_or_default()
+    }
+
+    fn plate(&self, mass: f64, plan: Vec<PlanPoint>) -> LumpedFloor {
         let area = PlanArea::new(&plan);
         self.with_feet(&Tier {
             mass,

@@ -76,6 +76,11 @@ pub struct Foundation {
     pub rotary_inertia: f64,
     /// Contact with the ground in compression alone; `None` keeps it down: it then neither rises nor sinks.
     pub uplift: Option<Uplift>,
+    /// Moment per rotation about the vertical axis, > 0, under a building with a plan; `None`: that of the half-space at the
+    /// surface \[N·m/rad\].
+    pub torsional_stiffness: Option<f64>,
+    /// Moment per angular velocity about that axis, ≥ 0; `None`: what the soil dissipates itself, without radiation \[N·m·s/rad\].
+    pub torsional_damping: Option<f64>,
 }
 
 /// Springs and dashpots under a foundation.
@@ -197,6 +202,8 @@ impl Foundation {
             mass,
             rotary_inertia: mass * length * length / 12.0,
             uplift: None,
+            torsional_stiffness: None,
+            torsional_damping: None,
         }
     }
 

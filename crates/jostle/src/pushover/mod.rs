@@ -564,9 +564,11 @@ impl<'a, E: StepEquations> Push<'a, E> {
         let mut below = building
             .foot
             .map_or(0.0, |foot| from_rest(foot - building.offset));
-        let turned = building
-            .foundation
-            .map_or(0.0, |own| from_rest(own.turning - building.offset));
+        let mut moved = vec![0.0; building.offset + displacement.len()];
+        for (dof, value) in moved[building.offset..].iter_mut().enumerate() {
+            *value = from_rest(dof);
+        }
+        let turned = building.rocking(&moved);
         let storeys = building.floors.iter().zip(&floors);
         let storey_drifts = storeys
             .map(|(floor, value)| {

@@ -1,7 +1,8 @@
 //! What a run does to foundations on soil.
 
-use super::summary::FoundationSummary;
-use crate::history::Owner;
+use super::summary::{FoundationAcross, FoundationSummary};
+use crate::history::{Kind, Owner};
+use crate::model::PlanFoundationSprings;
 use crate::stepping::Outcome;
 use crate::system::{BuildingSystem, System};
 
@@ -15,6 +16,9 @@ pub(super) fn foundation_summary(
     building: &BuildingSystem,
     outcome: &Outcome,
 ) -> Option<FoundationSummary> {
+    if building.foundation_in_plan.is_some() {
+        return in_plan(index, building, outcome);
+    }
     let own = building.foundation?;
     let owner = Owner::Foundation(index);
     let peaks = outcome.peaks.owned_by(owner);
@@ -31,13 +35,62 @@ pub(super) fn foundation_summary(
         rocking_damping_n_m_s_rad: own.springs.rocking_damping,
         dimensionless_frequency: own.springs.frequency,
         damped_j: outcome.peaks.work(owner),
+        in_plan: None,
+    })
+}
+
+/// The same of a building with a plan.
+fn in_plan(
+    index: usize,
+    building: &BuildingSystem,
+    outcome: &Outcome,
+) -> Option<FoundationSummary> {
+    let own = building.foundation_in_plan?;
+    let owner = Owner::Foundation(index);
+    let peaks = outcome.peaks.owned_by(owner);
+    let rocked = [peaks, peaks.across()].map(|own| own.of(Kind::Rocking).size());
+    let PlanFoundationSprings {
+        along,
+        across,
+        torsion,
+    } = own.springs;
+    let ratios = [0, 1].map(|axis| own.periods[axis] / own.fixed_periods[axis]);
+    Some(FoundationSummary {
+        sway_peak_m: peaks.displacement().size(),
+        rocking_peak_rad: rocked[0],
+        period_s: own.periods[0],
+        period_ratio: ratios[0],
+        damping_ratio: own.damping[0],
+        damping_ratio_fixed: own.fixed_damping[0],
+        sway_stiffness_n_m: along.sway_stiffness,
+        sway_damping_n_s_m: along.sway_damping,
+        rocking_stiffness_n_m_rad: along.rocking_stiffness,
+        rocking_damping_n_m_s_rad: along.rocking_damping,
+        dimensionless_frequency: along.frequency,
+        damped_j: outcome.peaks.work(owner),
+        in_plan: Some(FoundationAcross {
+            sway_across_peak_m: peaks.across().displacement().size(),
+            rocking_across_peak_rad: rocked[1],
+            torsion_peak_rad: peaks.turning().displacement().size(),
+            period_across_s: own.periods[1],
+            period_ratio_across: ratios[1],
+            damping_ratio_across: own.damping[1],
+            damping_ratio_across_fixed: own.fixed_damping[1],
+            sway_across_stiffness_n_m: across.sway_stiffness,
+            sway_across_damping_n_s_m: across.sway_damping,
+            rocking_across_stiffness_n_m_rad: across.rocking_stiffness,
+            rocking_across_damping_n_m_s_rad: across.rocking_damping,
+            torsional_stiffness_n_m_rad: torsion[0],
+            torsional_damping_n_m_s_rad: torsion[1],
+        }),
     })
 }
 
 /// Energy dissipated in all dashpots of the soil, and the part of those between foundations, which stand among the links;
 /// `None` without foundations \[J\].
 pub(super) fn soil_energy(system: &System, outcome: &Outcome) -> Option<[f64; 2]> {
-    let founded = system.buildings.iter().any(|own| own.foundation.is_some());
+    let mut buildings = system.buildings.iter();
+    let founded = buildings.any(|own| own.foundation.is_some() || own.foundation_in_plan.is_some());
     let buildings = 0..system.buildings.len();
     let own = buildings.map(|building| outcome.peaks.work(Owner::Foundation(building)));
     let own: f64 = own.sum();
@@ -56,18 +109,24 @@ pub(super) fn soil_energy(system: &System, outcome: &Outcome) -> Option<[f64; 2]
 pub fn foundation_warnings(system: &System) -> Vec<String> {
     let mut warnings = Vec::new();
     for building in system.structures() {
-        let Some(own) = building.foundation else {
+        let in_plane = building.foundation;
+        let in_plane = in_plane.map(|own| (own.foundation, own.springs.frequency));
+        let in_plan = building.foundation_in_plan.map(|own| {
+            let PlanFoundationSprings { along, across, .. } = own.springs;
+            (own.foundation, along.frequency.max(across.frequency))
+        });
+        let Some((foundation, frequency)) = in_plane.or(in_plan) else {
             continue;
         };
         // Given matrices follow from no formula.
-        if own.springs.frequency == 0.0 {
+        if frequency == 0.0 {
             continue;
         }
         let name = &building.name;
         let found = [
-            own.foundation.slenderness(),
-            own.springs.frequency,
-            own.foundation.relative_depth(),
+            foundation.slenderness(),
+            frequency,
+            foundation.relative_depth(),
         ];
         let what = [
             "the ratio of its sides",

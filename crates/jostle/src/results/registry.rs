@@ -10,11 +10,11 @@ use super::response::{BuildingResponse, FloorResponse};
 use super::summary::{
     AcceptanceSummary, AcrossSummary, AxialFailureSummary, BuildingSummary, CapacitySummary,
     ContactSummary, EnergySummary, ExceededSummary, FibreAcrossSummary, FibreSummary, FloorSummary,
-    ForcesSummary, FoundationSummary, GapSummary, HingeSummary, ImpactSummary, IsolationInPlan,
-    IsolationSummary, JointRatio, JointSummary, LinkFloorSummary, LinkSummary, MemberComparison,
-    MotionSummary, PartSummary, PromiseSummary, RatioPlace, RatioSummary, SectionSummary,
-    ShearFailure, ShearFailureSummary, SpringSummary, StageSummary, StruckSummary, Summary,
-    WallSummary, WorkSummary,
+    ForcesSummary, FoundationAcross, FoundationSummary, GapSummary, HingeSummary, ImpactSummary,
+    IsolationInPlan, IsolationSummary, JointRatio, JointSummary, LinkFloorSummary, LinkSummary,
+    MemberComparison, MotionSummary, PartSummary, PromiseSummary, RatioPlace, RatioSummary,
+    SectionSummary, ShearFailure, ShearFailureSummary, SpringSummary, StageSummary, StruckSummary,
+    Summary, WallSummary, WorkSummary,
 };
 use crate::quantity::{Places, Quantity};
 
@@ -97,6 +97,7 @@ const OWNERS: &[Row] = &[
     ("Bearings in plan", "buildings[].isolation", None, "A.isolation_", &[entries!(IsolationInPlan::QUANTITIES)]),
     ("Stages of pendulums", "buildings[].isolation.stages[]", None, "", &[entries!(StageSummary::QUANTITIES)]),
     ("Foundations", "buildings[].foundation", None, "", &[entries!(FoundationSummary::QUANTITIES)]),
+    ("Foundations in plan", "buildings[].foundation", None, "", &[entries!(FoundationAcross::QUANTITIES)]),
     ("Ground under a building", "buildings[].ground", None, "", &[entries!(GroundSummary::QUANTITIES)]),
     ("Ground in plan", "buildings[].ground", None, "", &[entries!(GroundInPlan::QUANTITIES)]),
     ("Hinges of a building", "buildings[].hinges", None, "", &[entries!(HingeSummary::QUANTITIES)]),

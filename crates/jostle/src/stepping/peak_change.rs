@@ -56,6 +56,7 @@ impl Greatest {
             | Kind::CornerDisplacement
             | Kind::Drift
             | Kind::CornerDrift
+            | Kind::Rocking
             | Kind::Closing
             | Kind::Stroke => Some(&mut self.displacement),
             Kind::Velocity | Kind::Speed => Some(&mut self.velocity),

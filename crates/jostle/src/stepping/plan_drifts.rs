@@ -1,6 +1,7 @@
 //! Greatest drifts of the storeys of a building in plan, step by step.
 
 use super::extremes::{BEYOND, greatest_in_step};
+use crate::linear::Row;
 use crate::system::{BuildingSystem, PlanStorey};
 
 /// Motion and its rate.
@@ -27,12 +28,16 @@ struct Drifts {
 impl PlanDrifts {
     /// Of a building whose displacement `dof` stands at `place(dof)` of the lists of a run.
     pub(super) fn new(building: &BuildingSystem, place: impl Fn(usize) -> usize) -> Self {
+        let moved = |row: &Row| -> Row {
+            let entries = row.entries().iter();
+            entries.map(|(dof, share)| (place(*dof), *share)).collect()
+        };
         let drifts = |storey: &PlanStorey| Drifts {
             reach: storey.reach(),
             storey: PlanStorey {
                 above: storey.above.map(&place),
                 below: storey.below.map(|dofs| dofs.map(|dof| dof.map(&place))),
-                base: storey.base.map(|dofs| dofs.map(|dof| dof.map(&place))),
+                base: storey.base.as_ref().map(|rows| rows.each_ref().map(moved)),
                 ..storey.clone()
             },
             centre: [0.0; 2],

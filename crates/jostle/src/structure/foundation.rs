@@ -208,19 +208,36 @@ fn centre_of_what_rises(sticks: &StickModel, feet: &[usize], middle: f64) -> f64
     middle + moment / carried
 }
 
-/// Distance to the right of the node of the foundation, for nodes that rise with a foot: those on columns that keep their
-/// length, and those beyond hinges that do not stretch.
+/// Distance to the right of the node of the foundation, for nodes that rise with a foot.
 fn levers(sticks: &StickModel, feet: &[usize], middle: f64) -> Vec<Option<f64>> {
-    let mut levers = vec![None; sticks.nodes.len()];
+    let feet = risers(sticks, feet).into_iter();
+    feet.map(|foot| Some(sticks.nodes[foot?].x - middle))
+        .collect()
+}
+
+/// The foot with which every node rises: those on columns that keep their length, and those beyond hinges that do not stretch.
+fn risers(sticks: &StickModel, feet: &[usize]) -> Vec<Option<usize>> {
+    followers(sticks, feet, Y)
+}
+
+/// The foot with which every node moves in a displacement, as columns that keep their length and hinges that are rigid in it say.
+pub(super) fn followers(
+    sticks: &StickModel,
+    feet: &[usize],
+    component: usize,
+) -> Vec<Option<usize>> {
+    let mut followed = vec![None; sticks.nodes.len()];
     for &foot in feet {
-        levers[foot] = Some(sticks.nodes[foot].x - middle);
+        followed[foot] = Some(foot);
     }
-    let columns = sticks
-        .members
-        .iter()
-        .filter(|member| member.axial_rigidity.is_none() && member.is_vertical(&sticks.nodes));
-    let hinges = sticks.hinges.iter();
-    let hinges = hinges.filter(|hinge| hinge.translational_stiffness[1].is_none());
+    let columns = sticks.members.iter().filter(|member| {
+        let is_rigid = component == Y && member.axial_rigidity.is_none();
+        is_rigid && member.is_vertical(&sticks.nodes)
+    });
+    let hinges = sticks.hinges.iter().filter(|hinge| {
+        let [horizontal, vertical] = hinge.translational_stiffness;
+        [horizontal, vertical, hinge.rotational_stiffness][component].is_none()
+    });
     let ties: Vec<[usize; 2]> = columns
         .map(|member| member.ends)
         .chain(hinges.map(|hinge| hinge.ends))
@@ -229,14 +246,14 @@ fn levers(sticks: &StickModel, feet: &[usize], middle: f64) -> Vec<Option<f64>> 
         let mut found = false;
         for &[a, b] in &ties {
             for (from, to) in [(a, b), (b, a)] {
-                if let (Some(lever), None) = (levers[from], levers[to]) {
-                    levers[to] = Some(lever);
+                if let (Some(foot), None) = (followed[from], followed[to]) {
+                    followed[to] = Some(foot);
                     found = true;
                 }
             }
         }
         if !found {
-            return levers;
+            return followed;
         }
     }
 }

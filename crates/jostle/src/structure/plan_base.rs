@@ -1,18 +1,66 @@
 //! Springs and dashpots under the base of a building in plan.
 
 use super::discretization::Discretization;
-use super::element::{Element, Part, X, Y, over_nodes, places};
+use super::element::{Element, Part, Place, THETA, X, Y, index_of, over_nodes, places};
 use super::order::Turn;
 use super::plan_matrix::PlanMatrix;
 use super::stick_model::{Influence, Node, PlanBase, StickModel, Support};
+use super::tiers::motion_at;
 use crate::linear::Row;
-use crate::model::{Base, LumpedFloor, PlanArea, TierStorey};
+use crate::model::{Base, LEVEL_TOLERANCE, LumpedFloor, PlanArea, PlanPoint, TierStorey};
+
+/// Least share of the coupled inertia in both others that is more than rounding \[–\].
+const COUPLED: f64 = 1e-12;
+
+impl PlanBase {
+    /// Its nodes with displacements of their own.
+    pub(crate) fn nodes(self) -> impl Iterator<Item = usize> {
+        [self.footing]
+            .into_iter()
+            .chain(self.uncoupled.or(self.rocking))
+    }
+
+    /// Its motions over displacements of nodes: sway along and across of its middle, rotation about the vertical axis, and rocking along
+    /// and across, as displacements of floors per height.
+    pub(crate) fn motions(self) -> [Row; 5] {
+        let of_middle = motion_at(self.middle, self.centre).map(|shares| {
+            let components = [X, Y, THETA].map(|component| (self.footing, component));
+            over_nodes(
+                components
+                    .into_iter()
+                    .zip(shares)
+                    .filter(|own| own.1 != 0.0),
+            )
+        });
+        let [along, across, turned] = of_middle;
+        let rocked = |component| match self.rocking {
+            Some(node) => over_nodes([((node, component), 1.0)]),
+            None => Row::default(),
+        };
+        [along, across, turned, rocked(X), rocked(Y)]
+    }
+
+    /// How its rocking raises a point of the site; `None` if it does not rock.
+    fn rise_at(self, point: PlanPoint) -> Option<Row> {
+        let node = self.rocking?;
+        let arms = [0, 1].map(|axis| point[axis] - self.middle[axis]);
+        Some(leant(node, arms))
+    }
+
+    /// How its rocking turns a vertical plane along this direction, counter-clockwise; `None` if it does not rock.
+    fn turn_in(self, direction: [f64; 2]) -> Option<Row> {
+        Some(leant(self.rocking?, direction))
+    }
+}
+
+/// What sinks where floors lean towards it, by these arms.
+fn leant(rocking: usize, [along, across]: [f64; 2]) -> Row {
+    let shares = [((rocking, X), -along), ((rocking, Y), -across)];
+    over_nodes(shares.into_iter().filter(|own| own.1 != 0.0))
+}
 
 impl Discretization {
-    /// Puts a building on its base: the node of the footing sways and turns against the ground, and the building rocks about it. Springs
-    /// act at the centroid of the plan of the lowest floor.
-    ///
-    /// A floor at a height h moves by u = u_f + w + h φ: sway of the footing, deformation of the building, and rocking.
+    /// Adds springs and dashpots between the ground and the footing of a building, at the centroid of the plan of the footing.
     pub(super) fn put_on_springs(
         &mut self,
         base: &Base,
@@ -21,20 +69,11 @@ impl Discretization {
     ) {
         let directions = base.in_plan();
         let sticks = &mut self.stick_model;
-        let mut own = PlanBase {
-            footing: node,
-            centre: footing.tier.centre,
-            rocking: None,
-        };
-        let area = PlanArea::new(&footing.tier.plan);
-        let rocking = directions.map(|own| own.rotational_stiffness);
-        if let [Some(of_along), Some(of_across)] = rocking {
-            let [across, along] = area.second_moments.map(|moment| moment / area.area);
-            let inertia = [along, across].map(|squared| base.mass * squared);
-            let rocking = sticks.add_rocking(inertia);
-            own.rocking = Some(rocking);
+        let Some(own) = sticks.plan_base else { return };
+        if let Some(rocking) = own.rocking {
+            let stiffness = directions.map(|own| own.rotational_stiffness.unwrap_or(0.0));
             let springs = [
-                (Part::Undamped, [of_along, of_across]),
+                (Part::Undamped, stiffness),
                 (Part::Dashpot, directions.map(|own| own.rotational_damping)),
             ];
             for (part, values) in springs {
@@ -47,7 +86,6 @@ impl Discretization {
                 sticks.elements.extend(springs);
             }
         }
-        sticks.plan_base = Some(own);
         let sways = directions.map(|own| own.horizontal_stiffness);
         sticks.nodes[node].support = match (sways, base.torsional_stiffness) {
             ([None, None], None) => Support::Fixed,
@@ -68,68 +106,232 @@ impl Discretization {
         for (stiffness, part) in [(stiffness, Part::Undamped), (damping, Part::Dashpot)] {
             let springs = TierStorey {
                 stiffness,
-                centre: area.centroid,
+                centre: own.middle,
             };
             matrix.add_storey(std::slice::from_ref(footing), 0, &springs, part);
         }
         sticks.elements.extend(matrix.elements(ground, &[node]));
+        sticks.uncouple_rocking();
         self.foot = Some(node);
+    }
+
+    /// Mass-proportional damping of the motion relative to the base in plan: C = Tᵀ α M T instead of α M, T taking sway, rotation and
+    /// rocking of the base as a rigid body out of every motion (theory, Eq. B22).
+    pub(crate) fn damp_relative_to_base(&mut self, alpha: f64) {
+        let sticks = &mut self.stick_model;
+        let (Some(base), true) = (sticks.plan_base, alpha > 0.0) else {
+            return;
+        };
+        let heights: Vec<f64> = (self.floors.iter())
+            .map(|floor| sticks.nodes[*floor].y)
+            .collect();
+        let [x, y, turning] = [X, Y, THETA].map(|component| (base.footing, component));
+        let carrier = [Some(base.footing), base.rocking];
+        let own = |node: usize, component: usize| over_nodes([((node, component), 1.0)]);
+        let mut dashpots = Vec::new();
+        for (node, moving) in sticks.nodes.iter().enumerate() {
+            let mut tops = heights.iter();
+            let level = tops.position(|top| moving.y <= top + LEVEL_TOLERANCE);
+            let centre = level.map_or(base.centre, |level| self.centres[level]);
+            let arm = [0, 1].map(|axis| centre[axis] - base.centre[axis]);
+            for (component, inertia) in moving.inertia.into_iter().enumerate() {
+                if inertia == 0.0 || moving.support == Support::Fixed {
+                    continue;
+                }
+                if carrier.contains(&Some(node)) {
+                    dashpots.push((-alpha * inertia, own(node, component)));
+                    continue;
+                }
+                let [along, across, turned] = moving.influence[component].horizontal();
+                let turned = turned + across * arm[0] - along * arm[1];
+                let mut rigid = vec![(x, along), (y, across), (turning, turned)];
+                if let Some(rocking) = base.rocking {
+                    let heights = [along, across].map(|share| share * moving.y);
+                    rigid.extend([((rocking, X), heights[0]), ((rocking, Y), heights[1])]);
+                }
+                if let Some(raised) = sticks.raised.get(&index_of((node, component))) {
+                    rigid.extend(places(raised));
+                }
+                rigid.retain(|(_, share)| *share != 0.0);
+                if rigid.is_empty() {
+                    continue;
+                }
+                let taken = rigid.into_iter().map(|(place, share)| (place, -share));
+                let relative = [((node, component), 1.0)].into_iter().chain(taken);
+                dashpots.push((alpha * inertia, over_nodes(relative)));
+                dashpots.push((-alpha * inertia, own(node, component)));
+            }
+        }
+        let dashpots = dashpots.into_iter();
+        sticks
+            .elements
+            .extend(dashpots.map(|(stiffness, row)| Element::Spring {
+                part: Part::Dashpot,
+                stiffness,
+                row,
+            }));
     }
 }
 
 impl StickModel {
-    /// Adds the rocking of the base, as displacements of floors per height along x and across, and subtracts it from all that
-    /// deforms above. P-Delta acts on displacements as they are.
-    fn add_rocking(&mut self, [along, across]: [f64; 2]) -> usize {
+    /// Lets the floors so far stand on a footing, whose node is one of them. If the base rocks, it adds the rocking, as displacements of
+    /// floors per height along x and across, and subtracts it from all that deforms so far. P-Delta acts on displacements as they
+    /// are.
+    ///
+    /// A floor at a height h moves by u = u_f + w + h φ: sway of the footing, deformation of the building, and rocking.
+    pub(super) fn stand_on_footing(&mut self, base: &Base, footing: &LumpedFloor, node: usize) {
+        let area = PlanArea::new(&footing.tier.plan);
+        self.plan_base = Some(PlanBase {
+            footing: node,
+            centre: footing.tier.centre,
+            middle: area.centroid,
+            rocking: None,
+            uncoupled: None,
+        });
+        if !base.rocks_in_plan() {
+            return;
+        }
+        let [across, along] = area.second_moments.map(|moment| moment / area.area);
+        let mass = base.foundation.map_or(base.mass, |own| own.mass);
+        let [along, across] = [along, across].map(|squared| mass * squared);
+        let along = base.foundation.map_or(along, |own| own.rotary_inertia);
+        let rocking = self.add_leaning([along, across]);
+        if let Some(own) = &mut self.plan_base {
+            own.rocking = Some(rocking);
+        }
+        let deformed = self.elements.iter().map(|element| match element {
+            Element::Spring {
+                part: Part::Undamped,
+                ..
+            } => element.clone(),
+            Element::Spring {
+                part,
+                stiffness,
+                row,
+            } => Element::Spring {
+                part: *part,
+                stiffness: *stiffness,
+                row: self.without_rocking(row),
+            },
+            Element::Matrix { part, rows, lower } => Element::Matrix {
+                part: *part,
+                rows: rows.iter().map(|row| self.without_rocking(row)).collect(),
+                lower: lower.clone(),
+            },
+        });
+        self.elements = deformed.collect();
+    }
+
+    /// Adds a node of two displacements of floors per height, with these inertias, and returns it. It comes after the roof, because it
+    /// deforms every storey.
+    fn add_leaning(&mut self, [along, across]: [f64; 2]) -> usize {
         let node = self.nodes.len();
         self.nodes.push(Node {
             inertia: [along, across, 0.0],
             influence: [Influence::NONE; 3],
             ..Node::at(0.0, 0.0).held(Support::Swaying)
         });
-        // After the roof, because it deforms every storey.
         let top = self.nodes.iter().map(|own| own.y).fold(0.0, f64::max);
         let last = Turn {
             position: f64::INFINITY,
             ..Turn::of_floor(top, top)
         };
         self.turns.insert(node, last);
-        let nodes = &self.nodes;
-        let deformed = |row: &Row| -> Row {
-            let rocked = |influence: fn(&Influence) -> f64| -> f64 {
-                let shares = places(row).map(|((at, component), share)| {
-                    share * nodes[at].y * influence(&nodes[at].influence[component])
-                });
-                -shares.sum::<f64>()
-            };
-            let rocked = [
-                ((node, X), rocked(|own| own.along)),
-                ((node, Y), rocked(|own| own.across)),
-            ];
-            let rocked = over_nodes(rocked.into_iter().filter(|(_, share)| *share != 0.0));
-            row.entries()
-                .iter()
-                .chain(rocked.entries())
-                .copied()
-                .collect()
+        node
+    }
+
+    /// A deformation over displacements of floors, with what the rocking of the base moves them taken out.
+    pub(super) fn without_rocking(&self, row: &Row) -> Row {
+        let Some(node) = self.plan_base.and_then(|own| own.rocking) else {
+            return row.clone();
         };
-        for element in &mut self.elements {
-            match element {
-                Element::Spring {
-                    part: Part::Undamped,
-                    ..
-                } => {}
-                Element::Spring { row, .. } => *row = deformed(row),
-                Element::Matrix { rows, .. } => {
-                    for row in rows {
-                        *row = deformed(row);
-                    }
+        let nodes = &self.nodes;
+        let rocked = |influence: fn(&Influence) -> f64| -> f64 {
+            let shares = places(row).map(|((at, component), share)| {
+                share * nodes[at].y * influence(&nodes[at].influence[component])
+            });
+            -shares.sum::<f64>()
+        };
+        let rocked = [
+            ((node, X), rocked(|own| own.along)),
+            ((node, Y), rocked(|own| own.across)),
+        ];
+        let rocked = over_nodes(rocked.into_iter().filter(|(_, share)| *share != 0.0));
+        let all = row.entries().iter().chain(rocked.entries());
+        all.copied().collect()
+    }
+
+    /// Lets a displacement of the point of the site at which it is rise with the rocking base as a rigid body, as far as it does not rise
+    /// by itself.
+    pub(super) fn note_rise(&mut self, place: Place, point: PlanPoint) {
+        if let Some(rise) = self.plan_base.and_then(|own| own.rise_at(point)) {
+            self.raised.insert(index_of(place), rise);
+        }
+    }
+
+    /// Ties the rise of a displacement to that of the rocking base.
+    pub(super) fn raise(&mut self, place: Place) {
+        let index = index_of(place);
+        if let Some(rise) = self.raised.get(&index) {
+            self.ties.insert(index, rise.clone());
+        }
+    }
+
+    /// Ties the rotation of a foot in a vertical plane along this direction to the rocking of the base.
+    pub(super) fn turn_foot(&mut self, foot: usize, direction: [f64; 2]) {
+        if let Some(turned) = self.plan_base.and_then(|own| own.turn_in(direction)) {
+            self.ties.insert(index_of((foot, THETA)), turned);
+        }
+    }
+
+    /// Whether the base rocks.
+    pub(super) fn rocks(&self) -> bool {
+        self.plan_base.is_some_and(|own| own.rocking.is_some())
+    }
+
+    /// Lets rocking along and across follow displacements that masses which rise with them do not couple: of the inertia M = L D Lᵀ
+    /// the motions q = L⁻ᵀ q′ leave D.
+    fn uncouple_rocking(&mut self) {
+        let Some((base, rocking)) = self.plan_base.and_then(|own| Some((own, own.rocking?))) else {
+            return;
+        };
+        let (mut along, mut both, mut across) = (0.0, 0.0, 0.0);
+        for (node, own) in self.nodes.iter().enumerate() {
+            for (component, inertia) in own.inertia.into_iter().enumerate() {
+                if inertia == 0.0 || own.support == Support::Fixed {
+                    continue;
                 }
+                let row = self.carried((node, component));
+                let share = |component| {
+                    let mut all = places(&row);
+                    let found = all.find(|(place, _)| *place == (rocking, component));
+                    found.map_or(0.0, |(_, share)| share)
+                };
+                let (a, b) = (share(X), share(Y));
+                along += inertia * a * a;
+                both += inertia * a * b;
+                across += inertia * b * b;
             }
         }
-        for spring in &mut self.yielding {
-            spring.row = deformed(&spring.row);
+        if both.abs() <= COUPLED * (along * across).sqrt() {
+            return;
         }
-        node
+        let follows = self.add_leaning([0.0; 2]);
+        self.plan_base = Some(PlanBase {
+            uncoupled: Some(follows),
+            ..base
+        });
+        let [x, y] = [X, Y].map(|component| (follows, component));
+        let rows = [
+            over_nodes([(x, 1.0), (y, -both / along)]),
+            over_nodes([(y, 1.0)]),
+        ];
+        for (component, row) in [X, Y].into_iter().zip(rows) {
+            self.ties.insert(index_of((rocking, component)), row);
+        }
+        let ties = self.ties.iter();
+        // One term per displacement: masses take the square of each.
+        let ties = ties.map(|(index, row)| (*index, self.carried_row(row).merged()));
+        self.ties = ties.collect();
     }
 }

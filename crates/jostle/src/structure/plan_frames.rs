@@ -5,6 +5,7 @@ use std::ops::Range;
 use super::diagonals::FrameDiagonal;
 use super::discretization::{Discretization, discretize_frame};
 use super::element::{THETA, X, Y, index_of, over_nodes};
+use super::foundation::followers;
 use super::member_forces::FrameMember;
 use super::order::Turn;
 use super::spring_place::SpringPlace;
@@ -178,6 +179,10 @@ impl StickModel {
                 member: members + own.member,
                 ..*own
             }));
+        let origin = place.plan_frame.at;
+        let [along, across, _] = place.plan_frame.shares(origin);
+        let direction = [along, across];
+        let mut feet = Vec::new();
         for (index, node) in frame.nodes.into_iter().enumerate() {
             let (node, floor) = self.node_in_plan(index, &node, place);
             if let Some(floor) = floor {
@@ -192,13 +197,18 @@ impl StickModel {
                 elevation: place.elevation,
                 position: positions[index],
             };
-            self.turns.insert(self.nodes.len(), turn);
+            let foot = node.support == Support::Fixed;
+            let mut node = node;
+            if foot && self.rocks() {
+                // Its mass rises with the base.
+                node.support = Support::Free;
+            }
+            let own = self.nodes.len();
+            let at = [0, 1].map(|axis| origin[axis] + node.x * direction[axis]);
+            self.turns.insert(own, turn);
             self.nodes.push(node);
-        }
-        // Ends of columns follow joints, which now follow floors.
-        for (index, row) in faces {
-            let carried = self.carried_row(&row);
-            self.ties.insert(index, carried);
+            self.note_rise((own, Y), at);
+            feet.extend(foot.then_some(own));
         }
         let moved = |ends: [usize; 2]| ends.map(|end| nodes + end);
         self.members
@@ -222,6 +232,22 @@ impl StickModel {
                 own.row = own.row.moved_up(before);
                 own
             }));
+        if self.rocks() {
+            for component in [Y, THETA] {
+                let followers = followers(self, &feet, component).into_iter().enumerate();
+                for (node, _) in followers.filter(|(_, foot)| foot.is_some()) {
+                    match component {
+                        Y => self.raise((node, Y)),
+                        _ => self.turn_foot(node, direction),
+                    }
+                }
+            }
+        }
+        // Ends of columns follow joints, which now follow floors, or rise with a base that rocks.
+        for (index, row) in faces {
+            let carried = self.carried_row(&row);
+            self.ties.insert(index, carried);
+        }
         members..self.members.len()
     }
 

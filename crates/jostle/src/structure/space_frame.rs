@@ -68,6 +68,8 @@ pub(super) enum Unknown {
     Floor(usize),
     /// Rise or rotation of an end of a member beyond a hinge or fibres, about an axis of the lines.
     End(usize),
+    /// Rocking of the base along or across the lines, as a displacement of floors per height.
+    Rocking(usize),
 }
 
 /// A deformation as a sum of displacements.
@@ -254,6 +256,8 @@ pub(super) struct Assembly<'a> {
     centres: Vec<PlanPoint>,
     /// Whether the first of them is a mat.
     on_mat: bool,
+    /// The point about which the mat rocks, if it does.
+    rocks_about: Option<PlanPoint>,
     pub(super) joints: Joints,
 }
 
@@ -280,8 +284,30 @@ impl<'a> Assembly<'a> {
             heights: storey_heights,
             centres: centres.collect(),
             on_mat: mat.is_some(),
+            rocks_about: None,
             joints: Joints::new(frame, lumped.len()),
         }
+    }
+
+    /// The same on a mat that rocks about a point of the site.
+    pub(super) fn rocking_about(mut self, point: Option<PlanPoint>) -> Self {
+        self.rocks_about = point.map(|point| self.frame.from_site(point));
+        self
+    }
+
+    /// How the rocking of the mat raises and turns what stands on it at a crossing; nothing if it does not rock.
+    pub(super) fn rocked(&self, crossing: [usize; 2]) -> [Deformation; 3] {
+        let Some(middle) = self.rocks_about else {
+            return [const { Deformation::new() }; 3];
+        };
+        let x = self.frame.lines_x[crossing[0]] - middle[0];
+        let y = self.frame.lines_y[crossing[1]] - middle[1];
+        let [along, across] = [0, 1].map(Unknown::Rocking);
+        [
+            vec![(along, -x), (across, -y)],
+            vec![(across, -1.0)],
+            vec![(along, 1.0)],
+        ]
     }
 
     /// Place of a floor among all that moves; what is below the floors is `None`, and does not move without a mat.
@@ -304,9 +330,11 @@ impl<'a> Assembly<'a> {
             self.frame.lines_y[crossing[1]] - self.centres[moving][1],
         ];
         let joint = floor.map(|floor| self.joints.at(floor, crossing));
+        let mut rocked = self.rocked(crossing).into_iter();
         let [rise, about_x, about_y] = joint.unwrap_or_default().map(|unknown| {
-            let own = unknown.map(|index| (Unknown::Joint(index), 1.0));
-            own.into_iter().collect::<Deformation>()
+            // What has no displacement of its own moves with the mat: feet, and the rise of columns that keep their length.
+            let rocked = rocked.next().unwrap_or_default();
+            unknown.map_or(rocked, |index| vec![(Unknown::Joint(index), 1.0)])
         });
         End {
             moved: [
@@ -496,8 +524,8 @@ pub(super) fn condense(
                         *value += share * motion[*joint];
                     }
                 }
-                // Frames with hinges keep their joints.
-                Unknown::End(_) => {}
+                // Frames with hinges, and those that rock, keep their joints.
+                Unknown::End(_) | Unknown::Rocking(_) => {}
             }
         }
         turn_row(&mut row, frame.direction);

@@ -9,7 +9,7 @@
 use std::ops::Range;
 
 use super::column_ends::FibreSection;
-use super::element::{Element, Part, Place, THETA, X, Y, over_nodes};
+use super::element::{Element, Part, Place, THETA, X, Y, index_of, over_nodes};
 use super::member_forces::MemberPlace;
 use super::order::{Stage, Turn};
 use super::space_frame::{Assembly, Deformation, EndUnknowns, SpringMember, Unknown, planes};
@@ -79,7 +79,7 @@ pub(super) fn add_space_joints(
     let (frame, storey_heights) = (assembly.frame, assembly.heights);
     let floors = &moving[moving.len() - storey_heights.len()..];
     let joint_nodes = add_joints(&assembly, sticks, floors);
-    carry_floors(&assembly, sticks, joint_nodes.start, carried);
+    carry_floors(&assembly, sticks, (joint_nodes.start, floors), carried);
     sticks.eliminate_after_joints(moving.iter().copied(), floors[0]);
     let mut builder = Builder {
         assembly,
@@ -148,7 +148,7 @@ fn add_joints(assembly: &Assembly<'_>, sticks: &mut StickModel, floors: &[usize]
 fn carry_floors(
     assembly: &Assembly<'_>,
     sticks: &mut StickModel,
-    first: usize,
+    (first, floors): (usize, &[usize]),
     carried: &[[f64; 2]],
 ) {
     for (floor, [mass, load]) in carried.iter().enumerate() {
@@ -159,12 +159,19 @@ fn carry_floors(
         });
         let columns: Vec<[usize; 2]> = columns.collect();
         for line in &columns {
-            if let [Some(rise), ..] = assembly.joints.at(floor, *line) {
-                let node = &mut sticks.nodes[first + rise];
-                node.inertia[THETA] += mass / columns.len() as f64;
-                node.load += load / columns.len() as f64;
-                node.influence[THETA] = Influence::UP;
-            }
+            let [rise, ..] = assembly.joints.at(floor, *line);
+            let height = sticks.nodes[floors[floor]].y;
+            let node = match rise {
+                Some(rise) => Some(first + rise),
+                None => sticks.add_foot_motion(assembly, *line, 0, height),
+            };
+            let Some(node) = node else { continue };
+            let at = assembly.frame.point(*line);
+            sticks.note_rise((node, THETA), at);
+            let node = &mut sticks.nodes[node];
+            node.inertia[THETA] += mass / columns.len() as f64;
+            node.load += load / columns.len() as f64;
+            node.influence[THETA] = Influence::UP;
         }
     }
 }
@@ -186,6 +193,35 @@ impl StickModel {
         };
         self.turns.insert(index, turn);
         index
+    }
+}
+
+impl StickModel {
+    /// Adds a node that follows the rise, or a rotation, with which a rocking mat moves what stands at a crossing; `None` if it does not
+    /// rock.
+    fn add_foot_motion(
+        &mut self,
+        assembly: &Assembly<'_>,
+        crossing: [usize; 2],
+        motion: usize,
+        height: f64,
+    ) -> Option<usize> {
+        let rocking = self.plan_base.and_then(|own| own.rocking)?;
+        let [c, s] = assembly.frame.direction;
+        let rocked = assembly.rocked(crossing);
+        let shares = rocked[motion].iter().flat_map(|own| {
+            let along_and_across = match own.0 {
+                Unknown::Rocking(0) => [c, s],
+                _ => [-s, c],
+            };
+            let places = [X, Y].map(|component| (rocking, component));
+            let shares = along_and_across.map(|share| share * own.1);
+            places.into_iter().zip(shares)
+        });
+        let row = over_nodes(shares.filter(|(_, share)| *share != 0.0)).merged();
+        let node = self.add_turning(Stage::Joints, self.nodes.len(), height);
+        self.ties.insert(index_of((node, THETA)), row);
+        Some(node)
     }
 }
 
@@ -323,9 +359,16 @@ impl Builder<'_> {
         };
         let crossing = place.crossings()[end as usize];
         let joint = floor.and_then(|floor| self.assembly.joints.at(floor, crossing)[motion]);
-        let joint = joint.map_or(self.ground, |unknown| self.joints.start + unknown);
         let moving = self.assembly.moving(floor);
         let at = self.sticks.nodes[moving.map_or(self.ground, |own| self.moving[own])];
+        let joint = match joint {
+            Some(unknown) => self.joints.start + unknown,
+            None => {
+                let (assembly, sticks) = (&self.assembly, &mut *self.sticks);
+                let moved = sticks.add_foot_motion(assembly, crossing, motion, at.y);
+                moved.unwrap_or(self.ground)
+            }
+        };
         let number = self.ends.len();
         let node = self.sticks.add_turning(Stage::Beams, number, at.y);
         self.ends.push(node);
@@ -345,6 +388,18 @@ impl Builder<'_> {
             match *unknown {
                 Unknown::Joint(index) => add((self.joints.start + index, THETA), *share),
                 Unknown::End(index) => add((self.ends[index], THETA), *share),
+                Unknown::Rocking(direction) => {
+                    let rocking = self.sticks.plan_base.and_then(|own| own.rocking);
+                    let shares = match direction {
+                        0 => [c, s],
+                        _ => [-s, c],
+                    };
+                    for (component, own) in [X, Y].into_iter().zip(shares) {
+                        if let Some(node) = rocking {
+                            add((node, component), own * share);
+                        }
+                    }
+                }
                 Unknown::Floor(motion) => {
                     let floor = self.moving[motion / 3];
                     match motion % 3 {

@@ -33,6 +33,8 @@ pub struct StickModel {
     /// Displacements that move with others, 3 × node + component, as rows over those: joints of frames with rigid floors along their
     /// lines, and nodes that rise and sink with the rotation of a foundation.
     pub ties: BTreeMap<usize, Row>,
+    /// How the rocking of a base in plan raises displacements that could rise by themselves too, as rows over that rocking.
+    pub raised: BTreeMap<usize, Row>,
     /// Rigid ends of columns at joints.
     pub rigid_ends: Vec<RigidEnd>,
     /// Nodes that are not eliminated in the order of their coordinates.
@@ -339,15 +341,12 @@ pub struct PlanBase {
     pub footing: usize,
     /// Centre of mass of the footing on the site \[m\].
     pub centre: [f64; 2],
+    /// Where springs act and about which it rocks \[m\].
+    pub middle: [f64; 2],
     /// Node of its rocking, if it rocks: displacements of floors per height, along and across \[–\].
     pub rocking: Option<usize>,
-}
-
-impl PlanBase {
-    /// Its nodes.
-    pub(crate) fn nodes(self) -> impl Iterator<Item = usize> {
-        [self.footing].into_iter().chain(self.rocking)
-    }
+    /// The node that it follows in its place, if masses that rise couple both directions.
+    pub uncoupled: Option<usize>,
 }
 
 /// A mat on bearings that moves in both horizontal directions and turns.

@@ -33,7 +33,7 @@ pub(super) fn discretize_tiers(tiers: &Tiers, gravity: Gravity, base: &Base) -> 
         stick_model.nodes.len() - 1
     };
     let ground = add(Node::at(0.0, 0.0).held(Support::Fixed));
-    let mat = base.carrying_mass().map(|mass| tiers.mat(mass));
+    let mat = tiers.carrier(base);
     let foot = mat.as_ref().map_or(ground, |mat| add(of_floor(0.0, mat)));
     let mut floors = Vec::with_capacity(tiers.floors.len());
     for (floor, storey_height) in lumped.iter().zip(&tiers.storey_heights) {
@@ -54,8 +54,10 @@ pub(super) fn discretize_tiers(tiers: &Tiers, gravity: Gravity, base: &Base) -> 
             matrix.add_storey(&moving, first + index, &taken, Part::Undamped);
         }
     }
-    // Joints follow the floors until a hinge yields; what they carry moves them as well.
-    let follows = |own: &&SpaceFrame| !own.may_yield() && !gravity.preload;
+    // Joints follow the floors until a hinge yields; what they carry moves them as well. What stands on a base that rocks rises with it.
+    let rocks = base.rocks_in_plan();
+    let carries = gravity.preload || rocks;
+    let follows = |own: &&SpaceFrame| !own.may_yield() && !carries;
     let following = tiers.space_frame.as_ref().filter(follows);
     let condensed = following.and_then(|frame| {
         let own = condense(frame, &tiers.storey_heights, mat.as_ref(), &lumped)?;
@@ -73,12 +75,17 @@ pub(super) fn discretize_tiers(tiers: &Tiers, gravity: Gravity, base: &Base) -> 
         .chain(floors.iter().copied())
         .collect();
     stick_model.elements = matrix.elements(ground, &nodes);
+    if let (None, Some(footing)) = (&base.isolation, &mat) {
+        stick_model.stand_on_footing(base, footing, foot);
+    }
     let jointed = tiers.space_frame.as_ref().filter(|own| !follows(own));
     let jointed = jointed.map(|frame| {
         let assembly = Assembly::new(frame, &tiers.storey_heights, mat.as_ref(), &lumped);
+        let base = stick_model.plan_base.filter(|own| own.rocking.is_some());
+        let assembly = assembly.rocking_about(base.map(|own| own.middle));
         let floors = tiers.floors.iter().enumerate();
         let weights = floors.map(|(floor, own)| [own.mass, tiers.floor_load(floor)]);
-        let carried: Vec<[f64; 2]> = weights.filter(|_| gravity.preload).collect();
+        let carried: Vec<[f64; 2]> = weights.filter(|_| carries).collect();
         add_space_joints(assembly, &mut stick_model, ground, &nodes, &carried)
     });
     let (jointed, own) = match jointed {
@@ -95,13 +102,14 @@ pub(super) fn discretize_tiers(tiers: &Tiers, gravity: Gravity, base: &Base) -> 
         let below = storey.checked_sub(1);
         let component = [X, Y][axis.index()];
         let (lower, upper) = (below.map_or(foot, |below| floors[below]), floors[storey]);
+        let row = over_nodes([
+            ((upper, component), 1.0),
+            ((lower, component), -1.0),
+            ((upper, THETA), arm(storey)),
+            ((lower, THETA), -below.map_or(arm_of_mat, arm)),
+        ]);
         stick_model.yielding.push(YieldingElement {
-            row: over_nodes([
-                ((upper, component), 1.0),
-                ((lower, component), -1.0),
-                ((upper, THETA), arm(storey)),
-                ((lower, THETA), -below.map_or(arm_of_mat, arm)),
-            ]),
+            row: stick_model.without_rocking(&row),
             hysteresis: own.hysteresis,
             proportional_damping: ProportionalDamping::Initial,
         });
@@ -152,7 +160,7 @@ pub(super) fn discretize_tiers(tiers: &Tiers, gravity: Gravity, base: &Base) -> 
         }
     }
     let below = mat.as_ref().map(|mat| (foot, mat));
-    add_frames(tiers, &lumped, below, gravity.preload, &mut discretization);
+    add_frames(tiers, &lumped, below, carries, &mut discretization);
     let places = [ground, foot];
     match (&base.isolation, mat) {
         (Some(isolation), Some(mat)) => {

@@ -1,7 +1,10 @@
 //! From a model to a system.
 
 use super::soil::{self, Founded, Ground};
-use super::{BuildingSystem, Floor, FoundationPlace, SpringSupport, System, WallPlace, finite};
+use super::{
+    BuildingSystem, Floor, FoundationInPlan, FoundationPlace, SpringSupport, System, WallPlace,
+    finite,
+};
 use crate::contact::{ContactLaw, effective_mass};
 use crate::interface::contact_points::{PointPair, SAME, mean, set_back};
 use crate::interface::{
@@ -10,8 +13,8 @@ use crate::interface::{
 };
 use crate::linear::{Row, sort_by};
 use crate::model::{
-    Base, Building, Damping, FloorPairs, LEVEL_TOLERANCE, Level, Link, LinkLaw, LumpedFloor, Model,
-    ModelFault, PlanPoint, Structure,
+    Base, Building, Damping, FloorPairs, Foundation, HalfSpace, LEVEL_TOLERANCE, Level, Link,
+    LinkLaw, LumpedFloor, MassDamping, Model, ModelFault, PlanPoint, Structure,
 };
 use crate::structure::{Discretization, InnerLink, LinkEnd, Support};
 
@@ -31,20 +34,29 @@ impl System {
             let points = row.points_between_floors(model, index);
             let points = points.each_ref().map(|points| &points[..]);
             let number = foundations.len();
-            let on_soil = building.base.foundation.and_then(|foundation| {
+            let has_plan = matches!(building.structure, Structure::Tiers(_));
+            let plane_base = Some(&building.base).filter(|_| !has_plan);
+            let on_soil = plane_base.and_then(|base| {
+                let foundation = base.foundation?;
                 let ground = Ground::of(model, &foundation, number)?;
                 Some((foundation, ground))
             });
-            let damping = match (building.base.isolation, &on_soil) {
-                (Some(_), _) => {
-                    fixed(model, index, points, true).map(|fixed| (rayleigh(&fixed), None))
+            let in_plan = founded_in_plan(model, index).filter(|_| has_plan);
+            let damping = match (building.base.isolation, &on_soil, in_plan) {
+                (Some(_), ..) => {
+                    fixed(model, index, points, true).map(|fixed| (rayleigh(&fixed), None, None))
                 }
-                (None, Some((foundation, ground))) => fixed(model, index, points, false)
+                (None, Some((foundation, ground)), _) => fixed(model, index, points, false)
                     .and_then(|fixed| Founded::new(building, &fixed, points, foundation, ground))
-                    .map(|founded| (founded.damping.clone(), Some((founded, *foundation)))),
-                (None, None) => Ok((building.damping.clone(), None)),
+                    .map(|founded| (founded.damping.clone(), Some((founded, *foundation)), None)),
+                (None, None, Some((foundation, soil))) => fixed(model, index, points, false)
+                    .and_then(|fixed| {
+                        let own = FoundationInPlan::new(building, &fixed, &foundation, &soil)?;
+                        Ok((rayleigh(&fixed), None, Some(own)))
+                    }),
+                (None, None, None) => Ok((building.damping.clone(), None, None)),
             };
-            let (damping, founded) = match damping {
+            let (damping, founded, in_plan) = match damping {
                 Ok(damping) => damping,
                 Err((field, problem)) => {
                     faults.push(ModelFault {
@@ -54,11 +66,19 @@ impl System {
                     continue;
                 }
             };
+            let on_springs = in_plan.map(|own| Building {
+                base: own.base(&building.base),
+                ..building.clone()
+            });
+            let building = on_springs.as_ref().unwrap_or(building);
             let mut discretization = Discretization::with_points(building, points);
             if let Some((founded, foundation)) = &founded {
                 founded.support(&mut discretization, foundation, building.mass_damping);
             } else if let Damping::Rayleigh { alpha, .. } = damping {
                 discretization.damp_relative_to_mat(alpha);
+                if in_plan.is_some() && building.mass_damping == MassDamping::Support {
+                    discretization.damp_relative_to_base(alpha);
+                }
             }
             let mut assembled = BuildingSystem::new(&building.name, discretization);
             if let Err(problem) = assembled.put_under_gravity(building.gravity) {
@@ -93,6 +113,7 @@ impl System {
                     problem,
                 });
             }
+            assembled.foundation_in_plan = in_plan.and_then(|own| own.under(&assembled));
             if let Some((founded, foundation)) = &founded {
                 assembled.foundation = founded.place(&assembled, *foundation);
                 // Only now what the foundation turns can be taken out of their shortening.
@@ -302,6 +323,12 @@ fn fixed(
         .damp_as(&fixed.damping, on_mat)
         .map_err(|problem| ("damping.modes", problem))?;
     Ok(assembled)
+}
+
+/// The foundation of a building, and the half-space under it.
+fn founded_in_plan(model: &Model, index: usize) -> Option<(Foundation, HalfSpace)> {
+    let foundation = model.buildings[index].base.foundation?;
+    Some((foundation, model.soil.as_ref()?.half_space?))
 }
 
 fn rayleigh(building: &BuildingSystem) -> Damping {
@@ -724,17 +751,24 @@ fn ports_in_plan(
     let ends = [0, 1].map(|side| {
         let (building, floor) = (between[side]?, floors[side]?);
         let own = system.buildings.get(building)?;
-        let (row, height) = match floor.checked_sub(1) {
-            Some(index) => (
+        let (mut row, height) = match (floor.checked_sub(1), &own.mat_in_plan) {
+            (Some(index), _) => (
                 own.row_at(index, at[side], direction),
                 own.floors[index].height,
             ),
-            None => {
-                let mat = own.mat_in_plan.as_ref()?;
-                (mat.row_at(at[side], direction), 0.0)
-            }
+            (None, Some(mat)) => (mat.row_at(at[side], direction), 0.0),
+            (None, None) => (own.footing_row_at(at[side], direction)?, 0.0),
         };
         let mass = row.moved_down(own.offset).moving_mass(&own.equations.mass);
+        // A building that rocks as a rigid body does not deform what stands between its floors.
+        if between[0] == between[1]
+            && let Some([.., along, across]) = own.base_motions()
+        {
+            for (rocked, share) in [along, across].into_iter().zip(direction) {
+                let rocked = rocked.moved_up(own.offset).times(-height * share);
+                row.extend(rocked.entries().iter().copied().filter(|own| own.1 != 0.0));
+            }
+        }
         Some(Port {
             building,
             row,

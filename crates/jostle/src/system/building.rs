@@ -4,6 +4,7 @@ use std::ops::Deref;
 use std::sync::Arc;
 
 use super::plan_mat::MatInPlan;
+use super::plan_soil::FoundationInPlan;
 use super::plan_storey::PlanStorey;
 use super::soil::FoundationPlace;
 use super::weakening::Weakening;
@@ -18,7 +19,7 @@ use crate::model::{
 use crate::motion::Ground;
 use crate::simd;
 use crate::statics::{Collapse, Settled, under_gravity};
-use crate::structure::element::{THETA, X, Y};
+use crate::structure::element::{THETA, X, Y, over_nodes};
 use crate::structure::motion_at;
 use crate::structure::{
     AssembledBuilding, AtRest, Discretization, Influence, InnerLink, MemberForces, PlanBase,
@@ -58,8 +59,10 @@ pub struct BuildingSystem {
     /// Of a building in plan on springs: displacements of its footing and its rocking, as far as they move, in the vectors of a
     /// [`crate::State`].
     pub plan_base: Vec<usize>,
-    /// The rigid foundation on which it stands.
+    /// The rigid foundation on which it stands, in one plane.
     pub foundation: Option<FoundationPlace>,
+    /// The rigid foundation on which it stands, with a plan.
+    pub foundation_in_plan: Option<FoundationInPlan>,
     /// The ratio of critical damping that all modes have, where damping is not Rayleigh's \[–\].
     pub modal_damping: Option<f64>,
     /// Lateral modes, longest period first; empty when the building can move without deforming.
@@ -230,6 +233,7 @@ impl BuildingSystem {
             mat_in_plan,
             plan_base,
             foundation: None,
+            foundation_in_plan: None,
             modal_damping: None,
             modes,
             members: MemberForces::default(),
@@ -323,9 +327,12 @@ impl BuildingSystem {
         })
     }
 
-    /// Rotation of its foundation, counter-clockwise; zero where there is none \[rad\].
+    /// Rotation of its foundation, or of its base in plan along x, counter-clockwise; zero where there is none \[rad\].
     #[must_use]
     pub fn rocking(&self, displacement: &[f64]) -> f64 {
+        if let Some([.., along, _]) = self.base_motions() {
+            return -along.value(&displacement[self.range()]);
+        }
         let foundation = self.foundation.as_ref();
         foundation.map_or(0.0, |own| displacement[own.turning])
     }
@@ -350,12 +357,19 @@ impl BuildingSystem {
     /// does; 0 where none carries any \[s\].
     #[must_use]
     pub fn fundamental_periods(&self) -> [f64; 2] {
+        let modes = self.fundamental_modes();
+        modes.map(|mode| mode.map_or(0.0, Mode::period))
+    }
+
+    /// The same modes.
+    pub(crate) fn fundamental_modes(&self) -> [Option<&Mode>; 2] {
         let along = |mode: &Mode| mode.effective_mass_ratio_x;
         let across = |mode: &Mode| mode.effective_mass_ratio_across;
         let longest = |mass: fn(&Mode) -> f64| {
             let most = self.lateral_modes().map(mass).fold(0.0, f64::max);
-            let first = self.lateral_modes().find(|mode| mass(mode) >= 0.5 * most);
-            first.filter(|_| most > 0.0).map_or(0.0, Mode::period)
+            let mut modes = self.lateral_modes();
+            let first = modes.find(|mode| mass(mode) >= 0.5 * most);
+            first.filter(|_| most > 0.0)
         };
         [longest(along), longest(across)]
     }
@@ -639,6 +653,26 @@ impl BuildingSystem {
         self.place_storeys(plans);
     }
 
+    /// Motions of its base in plan on springs, over the displacements of this building: sway along and across, rotation about the
+    /// vertical axis, and rocking along and across, as displacements of floors per height; `None` if its base has no springs.
+    pub(crate) fn base_motions(&self) -> Option<[Row; 5]> {
+        let sticks = &self.discretization.stick_model;
+        let motions = sticks.plan_base?.motions();
+        Some(motions.map(|row| self.equations.row(&sticks.carried_row(&row))))
+    }
+
+    /// The displacement of a point of its footing in a direction, over the vectors of a [`crate::State`]; `None` where it does not move.
+    pub(crate) fn footing_row_at(&self, at: PlanPoint, direction: [f64; 2]) -> Option<Row> {
+        let own = self.discretization.stick_model.plan_base?;
+        let [x, y, _] = motion_at(at, own.centre);
+        let shares = [X, Y, THETA].map(|component| {
+            let share = direction[0] * x[component] + direction[1] * y[component];
+            ((own.footing, component), share)
+        });
+        let row = self.equations.row(&over_nodes(shares));
+        (!row.is_empty()).then(|| row.moved_up(self.offset))
+    }
+
     /// Finds the vertical lines whose drifts are followed.
     fn place_storeys(&mut self, plans: &[&[PlanPoint]]) {
         let n = self.floors.len();
@@ -647,20 +681,21 @@ impl BuildingSystem {
             let plan: &[PlanPoint] = plan;
             (mat.dofs.map(Some), mat.centre, plan)
         });
-        let base = self.discretization.stick_model.plan_base;
+        let sticks = &self.discretization.stick_model;
+        let base = sticks.plan_base;
         if let (Some(own), Some(plan)) = (base, plans.first()) {
             let dofs = [X, Y, THETA].map(|component| self.equations.dof((own.footing, component)));
             below = Some((dofs, own.centre, *plan));
         }
-        let rocking = base
-            .and_then(|own| own.rocking)
-            .map(|node| [X, Y].map(|component| self.equations.dof((node, component))));
+        let rocking = self
+            .base_motions()
+            .map(|[.., along, across]| [along, across]);
         let mut storeys = Vec::with_capacity(n);
         for (index, (floor, plan)) in self.floors.iter().zip(plans).enumerate() {
             let dofs = [0, 1, 2].map(|block| self.tracks[block * n + index].dof - self.offset);
             let own = (dofs, self.discretization.centres[index], *plan);
             storeys.push(PlanStorey {
-                base: base.map(|_| rocking.unwrap_or_default()),
+                base: rocking.clone(),
                 ..PlanStorey::new(own, below, floor.storey_height)
             });
             below = Some((dofs.map(Some), own.1, own.2));

@@ -1,5 +1,6 @@
 //! How far a floor in plan moves against what is below it, line by vertical line.
 
+use crate::linear::Row;
 use crate::model::PlanPoint;
 
 /// A storey of a building in plan. A rigid floor moves and turns against the one below, so that every vertical line has a drift of
@@ -11,7 +12,7 @@ pub struct PlanStorey {
     /// Of the floor or the mat below; `None` is the ground.
     pub below: Option<[Option<usize>; 3]>,
     /// If the building stands on springs: rocking of its base along and across, displacements per height that are no drift.
-    pub base: Option<[Option<usize>; 2]>,
+    pub base: Option<[Row; 2]>,
     /// Centre of mass above less the one below; zero over the ground \[m\].
     pub offset: [f64; 2],
     /// Corners of the smaller of both plans, from the centre of mass above \[m\].
@@ -68,10 +69,10 @@ impl PlanStorey {
             None => [0.0; 3],
         };
         let [along, across] = self.offset;
-        let [rocked_x, rocked_y] = self
-            .base
-            .unwrap_or_default()
-            .map(|dof| dof.map_or(0.0, |dof| self.height * values[dof]));
+        let [rocked_x, rocked_y] = match &self.base {
+            Some([along, across]) => [along, across].map(|row| self.height * row.value(values)),
+            None => [0.0; 2],
+        };
         [
             x - (below_x - below_turned * across) - rocked_x,
             y - (below_y + below_turned * along) - rocked_y,

@@ -53,9 +53,9 @@ pub(super) struct Founded {
 }
 
 /// Relative change of the period at which the search for it ends.
-const SAME_PERIOD: f64 = 1e-13;
+pub(super) const SAME_PERIOD: f64 = 1e-13;
 /// Most steps of this search; it gains several digits in each.
-const MOST_STEPS: usize = 60;
+pub(super) const MOST_STEPS: usize = 60;
 
 /// Soil under a building: given matrices, a half-space, or springs of the foundation alone.
 pub(super) enum Ground<'a> {
@@ -249,7 +249,7 @@ impl Founded {
 }
 
 /// φᵀCφ/(2ω φᵀMφ) \[–\].
-fn damping_ratio(equations: &Equations, mode: &Mode) -> f64 {
+pub(super) fn damping_ratio(equations: &Equations, mode: &Mode) -> f64 {
     let shape = &mode.shape;
     let modal_mass: f64 = equations
         .mass

@@ -26,7 +26,7 @@ pub use capacity::{
 };
 pub use checks::{Finding, Grade};
 pub use energy::EnergySummary;
-pub use foundation::FoundationSummary;
+pub use foundation::{FoundationAcross, FoundationSummary};
 pub use gaps::{ContactSummary, GapSummary, ImpactSummary};
 pub use hinges::{HingeSummary, SpringSummary};
 pub use isolation::{Floors, IsolationInPlan, IsolationSummary, StageSummary, WallSummary};

@@ -3,6 +3,7 @@
 use crate::history::{Column, Kind, Owner};
 use crate::hysteresis::HysteresisRule;
 use crate::linear::Row;
+use crate::model::PlanFoundationSprings;
 use crate::stepping::floor_peaks::floor_of;
 use crate::structure::Discretization;
 use crate::system::{BuildingSystem, System, Track};
@@ -58,6 +59,7 @@ pub(super) fn watches(system: &System, rises: bool) -> Vec<Watch> {
         of_floors(index, building, &mut all);
         of_support(index, building, &mut all);
         of_foundation(index, building, &mut all);
+        of_foundation_in_plan(index, building, &mut all);
         of_sections(index, building, &mut all);
         of_footings(building, &mut all);
         if rises {
@@ -156,6 +158,48 @@ fn of_foundation(index: usize, building: &BuildingSystem, all: &mut Vec<Watch>) 
     let rows = [middle.into_iter().collect(), Row::default()];
     let dashpots = Statistic::Dashpots(damping, rows);
     all.push(Watch::new(of(Kind::Work), dashpots));
+}
+
+/// A rigid foundation on soil in plan, whose dashpots do not act on each other.
+fn of_foundation_in_plan(index: usize, building: &BuildingSystem, all: &mut Vec<Watch>) {
+    let motions = building.foundation_in_plan.zip(building.base_motions());
+    let Some((own, motions)) = motions else {
+        return;
+    };
+    let motions = motions.map(|row| row.moved_up(building.offset));
+    let of = |kind| Column::along(Owner::Foundation(index), kind);
+    let (moved, rocked) = (of(Kind::Displacement), of(Kind::Rocking));
+    let columns = [
+        moved,
+        moved.across(),
+        moved.turning(),
+        rocked,
+        rocked.across(),
+    ];
+    let watches = columns.into_iter().zip(&motions);
+    all.extend(watches.map(|(column, row)| Watch::new(column, Statistic::Extremes(row.clone()))));
+    let [sway, sway_across, turned, rocked, rocked_across] = motions;
+    let PlanFoundationSprings {
+        along,
+        across,
+        torsion,
+    } = own.springs;
+    for (damping, rows) in [
+        (
+            [along.sway_damping, 0.0, along.rocking_damping],
+            [sway, rocked],
+        ),
+        (
+            [across.sway_damping, 0.0, across.rocking_damping],
+            [sway_across, rocked_across],
+        ),
+        ([torsion[1], 0.0, 0.0], [turned, Row::default()]),
+    ] {
+        all.push(Watch::new(
+            of(Kind::Work),
+            Statistic::Dashpots(damping, rows),
+        ));
+    }
 }
 
 /// Ground under foundations and feet of columns that can lift off.

@@ -129,6 +129,7 @@ fn mirrored_faces_crush_mirrored() {
     let crush = Crush {
         force: 1e5,
         hardening: 0.3,
+        hertzian: false,
     };
     let buildings = vec![tower("left", 2, 4e4, 0.4), tower("right", 2, 6e4, 0.9)];
     compare(

@@ -21,6 +21,7 @@ mod face_points;
 mod forces_never_pull;
 mod foundation_forces;
 mod foundations;
+mod foundations_in_plan;
 mod frame_walls;
 mod friction_limit;
 mod given_structures;

@@ -426,7 +426,7 @@ mod by_hand {
 }
 
 /// Five frames without symmetry, one of them askew and one lower than the building, beside a core of springs.
-fn without_symmetry(columns_flexible: bool) -> (Tiers, Vec<PlanFrame>) {
+pub(super) fn without_symmetry(columns_flexible: bool) -> (Tiers, Vec<PlanFrame>) {
     let n = 3;
     let flexible = |mut frame: Frame| {
         frame.axial.columns_flexible = columns_flexible;

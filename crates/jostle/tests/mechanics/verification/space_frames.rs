@@ -19,9 +19,9 @@ const NU: f64 = 0.2;
 
 /// Which members deform how.
 #[derive(Clone, Copy, Debug)]
-struct Flexible {
-    axial: bool,
-    shear: bool,
+pub(super) struct Flexible {
+    pub(super) axial: bool,
+    pub(super) shear: bool,
 }
 
 const FULLY: Flexible = Flexible {
@@ -89,7 +89,7 @@ fn grid(lines_x: &[f64], lines_y: &[f64], storeys: usize, flexible: Flexible) ->
 }
 
 /// An L of three storeys with a set-back, unequal columns, and beams that are missing.
-fn without_symmetry(flexible: Flexible) -> Tiers {
+pub(super) fn without_symmetry(flexible: Flexible) -> Tiers {
     let mut frame = grid(&[0.0, 6.0, 11.0], &[0.0, 5.0, 9.0], 3, flexible);
     frame.members.retain(|member| {
         let [a, b] = member.place.crossings();
