@@ -190,8 +190,8 @@ impl JointedCuts<'_> {
         })
     }
 
-    /// Axial forces of all members. A column that keeps its length carries the one above it, the shears of the beams and the pull of the
-    /// diagonals at its head.
+    /// Axial forces of all members. A column that keeps its length carries the one above it, the shears of the beams, the pull of the
+    /// diagonals and its share of the weight of the floor at its head.
     fn axial(&self, bending: &[[Option<PlaneForces>; 2]]) -> Vec<LinearForm> {
         let members = &self.frame.members;
         let of_stretch = |member: &JointedMember| {
@@ -229,6 +229,7 @@ impl JointedCuts<'_> {
             for (diagonal, share) in members[column].diagonals.entries() {
                 sum.add(*share, &self.building.force_of_diagonal(*diagonal));
             }
+            sum.constant -= members[column].weight;
             axial[column] = sum.tidy();
         }
         axial
