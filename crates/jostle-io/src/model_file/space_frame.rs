@@ -232,7 +232,7 @@ pub(super) fn read(
     };
     add_slabs(&slabs, &mut frame);
     frame.rigid_zones = rigid_ends::read_in_space(reader, view, &frame);
-    space_walls::add_arms(&walls, &mut frame);
+    space_walls::add_to(&walls, &mut frame);
     add_diagonals(reader, view, &grid, plans, storey_heights, &mut frame);
     if let Some(hinges) = hinges {
         add_hinges(

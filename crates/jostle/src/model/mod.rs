@@ -56,7 +56,7 @@ pub use plan_frame::{LumpedFloor, PlanFrame, SharedColumn};
 pub use plan_spring::{PlanAxis, PlanSpring};
 pub use shear_spring::{ShearEnds, ShearSpring};
 pub use soil::{Foundation, FoundationSprings, HalfSpace, Soil, SoilCoupling};
-pub use space_frame::{SpaceFrame, SpaceMember, SpacePlace, SpaceSection};
+pub use space_frame::{SpaceFrame, SpaceMember, SpacePlace, SpaceSection, SpaceWall};
 pub use tiers::{PlanArea, PlanElement, PlanPoint, Tier, TierStorey, Tiers};
 pub use uplift::{BearingStrength, BedSpring, GroundSprings, Uplift};
 pub use wall::Wall;
