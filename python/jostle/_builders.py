@@ -375,9 +375,9 @@ class SpaceFrame(Part):
         lines_x: where the grid lines across stand along x, from the origin of the plan, rising.
         lines_y: where the grid lines along x stand, from the origin of the plan across, rising.
         column: columns at the crossings: ``{"size": ["500 mm", "500 mm"]}``, sizes along x and across, or a list of such tables, each
-            with ``"x"``, ``"y"`` and ``"storeys"`` for the places where it holds; later ones replace earlier ones. Bars, for fibres:
-            ``"steel": "HRB400", "bars": "12 d20"``.
-        beam_x: beams along x: ``{"width": "300 mm", "depth": "600 mm"}``, or a list likewise.
+            with ``"x"``, ``"y"`` and ``"storeys"`` for the places where it holds; later ones replace earlier ones. Bars, for fibres and for
+            demands over capacities: ``"steel": "HRB400", "bars": "12 d20", "ties": "d10 @ 100 mm"``.
+        beam_x: beams along x: ``{"width": "300 mm", "depth": "600 mm"}``, with bars likewise, or a list.
         beam_y: beams across, likewise.
         mass: floor masses from the ground up, or one for all, with beams and columns.
         floor_load: weight that the columns carry beyond that of the masses: one, or a list from the ground up.

@@ -39,6 +39,8 @@ struct Feature {
 #[derive(Clone, Copy, PartialEq)]
 enum Then {
     Plan,
+    /// Some member must be compared with its capacity.
+    Rate,
     Push,
     Export,
 }
@@ -132,6 +134,18 @@ const FRAME_BY_LINE: &str = "column = [{ width = 0.5, depth = 0.5 }, { line = 2,
 
 const COLUMNS: &str = "COLUMNS";
 
+/// Stands for columns and beams with bars and ties.
+const BARS: &str = "BARS";
+
+/// Gives columns and beams of a text bars and ties.
+fn with_bars(text: &str) -> String {
+    let bars = ", steel = \"HRB400\", bars = \"12 d20\", ties = \"d10 @ 100 mm\" }";
+    let ends = ["depth = 0.5 }", "depth = 0.6 }", "size = [0.5, 0.5] }"];
+    let with = |end: &str| end.replace(" }", bars);
+    ends.into_iter()
+        .fold(text.to_owned(), |text, end| text.replace(end, &with(end)))
+}
+
 /// Stands for columns whose ends are made of fibres.
 const FIBRES: &str = "FIBRES";
 
@@ -190,6 +204,7 @@ fn features() -> Vec<Feature> {
         Feature { name: "vertical shaking of a building under self weight", keys: "gravity = true\n", motion: "vertical = { kind = \"sine\", amplitude = 1, period = 0.1 }\n", ..USUAL },
         Feature { name: "different motion under each building", keys: "motion = { arrival = \"40 ms\" }\n", ..USUAL },
         Feature { name: "forces of columns and beams", more: "[output]\nmembers = true\n", ..USUAL },
+        Feature { name: "demand over capacity of columns and beams", keys: BARS, more: "[output]\ncapacity = true\n", then: Then::Rate, ..USUAL },
         Feature { name: "solver `modal`", analysis: "solver = \"modal\"\n", ..USUAL },
         Feature { name: "solver `riccati`", analysis: "solver = \"riccati\"\n", ..USUAL },
         Feature { name: "solver `series`", analysis: "solver = \"series\"\n", ..USUAL },
@@ -236,6 +251,8 @@ fn try_out(kind: usize, feature: &Feature) -> Result<(), String> {
     })?;
     match feature.then {
         Then::Plan => Ok(()),
+        Then::Rate if opened.system.ratings.is_empty() => Err("no member is rated".to_owned()),
+        Then::Rate => Ok(()),
         Then::Push => {
             let buildings = [&opened.system.buildings[0]];
             let (direction, pattern) = ([PushDirection::Right], LoadPattern::FirstMode);
@@ -320,6 +337,7 @@ fn model(kind: usize, feature: &Feature) -> String {
                     .replace("spans", &format!("{HINGES_OF_FIBRES}spans")),
             ),
             FIBRES if columns.is_none() => (HINGES_OF_FIBRES, own.tables.to_owned()),
+            BARS => ("", own.tables.to_owned()),
             // Frames at lines of a plan have theirs in their tables.
             _ if columns.is_some() && own.tables.contains("column =") => ("", own_tables),
             _ if columns.is_some() => (columns.unwrap_or_default(), own_tables),
@@ -345,10 +363,12 @@ fn model(kind: usize, feature: &Feature) -> String {
             ),
             false => added,
         };
-        let _ = write!(
-            text,
-            "[[building]]\nname = \"{name}\"\n{heights}{keys}{place}{more}{tables}{added}"
-        );
+        let own = format!("{heights}{keys}{place}{more}{tables}{added}");
+        let own = match feature.keys {
+            BARS => with_bars(&own),
+            _ => own,
+        };
+        let _ = write!(text, "[[building]]\nname = \"{name}\"\n{own}");
     }
     let usual = [
         ("law", "law = \"hertz\"\n"),

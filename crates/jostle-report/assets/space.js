@@ -332,11 +332,18 @@ class SpaceScene {
       const look = infill ? { fill: this.quiet, alpha: 0.18, closed: true } : { stroke: colour, width: 1.4, dash: [5, 3] };
       parts.push({ near: mean(seen), paint: () => this.line(seen, look) });
     }
-    // Columns and beams of a space frame.
-    for (const { ends, floors, hinges: own } of building.members) {
-      const seen = ends.map((end, side) => this.at(floors[side] === null || floors[side] === undefined ? [sx + end[0], sy + end[1], 0] : this.moved(i, floors[side], end, state[floors[side]])));
-      const isColumn = floors[0] !== floors[1];
-      parts.push({ near: mean(seen), paint: () => this.line(seen, { stroke: colour, width: isColumn ? 1.8 : 1.1 }) });
+    // Columns and beams of a space frame, and its walls from face to face.
+    for (const { ends, floors, hinges: own, wall } of building.members) {
+      const place = (end, side) => this.at(floors[side] === null || floors[side] === undefined ? [sx + end[0], sy + end[1], 0] : this.moved(i, floors[side], end, state[floors[side]]));
+      const seen = ends.map(place);
+      if (wall) {
+        const corner = (side, sign) => place([ends[side][0] + sign * wall[0], ends[side][1] + sign * wall[1]], side);
+        const face = [corner(0, -1), corner(0, 1), corner(1, 1), corner(1, -1)];
+        parts.push({ near: mean(face), paint: () => this.line(face, { fill: colour, alpha: 0.35, stroke: colour, width: 1.4, closed: true }) });
+      } else {
+        const isColumn = floors[0] !== floors[1];
+        parts.push({ near: mean(seen), paint: () => this.line(seen, { stroke: colour, width: isColumn ? 1.8 : 1.1 }) });
+      }
       // The worse of both planes of a column.
       for (const end of [0, 1]) {
         const stage = Math.max(0, ...own.filter((hinge) => hinge.end === end).map((hinge) => stageAt(hinge, this.time)));

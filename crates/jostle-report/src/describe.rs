@@ -265,10 +265,14 @@ fn tiers_facts(tiers: &jostle::Tiers, facts: &mut Facts) {
         let columns = columns.filter(|own| matches!(own.place, jostle::SpacePlace::Column { .. }));
         let columns = columns.count();
         let beams = frame.members.len() - columns;
-        facts.push((
-            message::members_of_the_frame(),
-            message::columns_and_beams_count(columns, beams),
-        ));
+        let storeys = frame.walls.iter();
+        let storeys = storeys.map(|own| own.storeys[1] - own.storeys[0] + 1);
+        let columns = columns - storeys.sum::<usize>();
+        let members = match frame.walls.len() {
+            0 => message::columns_and_beams_count(columns, beams),
+            walls => message::columns_beams_and_walls(columns, beams, walls),
+        };
+        facts.push((message::members_of_the_frame(), members));
     }
     if let Some(matrices) = &tiers.matrices {
         let size = matrices.stiffness.len();

@@ -1,6 +1,6 @@
 //! Braces, panels and walls of plane frames, and members of space frames, as the pictures of a report draw them.
 
-use jostle::{Diagonal, DiagonalKind, FrameWall, SpaceFrame, SpaceMember, SpacePlace};
+use jostle::{Diagonal, DiagonalKind, FrameWall, PlanAxis, SpaceFrame, SpaceMember, SpacePlace};
 use serde::Serialize;
 
 /// A brace, or a strut of an infill panel.
@@ -34,6 +34,9 @@ pub(crate) struct MemberData {
     ends: [[f64; 2]; 2],
     /// Floors, from 0, with which they move; `null` is the ground.
     floors: [Option<usize>; 2],
+    /// Half the length of a wall along its own direction, whose axis it is \[m\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    wall: Option<[f64; 2]>,
 }
 
 impl DiagonalData {
@@ -74,7 +77,16 @@ impl MemberData {
                 SpacePlace::Column { .. } => level.checked_sub(1),
                 SpacePlace::BeamX { .. } | SpacePlace::BeamY { .. } => Some(level),
             };
+            let wall = frame.walls.iter().find(|wall| wall.has(own.place));
+            let half = wall.map(|wall| {
+                let [c, s] = frame.direction.map(|part| 0.5 * wall.length * part);
+                match wall.along {
+                    PlanAxis::X => [c, s],
+                    PlanAxis::Y => [-s, c],
+                }
+            });
             Self {
+                wall: half,
                 ends: own.place.crossings().map(|crossing| frame.point(crossing)),
                 floors: [lower, Some(level)],
             }

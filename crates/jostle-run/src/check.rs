@@ -13,12 +13,12 @@ use jostle::hysteresis::Side;
 use jostle::judgement::Stated;
 use jostle::model::{Damping, Structure, Tiers, usual_damping_modes};
 use jostle::system::BuildingSystem;
-use jostle::{Building, LinkLaw, Model, SpaceMember, SpacePlace, System};
+use jostle::{Building, LinkLaw, Model, SpaceMember, SpacePlace, SpaceWall, System};
 
 use base::{
     describe_bearing_places, describe_bearings, describe_foundation, describe_foundation_in_plan,
 };
-use frames::{axial_of_columns, diagonals, members, rigid_ends, walls};
+use frames::{axial_of_columns, diagonals, members, rigid_ends, space_walls, walls};
 use hinges::{describe_hinges, describe_yielding_in_plan};
 use jostle::results::summary::Finding;
 use jostle_io::shown::{
@@ -252,22 +252,39 @@ fn space_frame(tiers: &Tiers) -> String {
     };
     let is_column = |member: &&SpaceMember| matches!(member.place, SpacePlace::Column { .. });
     let columns = frame.members.iter().filter(is_column).count();
+    let beams = frame.members.len() - columns;
     let unit = HEIGHT.name();
     let lines = |lines: &[f64]| {
         let all = lines.iter().map(|line| HEIGHT.stated(*line));
         all.collect::<Vec<_>>().join(", ")
     };
-    let zones = frame.rigid_zones.values();
-    let ends = zones.map(|[x, y, column]| [x.max(*y), *column]);
+    // Beams begin at the faces of walls.
+    let zones = frame.rigid_zones.iter().map(|(&[floor, x, y], &zone)| {
+        let mut ends = zone;
+        let at_joint = |wall: &&SpaceWall| {
+            let [first, last] = wall.storeys;
+            wall.line == [x, y] && (first..=last + 1).contains(&(floor + 1))
+        };
+        for wall in frame.walls.iter().filter(at_joint) {
+            ends[wall.along.index()] = 0.0;
+        }
+        [ends[0].max(ends[1]), ends[2]]
+    });
+    let parts = frame
+        .walls
+        .iter()
+        .map(|wall| wall.storeys[1] - wall.storeys[0] + 1);
+    let columns = columns - parts.sum::<usize>();
     format!(
-        "space frame, {}, {} and {}{}{}\n  grid lines at x = {} {unit}, at y = {} {unit}",
+        "space frame, {}, {} and {}{}{}\n  grid lines at x = {} {unit}, at y = {} {unit}{}",
         counted(tiers.floors.len(), "storey"),
         counted(columns, "column"),
-        counted(frame.members.len() - columns, "beam"),
+        counted(beams, "beam"),
         diagonals(&frame.diagonals),
-        rigid_ends(ends),
+        rigid_ends(zones),
         lines(&frame.lines_x),
-        lines(&frame.lines_y)
+        lines(&frame.lines_y),
+        space_walls(frame)
     )
 }
 

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use jostle::Structure;
 use jostle::hysteresis::Side;
 use jostle_io::shown::{FORCE, HEIGHT, LENGTH, MODULUS, MOMENT, ROTATIONAL_STIFFNESS, STRESS};
 use jostle_io::{Dimension, Input, parse_concrete, parse_quantity, parse_steel};
@@ -12,6 +13,7 @@ use jostle_section::{
 use serde_json::{Value, json};
 
 use crate::error::RunError;
+use crate::numbers::counted;
 use crate::style::{BOLD, DIM, styled};
 
 /// A reinforced section and its member, as written: numbers in SI, or with a unit.
@@ -145,12 +147,17 @@ pub fn sections(input: &Input, name: &str) -> Result<Vec<SectionSurvey>, RunErro
         )));
     }
     let surveys = kinds.into_iter().map(|(member, places)| {
-        let building = &input.model.buildings[member.building].name;
+        let building = &input.model.buildings[member.building];
         let (kind, across) = match member.member {
             Member::Column => ("column", "line"),
             Member::Beam => ("beam", "bay"),
         };
-        let name = format!("{building}: {kind}, {}", places_text(&places, across));
+        let places = match (&building.structure, places.len() - 1) {
+            (Structure::Frame(_), _) => format!("{kind}, {}", places_text(&places, across)),
+            (_, 0) => member.name.clone(),
+            (_, others) => format!("{} and {}", member.name, counted(others, "other")),
+        };
+        let name = format!("{}: {places}", building.name);
         SectionSurvey::new(
             name,
             member.section.clone(),

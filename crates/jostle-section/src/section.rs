@@ -145,6 +145,22 @@ impl Section {
         }
     }
 
+    /// The section turned by a quarter: its left face is on top, so that its width is the depth.
+    #[must_use]
+    pub fn turned(&self) -> Self {
+        let bars = self.bars.iter().map(|bar| Bar {
+            x: bar.depth,
+            depth: bar.x,
+            ..*bar
+        });
+        Self {
+            width: self.depth,
+            depth: self.width,
+            bars: bars.collect(),
+            ..self.clone()
+        }
+    }
+
     /// Whether the section is the same upside down.
     #[must_use]
     pub fn is_symmetric(&self) -> bool {

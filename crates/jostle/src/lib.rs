@@ -121,8 +121,8 @@ pub use model::{
     LinkLaw, MassDamping, MemberRequest, Model, ModelFault, PanelAcross, PlanArea, PlanAxis,
     PlanContact, PlanFoundationSprings, PlanFrame, PlanPoint, PlanSpring, ProportionalDamping,
     Rise, Section, Shear, ShearEnds, ShearSpring, SlidingSurface, Soil, SoilCoupling, Solver,
-    SpaceFrame, SpaceMember, SpacePlace, SpaceSection, SpeedFriction, Stop, Structure, Tier,
-    TierStorey, Tiers, Uplift, Wall,
+    SpaceFrame, SpaceMember, SpacePlace, SpaceSection, SpaceWall, SpeedFriction, Stop, Structure,
+    Tier, TierStorey, Tiers, Uplift, Wall,
 };
 pub use motion::{Bearing, GroundMotion, GroundPath, GroundPoint, Grounds, OwnGround, Wave};
 pub use quantity::{Quantity, Unit};

@@ -9,7 +9,7 @@ use jostle::{
 
 use super::damper::{self, Damper};
 use super::places::is_by_place;
-use super::reinforced::{self, ReinforcedMember};
+use super::reinforced::{self, ReinforcedInPlan, ReinforcedMember};
 use super::{
     codes, frame, given, given_in_plan, hinges, isolation, joint, plan, shear, shear_failure, soil,
 };
@@ -162,7 +162,7 @@ fn read(
             Kind::Frame => {}
         },
     }
-    let mut damped = None;
+    let (mut damped, mut bars_in_plan) = (None, ReinforcedInPlan::default());
     let structure = match kind {
         Kind::Shear if view.has("plan") => {
             if let Some(field) = reader.get(&view, "frame") {
@@ -170,7 +170,7 @@ fn read(
                     Some("write kind = \"frame\"; stiffness and elements may stay".into());
             }
             let read = plan::read(reader, &view, plan::HeldBy::Springs);
-            *at = read.at;
+            (*at, bars_in_plan) = (read.at, read.reinforced);
             Structure::Tiers(read.tiers)
         }
         Kind::FramesInPlan => {
@@ -178,7 +178,7 @@ fn read(
                 reader.missing(&view, "plan", "add plan = [\"20 m\", \"12 m\"], or corners");
             }
             let read = plan::read(reader, &view, plan::HeldBy::Frames);
-            *at = read.at;
+            (*at, bars_in_plan) = (read.at, read.reinforced);
             Structure::Tiers(read.tiers)
         }
         Kind::SpaceFrame => {
@@ -187,7 +187,7 @@ fn read(
                     Some("leave out [[building.frame]]; walls can be [[building.element]]".into());
             }
             let read = plan::read(reader, &view, plan::HeldBy::SpaceFrame);
-            *at = read.at;
+            (*at, bars_in_plan) = (read.at, read.reinforced);
             Structure::Tiers(read.tiers)
         }
         Kind::Shear => {
@@ -280,19 +280,18 @@ fn read(
             stated.and_then(|field| hinges::read_storeys(reader, &field, shear))
         }
         // Those of a plan are part of it.
-        Structure::Tiers(_) | Structure::Given(_) => None,
+        Structure::Tiers(_) => {
+            let here = (reader.count_faults() == noted && is_sound(&building))
+                .then(|| reinforced::members_in_plan(index, &building, &bars_in_plan));
+            members.extend(sound_members(reader, &view, here).unwrap_or_default());
+            None
+        }
+        Structure::Given(_) => None,
         Structure::Frame(frame) => {
             let reinforced = reinforced::read(reader, &view, frame);
             let here = (reader.count_faults() == noted && is_sound(&building))
                 .then(|| reinforced::members(index, &building, &reinforced));
-            let here = match here {
-                Some(Err(problem)) => {
-                    reader.fault(&view.span.clone(), format!("{}.column", view.path), problem);
-                    None
-                }
-                Some(Ok(here)) => Some(here),
-                None => None,
-            };
+            let here = sound_members(reader, &view, here);
             let hinges = stated
                 .as_ref()
                 .and_then(|field| hinges::read_frame(reader, field, frame, here.as_deref()));
@@ -320,6 +319,21 @@ fn read(
         building.gravity.p_delta = building.hinges.is_some() || in_plan;
     }
     Some(building)
+}
+
+/// Reinforced members of a building; notes why they are not known.
+fn sound_members(
+    reader: &mut Reader<'_>,
+    view: &View<'_>,
+    found: Option<Result<Vec<ReinforcedMember>, String>>,
+) -> Option<Vec<ReinforcedMember>> {
+    match found? {
+        Ok(members) => Some(members),
+        Err(problem) => {
+            reader.fault(&view.span.clone(), format!("{}.column", view.path), problem);
+            None
+        }
+    }
 }
 
 /// Whether a building by itself would pass the check of a model.

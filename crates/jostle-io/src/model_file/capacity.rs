@@ -1,9 +1,9 @@
 //! `[output] capacity`: which members are compared with their capacity, and by which rules.
 
-use jostle::model::MemberCapacity;
-use jostle::{MemberRequest, Model};
+use jostle::model::{MemberCapacity, RotationLimits, RuleCapacity};
+use jostle::{Building, MemberRequest, Model, Structure};
 use jostle_section::Section;
-use jostle_section::capacity::{Interaction, RatedMember, ShearRule};
+use jostle_section::capacity::{Interaction, ObliqueInteraction, RatedMember, ShearRule};
 use jostle_section::formula::Member;
 
 use super::reinforced::ReinforcedMember;
@@ -134,56 +134,38 @@ fn capacities(
         return Vec::new();
     }
     let mut capacities: Vec<MemberCapacity> = Vec::with_capacity(members.len());
-    let mut interactions: Vec<(&Section, [Interaction; 2])> = Vec::new();
+    let mut sections = KnownSections::default();
     for (index, member) in members.iter().enumerate() {
         let building = &model.buildings[member.building];
-        let name = match member.member {
-            Member::Column => format!("{}.column.{}.{}", building.name, member.place, member.floor),
-            Member::Beam => format!("{}.beam.{}.{}", building.name, member.floor, member.place),
-        };
         let weighs = building.weight_is_in_axial_forces();
         let alike = members[..index].iter().position(|known| {
             known.member == member.member
                 && known.clear_length == member.clear_length
+                && known.clear_length_across == member.clear_length_across
                 && known.level == member.level
                 && known.section == member.section
         });
-        let rated = RatedMember {
-            section: &member.section,
-            member: member.member,
-            clear_length: member.clear_length,
-            level: member.level,
-        };
+        let rated = rated(member);
         let (axial_failure_drift, rules) = match alike {
             Some(known) => {
                 let known = &capacities[known];
                 (known.axial_failure_drift.clone(), known.rules.clone())
             }
-            None => {
-                let mut known = interactions.iter();
-                let known = known.position(|(section, _)| **section == member.section);
-                let known = known.unwrap_or_else(|| {
-                    let both = Interaction::of_both_signs(&member.section);
-                    interactions.push((&member.section, both));
-                    interactions.len() - 1
-                });
-                let both = &interactions[known].1;
-                (
-                    rated.axial_failure_drift(),
-                    rated.capacities_with(rules, both),
-                )
-            }
+            None => (
+                rated.axial_failure_drift(),
+                sections.capacities(member, rules),
+            ),
         };
-        let rotations = if building.hinges.is_some() {
+        let rotations = if yields(building) {
             match alike.filter(|&known| members[known].compression == member.compression) {
                 Some(known) => capacities[known].rotations.clone(),
-                None => rated.rotation_limits(member.compression),
+                None => rotation_limits(member),
             }
         } else {
             Vec::new()
         };
         capacities.push(MemberCapacity {
-            member: name,
+            member: format!("{}.{}", building.name, member.name),
             compression_at_rest: if weighs { 0.0 } else { member.compression },
             follows_axial: member.member == Member::Column,
             axial_failure_drift,
@@ -192,4 +174,94 @@ fn capacities(
         });
     }
     capacities
+}
+
+fn rated(member: &ReinforcedMember) -> RatedMember<'_> {
+    RatedMember {
+        section: &member.section,
+        member: member.member,
+        clear_length: member.clear_length,
+        level: member.level,
+    }
+}
+
+/// Whether ends of its columns or beams may yield.
+fn yields(building: &Building) -> bool {
+    let in_plan = matches!(&building.structure, Structure::Tiers(tiers) if tiers.may_yield());
+    building.hinges.is_some() || in_plan
+}
+
+/// Rotations that rules accept at the ends of a member; of a column that bends in two planes the smaller ones.
+fn rotation_limits(member: &ReinforcedMember) -> Vec<RotationLimits> {
+    let mut limits = rated(member).rotation_limits(member.compression);
+    let Some(clear_length) = member.clear_length_across else {
+        return limits;
+    };
+    let across = RatedMember {
+        section: &member.section.turned(),
+        clear_length,
+        ..rated(member)
+    };
+    let across = across.rotation_limits(member.compression);
+    for own in &mut limits {
+        let same = |other: &&RotationLimits| (other.rule, other.measure) == (own.rule, own.measure);
+        let Some(other) = across.iter().find(same) else {
+            continue;
+        };
+        for ((_, own), (_, other)) in own.limits.iter_mut().zip(&other.limits) {
+            *own = own.min(*other);
+        }
+    }
+    limits
+}
+
+/// What sections bear, as far as it was computed.
+#[derive(Default)]
+struct KnownSections<'a> {
+    in_plane: Vec<(&'a Section, [Interaction; 2])>,
+    oblique: Vec<(&'a Section, ObliqueInteraction)>,
+}
+
+impl<'a> KnownSections<'a> {
+    /// Capacities of a member by some rules.
+    fn capacities(
+        &mut self,
+        member: &'a ReinforcedMember,
+        rules: &[ShearRule],
+    ) -> Vec<RuleCapacity> {
+        let section = &member.section;
+        let in_plane = position(&mut self.in_plane, section, || {
+            Interaction::of_both_signs(section)
+        });
+        let (_, in_plane) = &self.in_plane[in_plane];
+        let rated = rated(member);
+        let Some(clear_length) = member.clear_length_across else {
+            return rated.capacities_with(rules, in_plane);
+        };
+        let turned = section.turned();
+        let oblique = position(&mut self.oblique, section, || {
+            let across = Interaction::of_both_signs(&turned);
+            ObliqueInteraction::new(section, &[in_plane.clone(), across])
+        });
+        let across = RatedMember {
+            section: &turned,
+            clear_length,
+            ..rated.clone()
+        };
+        let (_, oblique) = &self.oblique[oblique];
+        rated.capacities_in_space(&across, rules, in_plane, oblique)
+    }
+}
+
+/// Where a section stands in a list, to which `new` adds it if it is not there.
+fn position<'a, T>(
+    known: &mut Vec<(&'a Section, T)>,
+    section: &'a Section,
+    new: impl FnOnce() -> T,
+) -> usize {
+    let found = known.iter().position(|(other, _)| *other == section);
+    found.unwrap_or_else(|| {
+        known.push((section, new()));
+        known.len() - 1
+    })
 }

@@ -5,6 +5,7 @@ use jostle::{Damping, GivenFloor, GivenInPlan, PlanArea, PlanPoint, Tier, Tiers}
 
 use super::given::{Port, Read, Stated, rayleigh, read_dof, read_ports, read_stated, stiffness_of};
 use super::plan::{Planned, pair, read_plans};
+use super::reinforced::ReinforcedInPlan;
 use super::shear::DEFAULT_STOREY_HEIGHT;
 use crate::files::Files;
 use crate::matrices::{Matrices, Matrix};
@@ -38,7 +39,11 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, files: &Files) -> R
     let read = from_matrices(reader, view, files, angle.unwrap_or(0.0));
     let (tiers, damping) = read.unwrap_or_else(|| (stand_in(), None));
     Read {
-        given: Planned { tiers, at },
+        given: Planned {
+            tiers,
+            at,
+            reinforced: ReinforcedInPlan::default(),
+        },
         damping,
     }
 }

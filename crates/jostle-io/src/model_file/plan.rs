@@ -11,6 +11,7 @@ use jostle::{
 use super::building::{has_length, per_storey, storeys};
 use super::hinges;
 use super::plan_frames;
+use super::reinforced::ReinforcedInPlan;
 use super::shear::DEFAULT_STOREY_HEIGHT;
 use super::space_frame::{self, Grid};
 use crate::keys::Section;
@@ -24,6 +25,8 @@ const AGREES: f64 = 1e-3;
 pub(super) struct Planned {
     pub(super) tiers: Tiers,
     pub(super) at: Option<PlanPoint>,
+    /// Sections of its columns and beams that have bars.
+    pub(super) reinforced: ReinforcedInPlan,
 }
 
 /// What holds floors beside storey springs and elements.
@@ -161,8 +164,10 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, held_by: HeldBy) ->
         HeldBy::Frames => plan_frames::read_all(reader, view, &storey_heights),
         HeldBy::Springs | HeldBy::SpaceFrame => Vec::new(),
     };
+    let (frames, of_frames) = frames.into_iter().unzip();
     let space_frame =
         grid.map(|grid| space_frame::read(reader, view, grid, &plans, &storey_heights));
+    let (space_frame, of_members) = space_frame.unzip();
     Planned {
         tiers: Tiers {
             floors,
@@ -175,6 +180,10 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, held_by: HeldBy) ->
             ..Tiers::default()
         },
         at,
+        reinforced: ReinforcedInPlan {
+            frames: of_frames,
+            members: of_members.unwrap_or_default(),
+        },
     }
 }
 

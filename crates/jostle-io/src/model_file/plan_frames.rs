@@ -7,6 +7,7 @@ use super::frame;
 use super::hinges;
 use super::joint;
 use super::plan::pair;
+use super::reinforced::{self, Reinforced};
 use crate::keys::Section;
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
@@ -14,12 +15,12 @@ use crate::reader::{Field, Reader, View};
 /// Most frames of a building.
 const MOST_FRAMES: usize = 200;
 
-/// Reads the frames of a building with these storeys.
+/// Reads the frames of a building with these storeys, each with the sections of its members that have bars.
 pub(super) fn read_all(
     reader: &mut Reader<'_>,
     view: &View<'_>,
     storey_heights: &[f64],
-) -> Vec<PlanFrame> {
+) -> Vec<(PlanFrame, Reinforced)> {
     let entries = reader
         .get(view, "frame")
         .and_then(|field| field.entries().filter(|list| !list.is_empty()));
@@ -54,7 +55,7 @@ fn read(
     view: &View<'_>,
     index: usize,
     storey_heights: &[f64],
-) -> Vec<PlanFrame> {
+) -> Vec<(PlanFrame, Reinforced)> {
     let name = reader
         .get(view, "name")
         .and_then(|field| reader.text(&field));
@@ -84,6 +85,7 @@ fn read(
         None => most,
     };
     let frame = frame::read_in_plan(reader, view, &storey_heights[..storeys]);
+    let reinforced = reinforced::read(reader, view, &frame);
     let base = read_base(reader, view, false);
     let hinges = reader.get(view, "hinges").and_then(|field| {
         let table = reader.reopen(&field, &[Section::Hinges]);
@@ -122,17 +124,20 @@ fn read(
     let single = places.len() == 1;
     let numbered = places.into_iter().enumerate();
     numbered
-        .map(|(number, at)| PlanFrame {
-            name: match single {
-                true => name.clone(),
-                false => format!("{name}.{}", number + 1),
-            },
-            at,
-            direction: direction.unwrap_or([1.0, 0.0]),
-            lines: lines.clone(),
-            base,
-            hinges: hinges.clone(),
-            frame: frame.clone(),
+        .map(|(number, at)| {
+            let own = PlanFrame {
+                name: match single {
+                    true => name.clone(),
+                    false => format!("{name}.{}", number + 1),
+                },
+                at,
+                direction: direction.unwrap_or([1.0, 0.0]),
+                lines: lines.clone(),
+                base,
+                hinges: hinges.clone(),
+                frame: frame.clone(),
+            };
+            (own, reinforced.clone())
         })
         .collect()
 }

@@ -1,10 +1,13 @@
 //! Reinforcement of columns and beams.
 
-use jostle::Building;
-use jostle::statics::{STANDARD_GRAVITY, compressions};
+use std::collections::BTreeMap;
+
+use jostle::statics::{STANDARD_GRAVITY, compressions, compressions_of_members};
 use jostle::structure::{Discretization, MemberPlace};
 use jostle::system::BuildingSystem;
-use jostle::{Frame, Structure};
+use jostle::{
+    Building, Frame, FramePlace, PlanAxis, SpaceFrame, SpaceMember, SpacePlace, Structure,
+};
 use jostle_section::capacity::ShearRule;
 use jostle_section::formula::Member;
 use jostle_section::{BarsError, Reinforcement, Section, Steel, StrengthLevel, Ties};
@@ -28,8 +31,11 @@ pub struct ReinforcedMember {
     pub member: Member,
     /// Storey of a column, floor of a beam, counted from 1.
     pub floor: usize,
-    /// Column line or bay, counted from 1 at the left.
+    /// Column line or bay, counted from 1 at the left; in a space frame the number of the crossing at which it begins, line by line
+    /// of `lines_y`.
     pub place: usize,
+    /// Its name within the building, such as `column.1.2`, with that of its frame before where frames stand in a plan.
+    pub name: String,
     /// The section.
     pub section: Section,
     /// Axial compression \[N\].
@@ -40,6 +46,8 @@ pub struct ReinforcedMember {
     pub rigidity: f64,
     /// Length between the faces of adjacent members whose depth is known, otherwise between the axes \[m\].
     pub clear_length: f64,
+    /// The same in the plane across, of a column of a space frame; `None` for others.
+    pub clear_length_across: Option<f64>,
     /// Level of the strengths of the section.
     pub level: StrengthLevel,
     /// Rule for capacities of the country of its steel, if that has a grade.
@@ -58,10 +66,17 @@ pub(super) struct Reinforced {
 /// A section with its bars.
 #[derive(Clone, Debug)]
 pub(super) struct Laid {
-    section: Section,
+    own: ReadSection,
     axial: Axial,
-    level: StrengthLevel,
-    home_rule: Option<ShearRule>,
+}
+
+/// Sections of the columns and beams of a building with a plan, where they are reinforced.
+#[derive(Clone, Debug, Default)]
+pub(super) struct ReinforcedInPlan {
+    /// Of every frame at lines of the plan.
+    pub(super) frames: Vec<Reinforced>,
+    /// Of a space frame.
+    pub(super) members: BTreeMap<SpacePlace, ReadSection>,
 }
 
 /// Axial compression of a member.
@@ -147,14 +162,13 @@ fn read_one(
     };
     let read = read_section(reader, &view, size, of_building)?;
     Some(Laid {
-        section: read.section,
+        own: read,
         axial: axial?,
-        level: read.level,
-        home_rule: read.home_rule,
     })
 }
 
 /// A section with its bars, and what its strengths are.
+#[derive(Clone, Debug)]
 pub(super) struct ReadSection {
     pub(super) section: Section,
     level: StrengthLevel,
@@ -284,26 +298,145 @@ pub(super) fn members(
     let Structure::Frame(frame) = &building.structure else {
         return Ok(Vec::new());
     };
-    let asks_gravity = |entry: &Option<Laid>| {
-        let entry = entry.as_ref();
-        entry.is_some_and(|laid| laid.axial == Axial::FromGravity)
+    let carried = if reinforced.asks_gravity() {
+        column_loads(building)?
+    } else {
+        Vec::new()
     };
+    let load = |_: &str, [storey, place]: FramePlace| carried[storey][place];
+    Ok(of_frame(index, "", frame, reinforced, load))
+}
+
+/// The same of a sound building with a plan: of its frames at lines of the plan, and of its space frame.
+///
+/// # Errors
+/// As those of [`members`].
+pub(super) fn members_in_plan(
+    index: usize,
+    building: &Building,
+    reinforced: &ReinforcedInPlan,
+) -> Result<Vec<ReinforcedMember>, String> {
+    let Structure::Tiers(tiers) = &building.structure else {
+        return Ok(Vec::new());
+    };
+    let frames = reinforced.frames.iter();
+    let asks_gravity = frames.clone().any(Reinforced::asks_gravity);
+    let carried: BTreeMap<String, f64> = if asks_gravity || !reinforced.members.is_empty() {
+        let carried = compressions_of_members(building).map_err(|_| DOES_NOT_STAND.to_owned())?;
+        carried.into_iter().collect()
+    } else {
+        BTreeMap::new()
+    };
+    let load = |name: &str| carried.get(name).copied().unwrap_or(0.0);
+    let mut members: Vec<ReinforcedMember> = Vec::new();
+    for (frame, own) in tiers.frames.iter().zip(frames) {
+        let name = format!("{}.", frame.name);
+        let load = |name: &str, _: FramePlace| load(name);
+        members.extend(of_frame(index, &name, &frame.frame, own, load));
+    }
+    if let Some(frame) = &tiers.space_frame {
+        let places = frame.members.iter();
+        let laid = places.filter_map(|own| Some((own, reinforced.members.get(&own.place)?)));
+        members.extend(laid.map(|(own, read)| {
+            let name = own.place.to_string();
+            let compression = load(&name);
+            let heights = &tiers.storey_heights;
+            in_space(index, name, frame, (own, read), heights, compression)
+        }));
+    }
+    Ok(members)
+}
+
+/// A reinforced member of a space frame that bears a compression \[N\].
+fn in_space(
+    building: usize,
+    name: String,
+    frame: &SpaceFrame,
+    (own, read): (&SpaceMember, &ReadSection),
+    heights: &[f64],
+    compression: f64,
+) -> ReinforcedMember {
+    let (place, storey) = (own.place, own.place.storey());
+    let length = frame.length(place, heights);
+    let is_column = matches!(place, SpacePlace::Column { .. });
+    let meets = |at: usize, crossing: [usize; 2], other: SpacePlace| {
+        other.storey() == at && other.crossings().contains(&crossing)
+    };
+    // The greatest size along an axis of what meets an end of it.
+    let met = |floor: Option<usize>, crossing: [usize; 2], axis: PlanAxis| {
+        let others = frame
+            .members
+            .iter()
+            .filter(|other| floor.is_some_and(|floor| meets(floor, crossing, other.place)));
+        let sizes = others.map(|other| match (is_column, other.place, axis) {
+            (true, SpacePlace::BeamX { .. }, PlanAxis::X)
+            | (true, SpacePlace::BeamY { .. }, PlanAxis::Y) => other.section.size[1],
+            (false, SpacePlace::Column { .. }, _) => other.section.size[axis.index()],
+            _ => 0.0,
+        });
+        sizes.fold(0.0, f64::max)
+    };
+    let [first, last] = place.crossings();
+    let clear_along = |axis: PlanAxis| {
+        let below = match is_column {
+            true => storey.checked_sub(1),
+            false => Some(storey),
+        };
+        let depths = met(below, first, axis) + met(Some(storey), last, axis);
+        clear(length, 0.5 * depths)
+    };
+    let along = match place {
+        SpacePlace::BeamY { .. } => PlanAxis::Y,
+        SpacePlace::Column { .. } | SpacePlace::BeamX { .. } => PlanAxis::X,
+    };
+    ReinforcedMember {
+        building,
+        member: match is_column {
+            true => Member::Column,
+            false => Member::Beam,
+        },
+        floor: storey + 1,
+        place: first[1] * frame.lines_x.len() + first[0] + 1,
+        name,
+        section: read.section.clone(),
+        compression: if is_column { compression } else { 0.0 },
+        length,
+        rigidity: own.section.flexural_rigidity[0],
+        clear_length: clear_along(along),
+        clear_length_across: is_column.then(|| clear_along(PlanAxis::Y)),
+        level: read.level,
+        home_rule: read.home_rule,
+    }
+}
+
+impl Reinforced {
+    /// Whether a column takes its load from gravity.
+    fn asks_gravity(&self) -> bool {
+        let mut laid = self.columns.iter().flatten().flatten();
+        laid.any(|laid| laid.axial == Axial::FromGravity)
+    }
+}
+
+/// The reinforced members of a plane frame. `prefix`: what stands before their names; `load`: compression of a column by name and by
+/// storey and line, where it follows from gravity \[N\].
+fn of_frame(
+    index: usize,
+    prefix: &str,
+    frame: &Frame,
+    reinforced: &Reinforced,
+    load: impl Fn(&str, FramePlace) -> f64,
+) -> Vec<ReinforcedMember> {
     // Depths of what frames into a member, where it is known.
     let depth = |list: &[Vec<Option<Laid>>], row: Option<usize>, place: Option<usize>| {
         let laid = row
             .zip(place)
             .and_then(|(row, place)| list.get(row)?.get(place)?.as_ref());
-        laid.map_or(0.0, |laid| laid.section.depth)
+        laid.map_or(0.0, |laid| laid.own.section.depth)
     };
     let deeper_beam = |floor: Option<usize>, line: usize| {
         let [left, right] =
             [line.checked_sub(1), Some(line)].map(|bay| depth(&reinforced.beams, floor, bay));
         left.max(right)
-    };
-    let carried = if reinforced.columns.iter().flatten().any(asks_gravity) {
-        column_loads(building)?
-    } else {
-        Vec::new()
     };
     let mut members = Vec::new();
     let columns = frame.all_columns().map(|own| (Member::Column, own));
@@ -314,21 +447,20 @@ pub(super) fn members(
             Member::Beam => &reinforced.beams,
         };
         let laid = list.get(storey).and_then(|row| row.get(place)?.as_ref());
-        let Some(Laid {
-            section,
-            axial,
-            level,
-            home_rule,
-        }) = laid
-        else {
+        let Some(Laid { own: read, axial }) = laid else {
             continue;
+        };
+        let (floor, at) = (storey + 1, place + 1);
+        let name = match member {
+            Member::Column => format!("{prefix}column.{at}.{floor}"),
+            Member::Beam => format!("{prefix}beam.{floor}.{at}"),
         };
         let (length, compression, depths) = match member {
             Member::Column => (
                 frame.storey_heights[storey],
                 match axial {
                     Axial::Given(force) => *force,
-                    Axial::FromGravity => carried[storey][place],
+                    Axial::FromGravity => load(&name, [storey, place]),
                 },
                 deeper_beam(storey.checked_sub(1), place) + deeper_beam(Some(storey), place),
             ),
@@ -341,19 +473,24 @@ pub(super) fn members(
         members.push(ReinforcedMember {
             building: index,
             member,
-            floor: storey + 1,
-            place: place + 1,
-            section: section.clone(),
+            floor,
+            place: at,
+            name,
+            section: read.section.clone(),
             compression,
             length,
             rigidity: own.flexural_rigidity,
             clear_length: clear(length, 0.5 * depths),
-            level: *level,
-            home_rule: *home_rule,
+            clear_length_across: None,
+            level: read.level,
+            home_rule: read.home_rule,
         });
     }
-    Ok(members)
+    members
 }
+
+/// Why columns have no load from gravity.
+const DOES_NOT_STAND: &str = "cannot be taken from gravity: the building does not stand by itself";
 
 /// Length between faces; never less than a fifth of that between axes \[m\].
 fn clear(length: f64, depths: f64) -> f64 {
@@ -366,9 +503,8 @@ fn column_loads(building: &Building) -> Result<Vec<Vec<f64>>, String> {
         return Ok(Vec::new());
     };
     let system = BuildingSystem::new(&building.name, Discretization::new(building));
-    let compressions = compressions(&system, STANDARD_GRAVITY).map_err(|_| {
-        "cannot be taken from gravity: the building does not stand by itself".to_owned()
-    })?;
+    let compressions =
+        compressions(&system, STANDARD_GRAVITY).map_err(|_| DOES_NOT_STAND.to_owned())?;
     let mut loads = vec![vec![0.0; frame.lines()]; frame.storey_heights.len()];
     for member in &system.discretization.members {
         if let MemberPlace::Column { line, storey } = member.place {

@@ -6,14 +6,14 @@ use jostle::Section as CrossSection;
 use jostle::{
     DiagonalPlace, PlanAxis, PlanPoint, SpaceFrame, SpaceMember, SpacePlace, SpaceSection,
 };
-use jostle_section::{Section as ReinforcedSection, Span};
+use jostle_section::Span;
 
 use super::brace::{self, Bays, Widths};
 use super::building::per_storey;
 use super::frame::{flexible_members, read_poisson_ratio, stiffness_factors};
 use super::places::{range, read_omit};
 use super::plan::pair;
-use super::reinforced;
+use super::reinforced::{self, ReadSection};
 use super::section::{self, read_modulus, read_modulus_beside_bars};
 use super::slab::{self, OnSlab};
 use super::space_hinges::{Moments, SpaceHinges};
@@ -154,14 +154,15 @@ impl Sort {
     }
 }
 
-/// Reads columns and beams. `plans`: those of the floors in the axes of the grid; what lies outside of them does not exist.
+/// Reads columns and beams, and the sections of those that have bars. `plans`: those of the floors in the axes of the grid; what lies
+/// outside of them does not exist.
 pub(super) fn read(
     reader: &mut Reader<'_>,
     view: &View<'_>,
     grid: Grid,
     plans: &[Vec<PlanPoint>],
     storey_heights: &[f64],
-) -> SpaceFrame {
+) -> (SpaceFrame, BTreeMap<SpacePlace, ReadSection>) {
     let (modulus, modulus_is_bad) = read_modulus(reader, view);
     let (column_factor, beam_factor) = stiffness_factors(reader, view);
     let shears = flexible_members(reader, view, "shear", Section::ShearDeformation, false);
@@ -231,7 +232,7 @@ pub(super) fn read(
     };
     add_slabs(&slabs, &mut frame);
     frame.rigid_zones = rigid_ends::read_in_space(reader, view, &frame);
-    space_walls::add_arms(&walls, &mut frame);
+    space_walls::add_to(&walls, &mut frame);
     add_diagonals(reader, view, &grid, plans, storey_heights, &mut frame);
     if let Some(hinges) = hinges {
         add_hinges(
@@ -244,7 +245,7 @@ pub(super) fn read(
         );
         add_fibres(reader, view, &hinges, &sections, &mut frame, storey_heights);
     }
-    frame
+    (frame, sections)
 }
 
 /// Lets slabs bend with beams: a beam that none continues on its line is an end span.
@@ -339,7 +340,7 @@ fn add_fibres(
     reader: &mut Reader<'_>,
     view: &View<'_>,
     hinges: &SpaceHinges<'_>,
-    sections: &BTreeMap<SpacePlace, ReinforcedSection>,
+    sections: &BTreeMap<SpacePlace, ReadSection>,
     frame: &mut SpaceFrame,
     storey_heights: &[f64],
 ) {
@@ -350,7 +351,8 @@ fn add_fibres(
     let columns = places.filter(|place| matches!(place, SpacePlace::Column { .. }));
     let columns: Vec<SpacePlace> = columns.collect();
     if columns.iter().any(|place| !sections.contains_key(place)) {
-        fibre_hinges::say_without_bars(reader, &field, sections.is_empty());
+        let with_bars = |place| sections.contains_key(place);
+        fibre_hinges::say_without_bars(reader, &field, !columns.iter().any(with_bars));
         return;
     }
     for place in columns
@@ -358,7 +360,7 @@ fn add_fibres(
         .filter(|own| asked.stand_in(own.storey()))
     {
         let height = frame.clear_length(place, storey_heights);
-        match asked.of_column(&sections[&place], height, true) {
+        match asked.of_column(&sections[&place].section, height, true) {
             Ok(own) => {
                 frame.fibres.insert(place, own);
             }
@@ -410,8 +412,8 @@ pub(super) struct Member<'n> {
     pub(super) section: SpaceSection,
     /// Slab that bends with a beam.
     pub(super) slab: Option<OnSlab>,
-    /// Bars and materials of a column, if it has bars.
-    pub(super) reinforced: Option<ReinforcedSection>,
+    /// Its section with bars, if it has bars.
+    pub(super) reinforced: Option<ReadSection>,
     /// Moments of its own.
     pub(super) moments: Option<Moments<'n>>,
 }
@@ -463,9 +465,7 @@ fn read_sort<'n>(
             None
         } else {
             let section = read_section(reader, &own, sort, material);
-            let reinforced = (sort == Sort::Column)
-                .then(|| read_bars(reader, view, &own))
-                .flatten();
+            let reinforced = read_bars(reader, view, &own, sort);
             match section {
                 Some((section, slab)) => Some(Member {
                     section,
@@ -505,23 +505,26 @@ fn read_sort<'n>(
     found
 }
 
-/// The section of a column with bars: its depth is along x, its width across.
+/// The section of a member with bars; the depth of a column is along x, its width across.
 fn read_bars(
     reader: &mut Reader<'_>,
     building: &View<'_>,
     own: &View<'_>,
-) -> Option<ReinforcedSection> {
+    sort: Sort,
+) -> Option<ReadSection> {
     // Faults are noted where the modulus is read.
     let concrete = reader
         .get(building, "concrete")
         .and_then(|field| reader.quietly(|reader| reader.concrete_name(&field, SECTION_CONCRETES)));
     let size = |reader: &mut Reader<'_>| {
-        let field = reader.get(own, "size");
-        let size = field.and_then(|field| reader.quietly(|reader| pair(reader, &field)));
-        [size.map(|size| size[1]), size.map(|size| size[0])]
+        let size = reader.quietly(|reader| read_size(reader, own, sort));
+        let [first, second] = [0, 1].map(|side| size.map(|size| size[side]));
+        match sort {
+            Sort::Column => [second, first],
+            Sort::BeamX | Sort::BeamY => [first, second],
+        }
     };
-    let read = reinforced::read_section(reader, own, size, concrete)?;
-    Some(read.section)
+    reinforced::read_section(reader, own, size, concrete)
 }
 
 /// Moments of the hinges of some members.
@@ -642,7 +645,7 @@ fn read_profile(
     let is_column = sort == Sort::Column;
     let beside: &[&'static str] = match is_column {
         true => &["size", "concrete", "bars"],
-        false => &["width", "depth", "concrete", "slab"],
+        false => &["width", "depth", "concrete", "bars", "slab"],
     };
     if let Some(key) = beside.iter().find(|key| view.has(key)) {
         *reader.bad(field, format!("stands beside {key}")) =

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use jostle::{PlanAxis, PlanPoint, SpaceFrame, SpacePlace, SpaceSection};
+use jostle::{PlanAxis, PlanPoint, SpaceFrame, SpacePlace, SpaceSection, SpaceWall};
 
 use super::brace::tables;
 use super::places::range;
@@ -14,7 +14,7 @@ use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
 
 /// A wall in one storey.
-pub(super) struct SpaceWall {
+pub(super) struct WallStorey {
     place: SpacePlace,
     along: PlanAxis,
     length: f64,
@@ -29,8 +29,8 @@ pub(super) fn read_all<'n>(
     material: Material,
     hinges: Option<&SpaceHinges<'n>>,
     columns: &mut BTreeMap<SpacePlace, Member<'n>>,
-) -> Vec<SpaceWall> {
-    let mut walls: Vec<SpaceWall> = Vec::new();
+) -> Vec<WallStorey> {
+    let mut walls: Vec<WallStorey> = Vec::new();
     for entry in tables(reader, view, "wall") {
         let Some((along, length, member, ranges)) =
             read(reader, view, &entry, grid, material, hinges, plans.len())
@@ -63,7 +63,7 @@ pub(super) fn read_all<'n>(
         }
         for place in found {
             columns.insert(place, member.clone());
-            walls.push(SpaceWall {
+            walls.push(WallStorey {
                 place,
                 along,
                 length,
@@ -73,8 +73,8 @@ pub(super) fn read_all<'n>(
     walls
 }
 
-/// Lets beams along a wall begin at its faces. Walls have no rigid ends of their own.
-pub(super) fn add_arms(walls: &[SpaceWall], frame: &mut SpaceFrame) {
+/// Lets beams along a wall begin at its faces, and joins its storeys. Walls have no rigid ends of their own.
+pub(super) fn add_to(walls: &[WallStorey], frame: &mut SpaceFrame) {
     for own in walls {
         let [[x, y], _] = own.place.crossings();
         let storey = own.place.storey();
@@ -83,6 +83,20 @@ pub(super) fn add_arms(walls: &[SpaceWall], frame: &mut SpaceFrame) {
             let arm = &mut zone[own.along.index()];
             *arm = arm.max(0.5 * own.length);
             zone[2] = 0.0;
+        }
+        let [line, _] = own.place.crossings();
+        let goes_on = frame.walls.iter_mut().find(|below| {
+            let same = (below.line, below.along, below.length) == (line, own.along, own.length);
+            same && below.storeys[1] + 1 == storey
+        });
+        match goes_on {
+            Some(below) => below.storeys[1] = storey,
+            None => frame.walls.push(SpaceWall {
+                line,
+                storeys: [storey; 2],
+                along: own.along,
+                length: own.length,
+            }),
         }
     }
 }

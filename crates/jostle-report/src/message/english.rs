@@ -129,6 +129,7 @@ messages! {
     grid_lines_at_y = "lines at y";
     members_of_the_frame = "columns and beams";
     columns_and_beams_count(columns, beams) = "{columns} and {beams}";
+    columns_beams_and_walls(columns, beams, walls) = "{columns} and {beams}; walls: {walls}";
     gap_between(left, right) = "Gap {left}–{right}";
     links_between(left, right) = "Links {left}–{right}";
     ground_motion = "Ground motion";

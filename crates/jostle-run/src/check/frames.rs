@@ -1,9 +1,11 @@
 //! Frames in words.
 
+use std::fmt::Write;
+
 use crate::numbers::counted;
 use jostle::hysteresis::{Hysteresis, HysteresisRule, Side};
 use jostle::statics::STANDARD_GRAVITY;
-use jostle::{Diagonal, DiagonalKind, Frame, Section};
+use jostle::{Diagonal, DiagonalKind, Frame, Section, SpaceFrame};
 use jostle_io::shown::{
     FORCE, HEIGHT, LARGE_FORCE, LARGE_RIGIDITY, LARGE_STIFFNESS, LENGTH, Shown,
 };
@@ -136,6 +138,33 @@ pub(super) fn walls(frame: &Frame) -> String {
         text += &format!(
             "  coupling beams of bay {bay}, {}, {own}\n",
             storeys(floors, "floor")
+        );
+    }
+    text
+}
+
+/// Every wall of a space frame.
+pub(super) fn space_walls(frame: &SpaceFrame) -> String {
+    let mut text = String::new();
+    let unit = HEIGHT.name();
+    for (index, wall) in frame.walls.iter().enumerate() {
+        let [x, y] = wall.line;
+        let storeys = match wall.storeys {
+            [first, last] if first == last => format!("storey {}", first + 1),
+            [first, last] => format!("storeys {}–{}", first + 1, last + 1),
+        };
+        let foot = wall.column(wall.storeys[0]);
+        let mut members = frame.members.iter();
+        let yields = members.any(|own| own.place == foot && own.may_yield());
+        let _ = write!(
+            text,
+            "\n  wall {} along {} at x = {} {unit}, y = {} {unit}, {storeys}, {} {unit} long{}",
+            index + 1,
+            wall.along.name(),
+            HEIGHT.stated(frame.lines_x[x]),
+            HEIGHT.stated(frame.lines_y[y]),
+            HEIGHT.stated(wall.length),
+            if yields { ", yields" } else { "" }
         );
     }
     text

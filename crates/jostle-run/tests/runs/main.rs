@@ -11,6 +11,8 @@ mod long_histories;
 mod member_capacity;
 mod registry;
 mod shear_failure;
+mod space_capacity;
+mod space_walls;
 mod spectra_of_floors;
 mod support;
 mod symmetry;

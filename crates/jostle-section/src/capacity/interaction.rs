@@ -16,14 +16,14 @@ pub struct Interaction {
 }
 
 /// Greatest strain of a bar in tension \[–\].
-const MOST_STRETCH: f64 = 0.01;
+pub(super) const MOST_STRETCH: f64 = 0.01;
 /// Strains of the top, and positions of the neutral axis for each.
 const STRAINS: usize = 24;
 const AXES: usize = 120;
 /// Axial forces of the curve.
 const LOADS: usize = 65;
 /// Fibres over the depth.
-const FIBRES: usize = 40;
+pub(super) const FIBRES: usize = 40;
 
 impl Interaction {
     /// Moments that stretch the bottom of a section; those of the other sign belong to [`Section::flipped`].
@@ -108,19 +108,31 @@ impl Interaction {
 fn curves(fibres: &Fibres) -> Vec<Vec<Resultants>> {
     let section = fibres.section();
     let deepest = section.bars.iter().fold(0.0_f64, |d, bar| d.max(bar.depth));
-    let crushing = fibres.plain().crushing_strain;
     let whole = section.depth;
-    let state = |top: f64, bottom_bar: f64| {
-        let curvature = (top - bottom_bar) / deepest;
-        fibres.resultants(top - 0.5 * whole * curvature, curvature)
-    };
-    let mut curves: Vec<Vec<Resultants>> = (1..=STRAINS)
+    limit_states(
+        fibres.plain().crushing_strain,
+        [STRAINS, AXES],
+        |top, bar| {
+            let curvature = (top - bar) / deepest;
+            fibres.resultants(top - 0.5 * whole * curvature, curvature)
+        },
+    )
+}
+
+/// The same of states by the strain of the outermost concrete and that of the outermost bar, both positive in compression, which
+/// `state` returns. `counts`: strains of the concrete, and positions of the neutral axis for each.
+pub(super) fn limit_states<T>(
+    crushing: f64,
+    [strains, axes]: [usize; 2],
+    state: impl Fn(f64, f64) -> T,
+) -> Vec<Vec<T>> {
+    let mut curves: Vec<Vec<T>> = (1..=strains)
         .map(|step| {
-            let top = crushing * step as f64 / STRAINS as f64;
+            let top = crushing * step as f64 / strains as f64;
             // From the limit of the bars to uniform compression.
-            (0..=AXES)
+            (0..=axes)
                 .map(|axis| {
-                    let share = axis as f64 / AXES as f64;
+                    let share = axis as f64 / axes as f64;
                     // Denser where bars yield.
                     let bar = top - (top + MOST_STRETCH) * (1.0 - share) * (1.0 - share);
                     state(top, bar)
@@ -129,9 +141,9 @@ fn curves(fibres: &Fibres) -> Vec<Vec<Resultants>> {
         })
         .collect();
     curves.push(
-        (0..=AXES)
+        (0..=axes)
             .map(|step| {
-                let share = step as f64 / AXES as f64;
+                let share = step as f64 / axes as f64;
                 let top = -MOST_STRETCH + (crushing + MOST_STRETCH) * share;
                 state(top, -MOST_STRETCH)
             })

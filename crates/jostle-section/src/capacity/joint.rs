@@ -191,6 +191,7 @@ impl RatedJoint<'_> {
                     limit: f64::INFINITY,
                 }),
                 bending: [none(), none()],
+                across: None,
             })
         });
         known.collect()
@@ -330,7 +331,7 @@ mod tests {
                     rule.name()
                 );
             }
-            assert_eq!(lines.bending_ratio(1e6, 3e5), 0.0);
+            assert_eq!(lines.bending_ratio(1e6, [3e5, 0.0]), 0.0);
         }
         let mut bare = column.clone();
         bare.ties = None;

@@ -3,10 +3,11 @@
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
-use jostle::model::{CapacityLine, RuleCapacity, ShearCapacity};
+use jostle::model::{AcrossCapacity, CapacityLine, RuleCapacity, ShearCapacity};
 
 use super::{
-    Degradation, Interaction, RatedMember, ShearRule, ShearStrength, drift_at_axial_failure,
+    Degradation, Interaction, ObliqueInteraction, RatedMember, ShearRule, ShearStrength,
+    drift_at_axial_failure,
 };
 use crate::formula::Member;
 use crate::section::Section;
@@ -47,9 +48,36 @@ impl RatedMember<'_> {
                 rule: rule.name(),
                 shear: self.shear(*rule),
                 bending,
+                across: None,
             }
         };
         rules.iter().map(rule).collect()
+    }
+
+    /// Capacities of a column that bends in two planes. `across`: the same column with its section [turned](Section::turned);
+    /// `oblique`: the moments of its section in all directions, and `interaction` those in the plane of its depth.
+    #[must_use]
+    pub fn capacities_in_space(
+        &self,
+        across: &Self,
+        rules: &[ShearRule],
+        interaction: &[Interaction; 2],
+        oblique: &ObliqueInteraction,
+    ) -> Vec<RuleCapacity> {
+        let plain = oblique.surface(|_| 1.0);
+        let mut capacities = self.capacities_with(rules, interaction);
+        for (rule, own) in rules.iter().zip(&mut capacities) {
+            let factor = |load: f64| rule.bending_factor(self, load);
+            let is_plain = oblique.loads().iter().all(|load| factor(*load) == 1.0);
+            own.across = Some(AcrossCapacity {
+                shear: across.shear(*rule),
+                bending: match is_plain {
+                    true => plain.clone(),
+                    false => oblique.surface(factor),
+                },
+            });
+        }
+        capacities
     }
 
     /// Shear capacity by a rule; `None` where the rule has none.

@@ -11,12 +11,14 @@ mod gb50010;
 mod interaction;
 mod joint;
 mod lines;
+mod oblique;
 mod sezen_moehle;
 mod shear_failure;
 
 pub use axial_failure::drift_at_axial_failure;
 pub use interaction::Interaction;
 pub use joint::{JointStrength, RatedJoint};
+pub use oblique::ObliqueInteraction;
 pub use shear_failure::{NoShearLoss, ShearLoss};
 
 use crate::concrete::StrengthLevel;

@@ -523,8 +523,8 @@ pub struct RatioPeak {
     pub ratio: f64,
     /// Its instant \[s\].
     pub at: f64,
-    /// Shear or moment then, with its sign \[N, N·m\].
-    pub demand: f64,
+    /// Shear or moment then, and that in the plane across, with their signs \[N, N·m\].
+    pub demand: [f64; 2],
     /// Compression then \[N\].
     pub compression: f64,
     /// First instant at which the demand exceeded the capacity \[s\].
@@ -542,7 +542,7 @@ impl RatioPeak {
     /// Takes in an instant. Ratios above a hundred million count as that, so that they are finite; no demand on no
     /// capacity counts for nothing.
     #[inline]
-    pub(crate) fn take(&mut self, time: f64, demand: f64, ratio: f64, compression: f64) {
+    pub(crate) fn take(&mut self, time: f64, demand: [f64; 2], ratio: f64, compression: f64) {
         if ratio > self.ratio {
             let ratio = ratio.min(1e8);
             (self.ratio, self.at) = (ratio, time);

@@ -1,5 +1,7 @@
 //! Shear and bending capacity of columns and beams as functions of their axial force.
 
+use super::MomentSurface;
+
 /// A straight-line interpolation between points, constant beyond its ends.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CapacityLine {
@@ -22,14 +24,20 @@ impl CapacityLine {
     /// Value at an abscissa.
     #[must_use]
     pub fn at(&self, abscissa: f64) -> f64 {
+        self.at_with(abscissa, |point| self.points[point][1])
+    }
+
+    /// The same of other values at its points.
+    #[inline]
+    pub(super) fn at_with(&self, abscissa: f64, value: impl Fn(usize) -> f64) -> f64 {
         let after = self.points.partition_point(|[x, _]| *x <= abscissa);
         match (after.checked_sub(1), self.points.get(after)) {
-            (Some(before), Some([b, q])) => {
-                let [a, p] = self.points[before];
+            (Some(before), Some([b, _])) => {
+                let ([a, _], p, q) = (self.points[before], value(before), value(after));
                 p + (q - p) * ((abscissa - a) / (b - a))
             }
-            (Some(last), None) => self.points[last][1],
-            (None, Some([_, first])) => *first,
+            (Some(last), None) => value(last),
+            (None, Some(_)) => value(0),
             (None, None) => 0.0,
         }
     }
@@ -51,7 +59,7 @@ impl CapacityLine {
     }
 
     /// Abscissa over that of the end beyond which it is, seen from zero; 0 within the ends, and where there is one point only.
-    fn beyond(&self, abscissa: f64) -> f64 {
+    pub(super) fn beyond(&self, abscissa: f64) -> f64 {
         let [[low, _], .., [high, _]] = self.points[..] else {
             return 0.0;
         };
@@ -64,17 +72,27 @@ impl CapacityLine {
         }
     }
 
-    /// Factor by which a point beyond the line, seen from the origin, is farther away than the line; `None` if the ray
-    /// does not meet it.
-    fn overshoot(&self, abscissa: f64, value: f64) -> Option<f64> {
-        let met = self.points.windows(2).filter_map(|ends| {
-            let ([a, p], [b, q]) = (ends[0], ends[1]);
-            let (wide, rise) = (b - a, q - p);
-            // The share s of the ray at which s·value is on the line through both points.
-            let share = (p * wide - a * rise) / (value * wide - abscissa * rise);
-            let within = (a..=b).contains(&(share * abscissa));
-            (share > 0.0 && within).then(|| share.recip())
-        });
+    /// Factor by which a point beyond a line of these values at its points, seen from the origin, is farther away than the
+    /// line; `None` if the ray does not meet it.
+    pub(super) fn overshoot(
+        &self,
+        abscissa: f64,
+        value: f64,
+        line: impl Fn(usize) -> f64,
+    ) -> Option<f64> {
+        let met = self
+            .points
+            .windows(2)
+            .enumerate()
+            .filter_map(|(index, ends)| {
+                let ([a, _], [b, _]) = (ends[0], ends[1]);
+                let (p, q) = (line(index), line(index + 1));
+                let (wide, rise) = (b - a, q - p);
+                // The share s of the ray at which s·value is on the line through both points.
+                let share = (p * wide - a * rise) / (value * wide - abscissa * rise);
+                let within = (a..=b).contains(&(share * abscissa));
+                (share > 0.0 && within).then(|| share.recip())
+            });
         met.max_by(f64::total_cmp)
     }
 }
@@ -128,6 +146,17 @@ pub struct RuleCapacity {
     /// against the compression \[N·m, N\]. A line of several points ends at the greatest tension and compression; one point
     /// holds for every axial force.
     pub bending: [CapacityLine; 2],
+    /// What a column of a space frame bears beside; `None` for members that bend in one plane.
+    pub across: Option<AcrossCapacity>,
+}
+
+/// Capacity of a column that bends in two planes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AcrossCapacity {
+    /// In shear in the plane across; `None` where the rule has none.
+    pub shear: Option<ShearCapacity>,
+    /// For moments in both planes at once.
+    pub bending: MomentSurface,
 }
 
 /// Shear capacity against compression \[N\].
@@ -174,21 +203,58 @@ impl RuleCapacity {
         self.bending[usize::from(moment < 0.0)].at(compression)
     }
 
-    /// Demand over capacity in bending under a compression \[–\].
+    /// Demand over capacity in bending under a compression, of a moment and that in the plane across \[–\].
     ///
-    /// Within the capacity this is the moment over the moment capacity under this compression. Beyond it, where that may
-    /// be next to nothing, it is not more than the factor by which compression and moment together exceed the surface
-    /// of both. Beyond the greatest compression or tension, at the ends of the line, it is at least that force over the
-    /// end, however small the moment: uneven bars give a section a moment capacity at its ends.
+    /// Within the capacity this is the moment over the moment capacity in its direction under this compression. Beyond it,
+    /// where that may be next to nothing, it is not more than the factor by which compression and moment together exceed the
+    /// surface of both. Beyond the greatest compression or tension, at the ends of the line, it is at least that force over the
+    /// end, however small the moment: uneven bars give a section a moment capacity at its ends. Members that bend in one plane
+    /// bear no moment across.
     #[must_use]
-    pub fn bending_ratio(&self, compression: f64, moment: f64) -> f64 {
-        let ratio = moment.abs() / self.bending_at(compression, moment);
-        let line = &self.bending[usize::from(moment < 0.0)];
-        let axial = line.beyond(compression);
+    pub fn bending_ratio(&self, compression: f64, moments: [f64; 2]) -> f64 {
+        match &self.across {
+            Some(across) => across.bending.ratio(compression, moments),
+            None => {
+                let [moment, _] = moments;
+                let line = &self.bending[usize::from(moment < 0.0)];
+                line.ratio(compression, moment.abs(), |point| line.points[point][1])
+            }
+        }
+    }
+
+    /// Demand over capacity in shear, of a shear and that in the plane across; zero where the rule has none \[–\].
+    ///
+    /// Of two shears the ratios are added up as the legs of a right triangle (GB 50010-2010, 6.3.17): the capacity is an
+    /// ellipse with those along both axes.
+    #[must_use]
+    pub fn shear_ratio(&self, compression: f64, shears: [f64; 2], ductility: f64) -> f64 {
+        let ratio = |capacity: &Option<ShearCapacity>, shear: f64| {
+            let own = capacity.as_ref();
+            own.map_or(0.0, |own| shear.abs() / own.at(compression, ductility))
+        };
+        let own = ratio(&self.shear, shears[0]);
+        match &self.across {
+            Some(across) => libm::hypot(own, ratio(&across.shear, shears[1])),
+            None => own,
+        }
+    }
+}
+
+impl CapacityLine {
+    /// Moment over a line of these values at its points; see [`RuleCapacity::bending_ratio`].
+    #[inline]
+    pub(super) fn ratio(
+        &self,
+        compression: f64,
+        moment: f64,
+        line: impl Fn(usize) -> f64 + Copy,
+    ) -> f64 {
+        let ratio = moment / self.at_with(compression, line);
+        let axial = self.beyond(compression);
         if ratio <= 1.0 {
             return ratio.max(axial);
         }
-        let together = line.overshoot(compression, moment.abs());
+        let together = self.overshoot(compression, moment, line);
         let ratio = match together {
             Some(together) if ratio.is_nan() || together < ratio => together,
             _ => ratio,
@@ -221,20 +287,21 @@ mod tests {
             rule: "test",
             shear: None,
             bending: [line.clone(), line],
+            across: None,
         };
         // Within: M / (2 (1 − N/3)).
-        assert!((rule.bending_ratio(1.5, -0.5) - 0.5).abs() < 1e-15);
+        assert!((rule.bending_ratio(1.5, [-0.5, 0.0]) - 0.5).abs() < 1e-15);
         // On the surface both measures are one.
-        assert!((rule.bending_ratio(1.5, 1.0) - 1.0).abs() < 1e-15);
+        assert!((rule.bending_ratio(1.5, [1.0, 0.0]) - 1.0).abs() < 1e-15);
         // At the limit of compression and beyond: M = λ 2 (1 − N/(3 λ)) gives λ = M/2 + N/3.
         for (compression, moment) in [(3.0, 1.0), (6.0, 0.25), (2.9, 3.0)] {
             let expected = 0.5 * moment + compression / 3.0;
-            let found = rule.bending_ratio(compression, moment);
+            let found = rule.bending_ratio(compression, [moment, 0.0]);
             assert!((found - expected).abs() < 1e-14, "{found} for {expected}");
         }
         // In tension beyond −1 N: M = λ 2 (1 + N/λ) gives λ = M/2 − N.
-        assert!((rule.bending_ratio(-2.0, 0.5) - 2.25).abs() < 1e-14);
-        assert!((rule.bending_ratio(6.0, 0.0) - 2.0).abs() < 1e-14);
+        assert!((rule.bending_ratio(-2.0, [0.5, 0.0]) - 2.25).abs() < 1e-14);
+        assert!((rule.bending_ratio(6.0, [0.0; 2]) - 2.0).abs() < 1e-14);
     }
 
     /// A section with uneven bars carries a moment at its ends: −2 N with 0.5 N·m, 4 N with 1 N·m.
@@ -246,14 +313,15 @@ mod tests {
             rule: "test",
             shear: None,
             bending: [line, even],
+            across: None,
         };
         let ratios = [[4.0, 0.5], [6.0, 0.0], [6.0, 0.5], [-5.0, 0.1]]
-            .map(|[n, m]| rule.bending_ratio(n, m));
+            .map(|[n, m]| rule.bending_ratio(n, [m, 0.0]));
         assert_eq!(ratios, [0.5, 1.5, 1.5, 2.5]);
         // The ray through (5, 4) leaves at M = 0.8 N = 3 − 0.5 N, before the end.
-        assert!((rule.bending_ratio(5.0, 4.0) - 5.0 / (3.0 / 1.3)).abs() < 1e-14);
+        assert!((rule.bending_ratio(5.0, [4.0, 0.0]) - 5.0 / (3.0 / 1.3)).abs() < 1e-14);
         // One point has no ends.
-        assert_eq!(rule.bending_ratio(6.0, -1.5), 0.5);
+        assert_eq!(rule.bending_ratio(6.0, [-1.5, 0.0]), 0.5);
     }
 
     #[test]

@@ -16,6 +16,7 @@ mod integrator;
 mod isolation;
 mod link_law;
 mod members;
+mod moment_surface;
 mod plan_bearings;
 mod plan_foundation;
 mod plan_frame;
@@ -33,7 +34,8 @@ use crate::hysteresis::Hysteresis;
 
 pub use base::{AcrossBase, Base, MassDamping};
 pub use capacity::{
-    CapacityLine, MemberCapacity, RotationLimits, RotationMeasure, RuleCapacity, ShearCapacity,
+    AcrossCapacity, CapacityLine, MemberCapacity, RotationLimits, RotationMeasure, RuleCapacity,
+    ShearCapacity,
 };
 pub use diagonal::{Diagonal, DiagonalKind, DiagonalPlace, GridLine, PanelAcross, Rise};
 pub use fibres::{ColumnFibres, Fibre};
@@ -50,12 +52,13 @@ pub use isolation::{
 };
 pub use link_law::LinkLaw;
 pub use members::{JointRequest, MemberRequest};
+pub use moment_surface::MomentSurface;
 pub use plan_foundation::PlanFoundationSprings;
 pub use plan_frame::{LumpedFloor, PlanFrame, SharedColumn};
 pub use plan_spring::{PlanAxis, PlanSpring};
 pub use shear_spring::{ShearEnds, ShearSpring};
 pub use soil::{Foundation, FoundationSprings, HalfSpace, Soil, SoilCoupling};
-pub use space_frame::{SpaceFrame, SpaceMember, SpacePlace, SpaceSection};
+pub use space_frame::{SpaceFrame, SpaceMember, SpacePlace, SpaceSection, SpaceWall};
 pub use tiers::{PlanArea, PlanElement, PlanPoint, Tier, TierStorey, Tiers};
 pub use uplift::{BearingStrength, BedSpring, GroundSprings, Uplift};
 pub use wall::Wall;

@@ -53,6 +53,8 @@ pub struct SpaceFrame {
     /// Rigid zones of joints, by floor and by line of `lines_x` and of `lines_y`, from 0: how far from its axis beams along x, beams across,
     /// and columns below and above are rigid, ≥ 0; none where there is no entry \[m\].
     pub rigid_zones: BTreeMap<[usize; 3], [f64; 3]>,
+    /// Walls: which of its columns they are, each storey of a wall once.
+    pub walls: Vec<SpaceWall>,
     /// Weight of every floor that its columns carry in equal shares beyond that of its mass, and that does not sway; negative where
     /// others carry part of that. Empty for none \[N\].
     pub floor_load: Vec<f64>,
@@ -69,8 +71,38 @@ impl Default for SpaceFrame {
             fibres: BTreeMap::new(),
             diagonals: Vec::new(),
             rigid_zones: BTreeMap::new(),
+            walls: Vec::new(),
             floor_load: Vec::new(),
         }
+    }
+}
+
+/// A wall of a space frame, whose sections are those of the columns at its axis; their rigid zones are its half length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpaceWall {
+    /// Lines at whose crossing its axis stands, from 0.
+    pub line: [usize; 2],
+    /// Its first and its last storey, from 0.
+    pub storeys: [usize; 2],
+    /// Direction of its length.
+    pub along: PlanAxis,
+    /// Its length, > 0 \[m\].
+    pub length: f64,
+}
+
+impl SpaceWall {
+    /// Its column in a storey, from 0.
+    #[must_use]
+    pub fn column(&self, storey: usize) -> SpacePlace {
+        let line = self.line;
+        SpacePlace::Column { line, storey }
+    }
+
+    /// Whether a column is a part of it.
+    #[must_use]
+    pub fn has(&self, place: SpacePlace) -> bool {
+        let [first, last] = self.storeys;
+        (first..=last).contains(&place.storey()) && place == self.column(place.storey())
     }
 }
 

@@ -7,7 +7,7 @@ use super::summary::{
     JointRatio, JointSummary, LevelSummary, MemberSummary, RatioPlace, RatioSummary,
 };
 use crate::history::{RatioPeak, SectionRatio};
-use crate::model::RotationMeasure;
+use crate::model::{RotationMeasure, RuleCapacity};
 use crate::structure::{MemberEnd, MemberPlace, SectionAt};
 use crate::system::{MemberRating, RatedPart};
 
@@ -49,8 +49,8 @@ pub(super) fn joints_of(building: usize, run: &Run) -> Vec<JointSummary> {
             shear: entry.shear.ratio,
             shear_at: place_of(
                 building,
-                "core",
-                joint.section.height,
+                rule,
+                ("core", joint.section.height),
                 &entry.shear,
                 entry.shear.exceeded_at,
                 run,
@@ -82,19 +82,22 @@ fn governing_rule(run: &Run) -> Option<&'static str> {
 
 fn place_of(
     building: usize,
-    at: &'static str,
-    height: f64,
+    rule: &RuleCapacity,
+    (at, height): (&'static str, f64),
     peak: &RatioPeak,
     exceeded: Option<f64>,
     run: &Run,
 ) -> RatioPlace {
+    let [demand, across] = peak.demand;
+    let demand_across = rule.across.as_ref().map(|_| across);
     RatioPlace {
         at,
         height_m: height,
         at_s: peak.at,
-        demand: peak.demand,
+        demand,
+        demand_across,
         capacity: if peak.ratio > 0.0 {
-            peak.demand.abs() / peak.ratio
+            demand_across.map_or(demand.abs(), |across| libm::hypot(demand, across)) / peak.ratio
         } else {
             0.0
         },
@@ -126,7 +129,8 @@ pub(super) fn ratios_of(building: usize, member: usize, run: &Run) -> Vec<RatioS
             })?;
             let section = sections.sections[section];
             let at = section_name(sections.place, section.at);
-            let place = place_of(building, at, section.height, peak, exceeded_s, run);
+            let place = (at, section.height);
+            let place = place_of(building, rule, place, peak, exceeded_s, run);
             Some((peak.ratio, place))
         };
         let shear = rule
@@ -155,8 +159,10 @@ pub(super) fn axial_failure(
     let (rating, _) = rated(building, member, run)?;
     let line = &rating.capacity.axial_failure_drift;
     let own = &run.system.buildings[building].members.members[member];
-    let MemberPlace::Column { storey, .. } = own.place else {
-        return None;
+    let storey = match own.place {
+        MemberPlace::Column { storey, .. } => storey,
+        MemberPlace::InSpace(place) if own.place.is_column() => place.storey() + 1,
+        _ => return None,
     };
     if line.points().is_empty() {
         return None;

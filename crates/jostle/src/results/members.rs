@@ -134,12 +134,18 @@ fn at_worst(building: usize, member: &MemberSections, run: &Run) -> Vec<ForcesSu
     sections
         .map(|section| {
             let [axial_n, shear_n, moment_n_m] = section.forms.map(|form| worst.forces[form]);
+            let across = section
+                .across
+                .map(|[shear, moment, _]| [shear, moment].map(|form| worst.forces[form]));
+            let (shear_across_n, moment_across_n_m) = across.map(|[v, m]| (v, m)).unzip();
             ForcesSummary {
                 at: section_name(member.place, section.at),
                 height_m: section.height,
                 axial_n,
                 shear_n,
                 moment_n_m,
+                shear_across_n,
+                moment_across_n_m,
             }
         })
         .collect()

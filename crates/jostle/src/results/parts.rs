@@ -6,7 +6,7 @@ use crate::history::{Kind, Owner};
 use crate::hysteresis::{HysteresisRule, Stage};
 use crate::stepping::Outcome;
 use crate::structure::{
-    CouplingForce, DiagonalForce, FrameDiagonal, MemberEnd, MemberPlace, SpringPlace, WallForce,
+    CouplingForce, DiagonalForce, FrameDiagonal, MemberPlace, SpringPlace, WallForce,
 };
 use crate::system::BuildingSystem;
 
@@ -15,7 +15,7 @@ pub(super) fn parts_of(index: usize, building: &BuildingSystem, run: &Run) -> Ve
     let outcome = run.outcome;
     let diagonals = &building.discretization.diagonals;
     if diagonals.is_empty()
-        && building.discretization.walls.is_empty()
+        && building.members.walls.is_empty()
         && building.equations.springs.is_empty()
     {
         return Vec::new();
@@ -129,20 +129,13 @@ fn of_wall(
     range: impl Fn(usize) -> [f64; 2],
 ) -> PartSummary {
     let discretization = &building.discretization;
-    let wall = discretization.walls[own.wall];
-    let (line, storey) = (wall.part.line, wall.part.storeys[0]);
-    let before = discretization.walls[..own.wall].iter();
-    let number = 1 + before.filter(|other| other.frame == wall.frame).count();
-    let end = MemberEnd::First;
-    let hinge = SpringPlace::Column { storey, line, end };
-    let sliding = SpringPlace::sliding(MemberPlace::Column { line, storey });
-    let spring = |place| Some(&springs[discretization.spring_at(wall.frame, place)?]);
-    let [hinge, sliding] = [hinge, sliding].map(spring);
+    let spring = |place| Some(&springs[discretization.spring_at(own.frame, place)?]);
+    let (hinge, sliding) = (spring(own.hinge), own.sliding.and_then(spring));
     let dissipated = [hinge, sliding].into_iter().flatten();
     let (force, moment, stretched) = (range(own.axial), range(own.moment), range(own.elongation));
     let turned = |side: fn(&SpringSummary) -> f64| Some(hinge.map_or(0.0, side).max(0.0));
     PartSummary {
-        name: name_of(building, wall.frame, &format!("wall.{number}")),
+        name: name_of(building, own.frame, &format!("wall.{}", own.number)),
         kind: "wall",
         force_max_n: force[0].max(0.0),
         force_min_n: force[1].min(0.0),

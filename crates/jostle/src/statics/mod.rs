@@ -6,11 +6,13 @@
 
 mod equilibrium_path;
 mod gravity;
+mod members_at_rest;
 mod stiffness_at;
 
 pub use crate::model::STANDARD_GRAVITY;
 pub use equilibrium_path::{EquilibriumPath, PathError, Reached};
 pub use gravity::{Collapse, compressions, static_displacement, under_gravity};
+pub use members_at_rest::compressions_of_members;
 pub use stiffness_at::stiffness_at;
 
 use crate::hysteresis::HysteresisMemory;

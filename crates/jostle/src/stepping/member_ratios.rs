@@ -3,7 +3,8 @@
 use crate::history::{SectionRatio, WorstInstant};
 use crate::model::RuleCapacity;
 use crate::state::State;
-use crate::system::{MemberRating, RatedPart, System};
+use crate::structure::MemberSection;
+use crate::system::{RatedPart, System};
 
 /// Greatest ratios so far: of every rated member, its sections one after the other, and each by every rule.
 #[derive(Debug, Default)]
@@ -35,9 +36,18 @@ impl MemberRatios {
             };
             let values = &values[rating.building];
             for section in &rating.sections {
-                let forces = section.forms.map(|form| values[form]);
+                let forces = RatedForces::of(section, |form| values[form]);
+                let compression = rating.compression(forces.axial);
                 for (rule, entry) in rating.capacity.rules.iter().zip(entries.by_ref()) {
-                    take(entry, rule, rating, state.time, forces, ductility);
+                    take_shear(
+                        entry,
+                        rule,
+                        state.time,
+                        forces.shears,
+                        compression,
+                        ductility,
+                    );
+                    take_bending(entry, rule, state.time, forces.moments, compression);
                 }
             }
         }
@@ -77,46 +87,55 @@ fn worst(system: &System) -> Vec<WorstInstant> {
         .collect()
 }
 
-/// Takes in axial force, shear and moment of a section at an instant.
-#[inline]
-pub(crate) fn take(
-    entry: &mut SectionRatio,
-    rule: &RuleCapacity,
-    rating: &MemberRating,
-    time: f64,
-    [axial, shear, moment]: [f64; 3],
-    ductility: f64,
-) {
-    let compression = rating.compression(axial);
-    take_shear(entry, rule, time, shear, compression, ductility);
-    take_bending(entry, rule, time, moment, compression);
+/// Forces of a section that are compared with capacities; none across where a member bends in one plane.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct RatedForces {
+    /// Positive in tension.
+    pub(crate) axial: f64,
+    pub(crate) shears: [f64; 2],
+    pub(crate) moments: [f64; 2],
 }
 
-/// Takes in the shear of a section under a compression.
+impl RatedForces {
+    /// Of a section whose forces `value` returns by index.
+    #[inline]
+    pub(crate) fn of(section: &MemberSection, value: impl Fn(usize) -> f64) -> Self {
+        let [axial, shear, moment] = section.forms.map(&value);
+        let across = section.across.map(|[shear, moment, _]| [shear, moment]);
+        let [shear_across, moment_across] = across.map_or([0.0; 2], |forms| forms.map(&value));
+        Self {
+            axial,
+            shears: [shear, shear_across],
+            moments: [moment, moment_across],
+        }
+    }
+}
+
+/// Takes in the shears of a section under a compression.
 #[inline]
 pub(crate) fn take_shear(
     entry: &mut SectionRatio,
     rule: &RuleCapacity,
     time: f64,
-    shear: f64,
+    shears: [f64; 2],
     compression: f64,
     ductility: f64,
 ) {
-    if let Some(capacity) = &rule.shear {
-        let ratio = shear.abs() / capacity.at(compression, ductility);
-        entry.shear.take(time, shear, ratio, compression);
+    if rule.shear.is_some() {
+        let ratio = rule.shear_ratio(compression, shears, ductility);
+        entry.shear.take(time, shears, ratio, compression);
     }
 }
 
-/// Takes in its moment.
+/// Takes in its moments.
 #[inline]
 pub(crate) fn take_bending(
     entry: &mut SectionRatio,
     rule: &RuleCapacity,
     time: f64,
-    moment: f64,
+    moments: [f64; 2],
     compression: f64,
 ) {
-    let ratio = rule.bending_ratio(compression, moment);
-    entry.bending.take(time, moment, ratio, compression);
+    let ratio = rule.bending_ratio(compression, moments);
+    entry.bending.take(time, moments, ratio, compression);
 }

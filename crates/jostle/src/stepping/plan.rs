@@ -495,8 +495,11 @@ fn refused_vertical(system: &System, analysis: &Analysis) -> Option<ModelFault> 
         });
     }
     let mut buildings = system.buildings.iter();
-    let followed = buildings.any(|building| !building.members.forms.is_empty());
     let asked = analysis.members.envelopes;
+    let followed = buildings.any(|building| {
+        let mut forms = building.members.forms.iter();
+        forms.any(|form| asked || form.is_by_equilibrium())
+    });
     followed.then(|| ModelFault {
         path: if asked { "output.members" } else { "motion.vertical" }.into(),
         problem: match asked {

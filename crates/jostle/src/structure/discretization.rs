@@ -16,7 +16,8 @@ use super::tiers::discretize_tiers;
 use crate::hysteresis::{Hysteresis, Side};
 use crate::model::{
     Base, Building, CouplingBeam, Frame, FrameHinges, FrameWall, Given, Hinges, Isolation, Joint,
-    ProportionalDamping, Section, SharedColumn, Shear, ShearEnds, ShearSpring, Structure, Wall,
+    ProportionalDamping, Section, SharedColumn, Shear, ShearEnds, ShearSpring, SpaceWall,
+    Structure, Wall,
 };
 
 /// A stick model and where its floors and faces are. The default has no nodes.
@@ -44,6 +45,8 @@ pub struct Discretization {
     pub sections: Vec<FibreSection>,
     /// Walls of frames.
     pub walls: Vec<InFrame<FrameWall>>,
+    /// Walls of a space frame.
+    pub space_walls: Vec<SpaceWall>,
     /// Beams between walls of frames.
     pub coupling_beams: Vec<InFrame<CouplingBeam>>,
     /// Centre of mass of every floor on the site, from the ground up; empty for a building in one plane \[m\].

@@ -244,6 +244,11 @@ impl LinearForm {
         sum
     }
 
+    /// Whether it is found by equilibrium of masses rather than by deformations.
+    pub(crate) fn is_by_equilibrium(&self) -> bool {
+        !self.acceleration.is_empty() || self.ground != 0.0 || self.constant != 0.0
+    }
+
     /// Whether displacements and self weight alone determine it.
     pub(crate) fn follows_displacements(&self) -> bool {
         self.velocity.is_empty()
@@ -284,6 +289,7 @@ impl MemberForces {
         let mut forces = Self::default();
         forces.add_diagonals(building);
         forces.add_walls(building, rest);
+        forces.add_space_walls(building);
         forces.add_sections(&building.discretization);
         forces
     }

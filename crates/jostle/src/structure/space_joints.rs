@@ -16,7 +16,7 @@ use super::space_frame::{Assembly, Deformation, EndUnknowns, SpringMember, Unkno
 use super::spring_place::{MemberEnd, SpringPlace};
 use super::stick_model::{Hinge, Influence, Node, StickModel, Support};
 use crate::linear::Row;
-use crate::model::{PlanAxis, SpaceFrame, SpaceMember, SpacePlace};
+use crate::model::{PlanAxis, STANDARD_GRAVITY, SpaceFrame, SpaceMember, SpacePlace};
 
 /// A column or a beam of a space frame with hinges, and its elements in the stick model.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,6 +35,9 @@ pub struct JointedMember {
     pub bending: [Option<usize>; 2],
     /// Diagonals that end at the head of a column which keeps its length, and what it bears of the tension of each.
     pub diagonals: Row,
+    /// Share of the weight of its floor at the head of a column which keeps its length; zero unless the building stands under its
+    /// weight \[N\].
+    pub weight: f64,
 }
 
 /// A joint of a space frame with hinges.
@@ -107,6 +110,12 @@ pub(super) fn add_space_joints(
             }
             SpacePlace::BeamX { .. } | SpacePlace::BeamY { .. } => [top; 2],
         };
+        let keeps_length =
+            matches!(member.place, SpacePlace::Column { .. }) && member.axial.is_none();
+        if let Some([mass, load]) = carried.get(storey).filter(|_| keeps_length) {
+            let count = columns_of(frame, storey).count();
+            member.weight = (mass * STANDARD_GRAVITY + load) / count as f64;
+        }
     }
     let joints = builder.joint_list(frame);
     let elongations = frame.diagonals.iter().map(|own| {
@@ -144,6 +153,15 @@ fn add_joints(assembly: &Assembly<'_>, sticks: &mut StickModel, floors: &[usize]
     first..sticks.nodes.len()
 }
 
+/// Crossings at which columns stand below a floor, from 0.
+fn columns_of(frame: &SpaceFrame, floor: usize) -> impl Iterator<Item = [usize; 2]> {
+    let places = frame.members.iter().map(|member| member.place);
+    places.filter_map(move |place| match place {
+        SpacePlace::Column { line, storey } if storey == floor => Some(line),
+        _ => None,
+    })
+}
+
 /// Lets joints on columns carry the masses and loads of floors, in equal shares.
 fn carry_floors(
     assembly: &Assembly<'_>,
@@ -152,12 +170,7 @@ fn carry_floors(
     carried: &[[f64; 2]],
 ) {
     for (floor, [mass, load]) in carried.iter().enumerate() {
-        let places = assembly.frame.members.iter().map(|member| member.place);
-        let columns = places.filter_map(|place| match place {
-            SpacePlace::Column { line, storey } if storey == floor => Some(line),
-            _ => None,
-        });
-        let columns: Vec<[usize; 2]> = columns.collect();
+        let columns: Vec<[usize; 2]> = columns_of(assembly.frame, floor).collect();
         for line in &columns {
             let [rise, ..] = assembly.joints.at(floor, *line);
             let height = sticks.nodes[floors[floor]].y;
@@ -283,6 +296,7 @@ impl Builder<'_> {
             torsion: add(torsion),
             bending: [Some(add(bending)), across.map(&mut add)],
             diagonals,
+            weight: 0.0,
         }
     }
 

@@ -7,8 +7,9 @@ use super::member_forces::{
 use super::space_frame::CondensedFrame;
 use super::space_joints::{JointedFrame, JointedMember};
 use super::spring_place::{MemberEnd, SpringPlace};
-use crate::linear::{Row, sort_by_key};
-use crate::model::{PlanAxis, SpacePlace};
+use super::wall_forces::WallForce;
+use crate::linear::sort_by_key;
+use crate::model::{PlanAxis, SpacePlace, SpaceWall};
 use crate::structure::AssembledBuilding;
 
 impl MemberForces {
@@ -16,24 +17,16 @@ impl MemberForces {
     pub(super) fn add_space_frame(&mut self, building: &AssembledBuilding, frame: &CondensedFrame) {
         let equations = &building.equations;
         let floors = &building.discretization.floors;
-        let of_floor = |floor: &usize| [X, Y, THETA].map(|component| (*floor, component));
-        let mat = building.discretization.mat.map(|mat| mat.node);
-        let dofs = mat.iter().chain(floors).flat_map(of_floor);
-        let dofs: Vec<Option<usize>> = dofs.map(|place| equations.dof(place)).collect();
+        let dofs = motions_of_floors(building);
         let nothing = self.index_of(LinearForm::default());
         for member in &frame.members {
             // Every row occurs once.
             let mut add = |row: &[f64]| {
-                let entries = dofs.iter().zip(row);
-                let entries = entries.filter_map(|(dof, share)| Some(((*dof)?, *share)));
-                let displacement: Row = entries.filter(|(_, share)| *share != 0.0).collect();
-                if displacement.is_empty() {
+                let form = over(&dofs, row);
+                if form.displacement.is_empty() {
                     return nothing;
                 }
-                self.forms.push(LinearForm {
-                    displacement,
-                    ..LinearForm::default()
-                });
+                self.forms.push(form);
                 self.forms.len() - 1
             };
             let (axial, torsion) = (add(&member.axial), add(&member.torsion));
@@ -67,6 +60,41 @@ impl MemberForces {
                 place,
                 sections,
                 shared: None,
+            });
+        }
+    }
+
+    /// Adds forces at the feet of the walls of a space frame, which are always followed.
+    pub(super) fn add_space_walls(&mut self, building: &AssembledBuilding) {
+        let discretization = &building.discretization;
+        let walls = discretization.space_walls.iter().enumerate();
+        let walls = walls.filter_map(|(index, wall)| {
+            let foot = wall.column(wall.storeys[0]);
+            let rises = [wall.storeys[0].checked_sub(1), Some(wall.storeys[1])];
+            let [axial, moment, elongation] = discretization
+                .space_frame
+                .as_deref()
+                .and_then(|frame| of_condensed_wall(building, frame, foot, wall, rises))
+                .or_else(|| {
+                    let frame = discretization.jointed_frame.as_deref()?;
+                    of_jointed_wall(building, frame, foot, wall, rises)
+                })?;
+            Some((index, wall, [axial, moment, elongation.tidy()]))
+        });
+        for (index, wall, forms) in walls.collect::<Vec<_>>() {
+            let [axial, moment, elongation] = forms.map(|form| self.index_of(form));
+            self.walls.push(WallForce {
+                frame: None,
+                number: index + 1,
+                hinge: SpringPlace::InSpace {
+                    place: wall.column(wall.storeys[0]),
+                    end: MemberEnd::First,
+                    axis: wall.along,
+                },
+                sliding: None,
+                axial,
+                moment,
+                elongation,
             });
         }
     }
@@ -112,6 +140,83 @@ impl MemberForces {
             });
         }
     }
+}
+
+/// Degrees of freedom of the mat, if there is one, and of the floors: along, across and turning of each.
+fn motions_of_floors(building: &AssembledBuilding) -> Vec<Option<usize>> {
+    let discretization = &building.discretization;
+    let of_floor = |floor: &usize| [X, Y, THETA].map(|component| (*floor, component));
+    let mat = discretization.mat.map(|mat| mat.node);
+    let places = mat.iter().chain(&discretization.floors).flat_map(of_floor);
+    places.map(|place| building.equations.dof(place)).collect()
+}
+
+/// A force by its shares of these motions.
+fn over(dofs: &[Option<usize>], row: &[f64]) -> LinearForm {
+    let entries = dofs.iter().zip(row);
+    let entries = entries.filter_map(|(dof, share)| Some(((*dof)?, *share)));
+    LinearForm {
+        displacement: entries.filter(|(_, share)| *share != 0.0).collect(),
+        ..LinearForm::default()
+    }
+}
+
+/// Axial force and moment at the foot of a wall, and how much longer it becomes between two floors; `None` for the ground.
+fn of_condensed_wall(
+    building: &AssembledBuilding,
+    frame: &CondensedFrame,
+    foot: SpacePlace,
+    wall: &SpaceWall,
+    rises: [Option<usize>; 2],
+) -> Option<[LinearForm; 3]> {
+    let dofs = motions_of_floors(building);
+    let own = frame.members.iter().find(|own| own.place == foot)?;
+    let plane = match wall.along {
+        PlanAxis::X => &own.bending,
+        PlanAxis::Y => own.across.as_ref()?,
+    };
+    let [below, above] = rises.map(|floor| {
+        let floor = floor?;
+        let mut joints = frame.joints.iter();
+        let own = joints.find(|own| own.floor == floor && own.crossing == wall.line)?;
+        Some(over(&dofs, &own.rows[0]))
+    });
+    let mut elongation = above.unwrap_or_default();
+    elongation.add(-1.0, &below.unwrap_or_default());
+    Some([
+        over(&dofs, &own.axial),
+        over(&dofs, &plane.moments[0]),
+        elongation,
+    ])
+}
+
+/// The same of a frame whose joints move by themselves.
+fn of_jointed_wall(
+    building: &AssembledBuilding,
+    frame: &JointedFrame,
+    foot: SpacePlace,
+    wall: &SpaceWall,
+    rises: [Option<usize>; 2],
+) -> Option<[LinearForm; 3]> {
+    let cuts = JointedCuts { building, frame };
+    let bending = frame.members.iter().map(|own| cuts.bending(own));
+    let bending: Vec<[Option<PlaneForces>; 2]> = bending.collect();
+    let index = frame.members.iter().position(|own| own.place == foot)?;
+    let plane = bending[index][wall.along.index()].as_ref()?;
+    let mut elongation = LinearForm::default();
+    for (floor, sign) in rises.into_iter().zip([-1.0, 1.0]) {
+        let joint = floor.and_then(|floor| {
+            let mut joints = frame.joints.iter();
+            joints.find(|own| own.floor == floor && own.crossing == wall.line)
+        });
+        if let Some(rise) = joint.and_then(|own| own.nodes[0])
+            && let Some(dof) = building.equations.dof((rise, THETA))
+        {
+            elongation.displacement.add(dof, sign);
+        }
+    }
+    let axial = cuts.axial(&bending).swap_remove(index);
+    Some([axial, plane.moments[0].clone(), elongation])
 }
 
 /// Shear and end moments in one plane.
@@ -190,8 +295,8 @@ impl JointedCuts<'_> {
         })
     }
 
-    /// Axial forces of all members. A column that keeps its length carries the one above it, the shears of the beams and the pull of the
-    /// diagonals at its head.
+    /// Axial forces of all members. A column that keeps its length carries the one above it, the shears of the beams, the pull of the
+    /// diagonals and its share of the weight of the floor at its head.
     fn axial(&self, bending: &[[Option<PlaneForces>; 2]]) -> Vec<LinearForm> {
         let members = &self.frame.members;
         let of_stretch = |member: &JointedMember| {
@@ -229,6 +334,7 @@ impl JointedCuts<'_> {
             for (diagonal, share) in members[column].diagonals.entries() {
                 sum.add(*share, &self.building.force_of_diagonal(*diagonal));
             }
+            sum.constant -= members[column].weight;
             axial[column] = sum.tidy();
         }
         axial

@@ -234,6 +234,23 @@ impl SpringPlace {
         }
     }
 
+    /// Places of hinges at an end of a member, in every plane in which it may bend.
+    pub(crate) fn of_hinges(member: MemberPlace, end: MemberEnd) -> Vec<Self> {
+        match member {
+            MemberPlace::Column { line, storey } => vec![Self::Column { storey, line, end }],
+            MemberPlace::Beam { floor, span } => vec![Self::Beam {
+                floor,
+                bay: span,
+                end,
+            }],
+            MemberPlace::InSpace(place) => {
+                let axes = PlanAxis::BOTH.into_iter();
+                axes.map(|axis| Self::InSpace { place, end, axis })
+                    .collect()
+            }
+        }
+    }
+
     /// The place of a hinge of a plane frame, as one of a frame in plan; `None` for other places.
     pub(crate) fn in_frame(self, frame: usize) -> Option<Self> {
         match self {

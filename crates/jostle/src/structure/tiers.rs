@@ -135,6 +135,7 @@ pub(super) fn discretize_tiers(tiers: &Tiers, gravity: Gravity, base: &Base) -> 
         ..Discretization::default()
     };
     if let Some(frame) = &tiers.space_frame {
+        discretization.space_walls.clone_from(&frame.walls);
         let follows_floors = discretization.space_frame.is_some();
         let of_floors = following.into_iter().flatten().map(|own| {
             let motions = nodes

@@ -2,7 +2,7 @@
 
 use super::element::{THETA, Y, over_nodes};
 use super::member_forces::{Cuts, LinearForm, MemberForces, Motion};
-use super::{AssembledBuilding, MemberPlace};
+use super::{AssembledBuilding, MemberEnd, MemberPlace, SpringPlace};
 use crate::hysteresis::HysteresisMemory;
 use crate::linear::Row;
 
@@ -20,11 +20,17 @@ pub(crate) struct AtRest<'a> {
 /// Forces at the foot of a wall, positive as those of columns: indices into [`MemberForces::forms`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WallForce {
-    /// Index among [`crate::structure::Discretization::walls`].
-    pub wall: usize,
+    /// Its frame, where several stand in a plan.
+    pub frame: Option<usize>,
+    /// Its number in its frame, from 1.
+    pub number: usize,
+    /// Where it turns at its foot, if it yields there.
+    pub hinge: SpringPlace,
+    /// Where it slides, if it yields there.
+    pub sliding: Option<SpringPlace>,
     /// Axial force, positive in tension.
     pub axial: usize,
-    /// Moment, positive where it stretches the right face.
+    /// Moment in its plane, positive where it stretches the right face, or that further along its line.
     pub moment: usize,
     /// Elongation of its axis between foot and top.
     pub elongation: usize,
@@ -81,8 +87,14 @@ impl MemberForces {
                 displacement: building.equations.row(&stretched),
                 ..LinearForm::default()
             });
+            let (line, storey) = (own.part.line, own.part.storeys[0]);
+            let before = discretization.walls[..wall].iter();
+            let end = MemberEnd::First;
             self.walls.push(WallForce {
-                wall,
+                frame: own.frame,
+                number: 1 + before.filter(|other| other.frame == own.frame).count(),
+                hinge: SpringPlace::Column { storey, line, end },
+                sliding: Some(SpringPlace::sliding(place)),
                 axial,
                 moment,
                 elongation,

@@ -43,37 +43,36 @@ pub(super) struct EndHinge {
 }
 
 impl EndHinge {
-    /// The hinges at the ends of a member.
-    pub(super) fn of_member(building: &AssembledBuilding, place: MemberPlace) -> Vec<Self> {
+    /// The hinges at the ends of a member, in every plane in which it bends. `frame`: its own, where several stand in a plan.
+    pub(super) fn of_member(
+        building: &AssembledBuilding,
+        frame: Option<usize>,
+        place: MemberPlace,
+    ) -> Vec<Self> {
         let behind = end_stiffnesses(&building.discretization.stick_model);
-        let springs = building.discretization.spring_places.iter().enumerate();
-        let own = springs.filter_map(|(spring, own)| {
-            let end = match (place, *own) {
-                (
-                    MemberPlace::Column { line, storey },
-                    SpringPlace::Column {
-                        storey: at,
-                        line: on,
-                        end,
-                    },
-                ) => (storey == at && line == on).then_some(end),
-                (
-                    MemberPlace::Beam { floor, span },
-                    SpringPlace::Beam {
-                        floor: at,
-                        bay,
-                        end,
-                    },
-                ) => (floor == at && span == bay).then_some(end),
-                _ => None,
+        let own = [MemberEnd::First, MemberEnd::Last].into_iter();
+        let own = own.flat_map(|end| {
+            let places = SpringPlace::of_hinges(place, end).into_iter();
+            places.map(move |own| (own, end))
+        });
+        let own = own.filter_map(|(own, end)| {
+            let own = match frame {
+                Some(frame) => own.in_frame(frame + 1)?,
+                None => own,
             };
+            Some((own, end))
+        });
+        let own: Vec<(SpringPlace, MemberEnd)> = own.collect();
+        let springs = building.discretization.spring_places.iter().enumerate();
+        let hinges = springs.filter_map(|(spring, place)| {
+            let (_, end) = own.iter().find(|(own, _)| own == place)?;
             Some(Self {
-                end: end?,
+                end: *end,
                 spring,
                 behind: behind.get(spring).copied().flatten(),
             })
         });
-        own.collect()
+        hinges.collect()
     }
 
     /// Its greatest ductility so far, either side \[–\]. `memories`: those of the springs of the building.
@@ -97,13 +96,13 @@ impl MemberRating {
         member: usize,
         capacity: &MemberCapacity,
     ) -> Self {
-        let place = building.members.members[member].place;
+        let own = &building.members.members[member];
         Self {
             building: index,
             part: RatedPart::Member(member),
-            sections: building.members.members[member].sections.clone(),
+            sections: own.sections.clone(),
             capacity: capacity.clone(),
-            hinges: EndHinge::of_member(building, place),
+            hinges: EndHinge::of_member(building, own.frame, own.place),
         }
     }
 

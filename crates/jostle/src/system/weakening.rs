@@ -40,7 +40,11 @@ impl Weakening {
                 });
                 Self {
                     shear: own.map(|(spring, _)| spring).collect(),
-                    hinges: EndHinge::of_member(building, MemberPlace::Column { line, storey }),
+                    hinges: EndHinge::of_member(
+                        building,
+                        None,
+                        MemberPlace::Column { line, storey },
+                    ),
                     strength: column.by_ductility.clone(),
                 }
             })

@@ -65,6 +65,7 @@ fn capacity(line: usize) -> MemberCapacity {
                 limit: f64::INFINITY,
             }),
             bending: [bending.clone(), bending],
+            across: None,
         }],
     }
 }

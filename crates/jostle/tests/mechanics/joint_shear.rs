@@ -85,6 +85,7 @@ fn rule(rule: &'static str, factor: f64) -> RuleCapacity {
             limit: 6e5 * factor,
         }),
         bending: [none(), none()],
+        across: None,
     }
 }
 
@@ -279,6 +280,7 @@ fn joints_do_not_choose_the_worst_instant() {
                     rule: "first",
                     shear: None,
                     bending: [even(5e6), even(5e6)],
+                    across: None,
                 }],
             })
             .collect();

@@ -9,9 +9,10 @@ use crate::quantity::{Quantity, Unit};
 pub struct RatioSummary {
     /// Name of the rule, as in model files.
     pub rule: &'static str,
-    /// Shear over shear capacity; `null` where the rule has none \[–\].
+    /// Shear over shear capacity, of a column of a space frame the vector of both shears; `null` where the rule has none \[–\].
     pub shear: Option<f64>,
-    /// Moment over moment capacity under the axial force of the same instant \[–\].
+    /// Moment over moment capacity under the axial force of the same instant, of a column of a space frame the vector of both
+    /// moments \[–\].
     pub bending: f64,
     /// Where and when the greatest ratio of shear occurred.
     pub shear_at: Option<RatioPlace>,
@@ -39,7 +40,10 @@ pub struct RatioPlace {
     pub at_s: f64,
     /// Shear \[N\] or moment \[N·m\] then, with its sign.
     pub demand: f64,
-    /// Capacity then, in the same unit.
+    /// The same in the plane across, of a column of a space frame; absent for others.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub demand_across: Option<f64>,
+    /// Capacity then, in the same unit; of demands in two planes, in the direction of both together.
     pub capacity: f64,
     /// Axial compression then, negative in tension \[N\].
     pub compression_n: f64,
@@ -56,7 +60,8 @@ impl RatioPlace {
         Quantity::<Self>::real("height_m", Unit::M, "height above the base of the section with the greatest ratio", |p| p.height_m),
         Quantity::<Self>::real("at_s", Unit::S, "instant of the greatest ratio", |p| p.at_s),
         Quantity::<Self>::real("demand", Unit::NM_OR_N, "moment or shear then, with its sign", |p| p.demand),
-        Quantity::<Self>::real("capacity", Unit::NM_OR_N, "capacity then", |p| p.capacity),
+        Quantity::<Self>::optional("demand_across", Unit::NM_OR_N, "moment or shear in the plane across then, of a column of a space frame", |p| p.demand_across),
+        Quantity::<Self>::real("capacity", Unit::NM_OR_N, "capacity then; of demands in two planes, in the direction of both together", |p| p.capacity),
         Quantity::<Self>::real("compression_n", Unit::N, "axial compression then, negative in tension", |p| p.compression_n),
         Quantity::<Self>::optional("exceeded_s", Unit::S, "first instant beyond the capacity anywhere in the member; absent if it was kept", |p| p.exceeded_s),
     ];

@@ -88,6 +88,12 @@ pub struct ForcesSummary {
     pub shear_n: f64,
     /// Moment, with its sign \[N·m\].
     pub moment_n_m: f64,
+    /// Shear in the plane across, of a member of a space frame; absent for others \[N\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shear_across_n: Option<f64>,
+    /// Moment in the plane across, likewise \[N·m\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub moment_across_n_m: Option<f64>,
 }
 
 #[rustfmt::skip]
@@ -98,6 +104,8 @@ impl ForcesSummary {
         Quantity::<Self>::real("axial_n", Unit::N, "axial force, positive in tension", |f| f.axial_n),
         Quantity::<Self>::real("shear_n", Unit::N, "shear, with its sign", |f| f.shear_n),
         Quantity::<Self>::real("moment_n_m", Unit::NM, "moment, with its sign", |f| f.moment_n_m),
+        Quantity::<Self>::optional("shear_across_n", Unit::N, "shear in the plane across, of a member of a space frame", |f| f.shear_across_n),
+        Quantity::<Self>::optional("moment_across_n_m", Unit::NM, "moment in the plane across, of a member of a space frame", |f| f.moment_across_n_m),
     ];
 }
 

@@ -2,7 +2,8 @@
 //! itself.
 
 use crate::history::SectionRatio;
-use crate::model::{CapacityLine, MemberCapacity, RuleCapacity};
+use crate::model::{CapacityLine, MemberCapacity, RuleCapacity, ShearCapacity};
+use crate::stepping::member_ratios::RatedForces;
 
 /// Ranges of the compression.
 const RANGES: usize = 128;
@@ -26,6 +27,8 @@ pub(super) struct LeastCapacities {
     within: Vec<[f64; 2]>,
     /// The same with the ranges beside.
     around: Vec<[f64; 2]>,
+    /// Factor on moments across in the length of both moments; one for all rules \[–\].
+    stretch: f64,
 }
 
 impl LeastCapacities {
@@ -79,7 +82,32 @@ impl LeastCapacities {
             rules: rules.len(),
             around: around.collect(),
             within,
+            stretch: rules
+                .iter()
+                .find_map(|rule| rule.across.as_ref())
+                .map_or(1.0, |across| across.bending.stretch()),
         }
+    }
+
+    /// Sizes of shears and moments that are compared with least capacities.
+    #[inline(always)]
+    pub(super) fn sizes(&self, forces: &RatedForces) -> [f64; 2] {
+        let [[shear, shear_across], [moment, moment_across]] = [forces.shears, forces.moments];
+        if shear_across == 0.0 && moment_across == 0.0 {
+            return [shear.abs(), moment.abs()];
+        }
+        let size = |own: f64, across: f64| (own * own + across * across).sqrt();
+        [
+            size(shear, shear_across),
+            size(moment, self.stretch * moment_across),
+        ]
+    }
+
+    /// How far a shear and a moment of such slacks, and those across, may change each without their sizes using it up.
+    pub(super) fn shares(&self, slack: [f64; 2]) -> [[f64; 2]; 2] {
+        let both = std::f64::consts::FRAC_1_SQRT_2;
+        let [shear, moment] = slack.map(|slack| both * slack);
+        [[shear, moment], [shear, moment / self.stretch]]
     }
 
     #[inline(always)]
@@ -114,28 +142,43 @@ impl LeastCapacities {
 
 fn lines(rules: &[RuleCapacity]) -> impl Iterator<Item = &CapacityLine> {
     rules.iter().flat_map(|rule| {
+        let across = rule.across.as_ref();
         let shear = rule.shear.iter();
         shear
+            .chain(across.and_then(|own| own.shear.as_ref()))
             .flat_map(|shear| [&shear.steady, &shear.degrading])
             .chain(&rule.bending)
+            .chain(across.and_then(|own| own.bending.first()))
     })
 }
 
 /// Least shear and bending capacity by a rule over a range of the compression, a little less for rounding.
 fn least(rule: &RuleCapacity, range: [f64; 2]) -> [f64; 2] {
-    let shear = rule.shear.as_ref().map_or(f64::INFINITY, |shear| {
-        let factor = shear.factor(1.0);
-        (shear.steady.least(range) + factor * shear.degrading.least(range)).min(shear.limit)
-    });
-    let [one, other] = rule.bending.each_ref().map(|line| {
-        // Beyond its ends the axial force alone is too much.
-        if line.is_left_by(range) {
-            0.0
-        } else {
-            line.least(range)
+    let of_shear = |shear: Option<&ShearCapacity>| {
+        shear.map_or(f64::INFINITY, |shear| {
+            let factor = shear.factor(1.0);
+            (shear.steady.least(range) + factor * shear.degrading.least(range)).min(shear.limit)
+        })
+    };
+    let shear = of_shear(rule.shear.as_ref());
+    let [shear, bending] = match &rule.across {
+        Some(across) => [
+            shear.min(of_shear(across.shear.as_ref())),
+            across.bending.least(range),
+        ],
+        None => {
+            let [one, other] = rule.bending.each_ref().map(|line| {
+                // Beyond its ends the axial force alone is too much.
+                if line.is_left_by(range) {
+                    0.0
+                } else {
+                    line.least(range)
+                }
+            });
+            [shear, one.min(other)]
         }
-    });
-    [shear, one.min(other)].map(|least| {
+    };
+    [shear, bending].map(|least| {
         if least.is_finite() {
             least - ROUNDING * least.abs()
         } else {
@@ -163,6 +206,7 @@ mod tests {
                 line(&[[-6e5, 2e4], [0.0, 1.2e5 * factor], [2e6, 3e4]]),
                 line(&[[-6e5, 0.0], [1e5, 1.1e5], [2e6, 0.0]]),
             ],
+            across: None,
         };
         MemberCapacity {
             member: "A.column.1.1".to_owned(),
@@ -198,7 +242,8 @@ mod tests {
                     let shear = rule.shear.as_ref();
                     let shear = shear.map(|shear| forces[0].abs() / shear.at(compression, 1.0));
                     shear.is_some_and(|ratio| ratio > share * known.shear.ratio)
-                        || rule.bending_ratio(compression, forces[1]) > share * known.bending.ratio
+                        || rule.bending_ratio(compression, [forces[1], 0.0])
+                            > share * known.bending.ratio
                 })
             };
             let may_exceed = least.within(compression).iter().zip(&greatest);

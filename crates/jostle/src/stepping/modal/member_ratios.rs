@@ -10,7 +10,7 @@ use super::reduced::Reduced;
 use crate::history::SectionRatio;
 use crate::simd;
 use crate::stepping::events::Cubic;
-use crate::stepping::member_ratios::{self, MemberRatios};
+use crate::stepping::member_ratios::{self, MemberRatios, RatedForces};
 use crate::system::{MemberRating, RatedPart, System};
 
 /// A force as a sum over modal values of one building.
@@ -35,8 +35,8 @@ struct RatedSection {
     first: usize,
     /// Its member's among the least capacities.
     least: usize,
-    /// Axial force, shear and moment.
-    forms: [FormRow; 3],
+    /// Axial force, shear and moment, then shear and moment across of a column of a space frame.
+    forms: Vec<FormRow>,
     /// Most that they change per ‖ω Δq‖.
     norms: PartRows,
     /// Whether modes alone determine them.
@@ -67,6 +67,8 @@ pub(super) struct ModalRatios {
     ratios: MemberRatios,
 }
 
+/// Most forces of a section.
+const MOST_FORMS: usize = 5;
 /// Parts of a step in which forces are looked at.
 const PARTS: usize = 4;
 /// Share of the greatest ratio from which a step is looked at.
@@ -109,7 +111,11 @@ impl ModalRatios {
                 } else {
                     FormRow::default()
                 };
-                let forms = [axial, row(shear), row(moment)];
+                let mut forms = vec![axial, row(shear), row(moment)];
+                if rules.iter().any(|rule| rule.across.is_some()) {
+                    let across = section.across.into_iter();
+                    forms.extend(across.flat_map(|[shear, moment, _]| [row(shear), row(moment)]));
+                }
                 let lists = forms.iter().map(|form| &form.shares[0]);
                 let norms = norms_in_blocks(lists, stiffness);
                 sections[rating.building].push(RatedSection {
@@ -237,7 +243,7 @@ impl NullaryFnOnce for FollowSections<'_> {
             let least = &self.least[section.least];
             let count = rating.capacity.rules.len();
             let entries = &mut self.entries[section.first..section.first + count];
-            let forces = section.forms.each_ref().map(|form| {
+            let forces = section.forces(|form| {
                 form.at(ends.now, ends.ground[1], |contact| {
                     instant.phases[contact].force()
                 })
@@ -248,16 +254,18 @@ impl NullaryFnOnce for FollowSections<'_> {
             {
                 continue;
             }
-            let mut take = |time: f64, forces: [f64; 3]| {
+            let mut take = |time: f64, forces: RatedForces| {
                 take_exceeding(entries, rating, least, time, forces);
             };
             let pushed = section.forms.iter().any(|form| !form.contacts.is_empty());
             if instant.smooth && ends.step > 0.0 && !pushed {
-                let curves = section.forms.each_ref().map(|form| form.curve(ends));
+                let curves = section.each(|form| Some(form.curve(ends)));
                 for part in 1..PARTS {
                     let share = part as f64 / PARTS as f64;
                     let time = instant.time - (1.0 - share) * ends.step;
-                    take(time, curves.each_ref().map(|curve| curve.value(share)));
+                    let value = |curve: &Option<Cubic>| curve.as_ref().map(|own| own.value(share));
+                    let values = curves.each_ref().map(|own| value(own).unwrap_or_default());
+                    take(time, in_order(values));
                 }
             }
             take(instant.time, forces);
@@ -276,22 +284,44 @@ fn take_exceeding(
     rating: &MemberRating,
     least: &LeastCapacities,
     time: f64,
-    [axial, shear, moment]: [f64; 3],
+    forces: RatedForces,
 ) {
-    let compression = rating.compression(axial);
+    let compression = rating.compression(forces.axial);
+    let [shear, moment] = least.sizes(&forces);
     let rules = rating.capacity.rules.iter().zip(least.within(compression));
     for (entry, (rule, [by_shear, by_bending])) in entries.iter_mut().zip(rules) {
         // Buildings in modal stepping are elastic.
-        if shear.abs() >= entry.shear.ratio * by_shear {
-            member_ratios::take_shear(entry, rule, time, shear, compression, 1.0);
+        if shear >= entry.shear.ratio * by_shear {
+            member_ratios::take_shear(entry, rule, time, forces.shears, compression, 1.0);
         }
-        if moment.abs() >= entry.bending.ratio * by_bending {
-            member_ratios::take_bending(entry, rule, time, moment, compression);
+        if moment >= entry.bending.ratio * by_bending {
+            member_ratios::take_bending(entry, rule, time, forces.moments, compression);
         }
     }
 }
 
+/// Forces in the order of [`RatedSection::forms`].
+#[inline(always)]
+fn in_order([axial, shear, moment, shear_across, moment_across]: [f64; MOST_FORMS]) -> RatedForces {
+    RatedForces {
+        axial,
+        shears: [shear, shear_across],
+        moments: [moment, moment_across],
+    }
+}
+
 impl RatedSection {
+    /// A value of each of its forces, the default of those that it lacks.
+    #[inline(always)]
+    fn each<T: Default>(&self, value: impl Fn(&FormRow) -> T) -> [T; MOST_FORMS] {
+        std::array::from_fn(|index| self.forms.get(index).map_or_else(T::default, &value))
+    }
+
+    #[inline(always)]
+    fn forces(&self, value: impl Fn(&FormRow) -> f64) -> RatedForces {
+        in_order(self.each(value))
+    }
+
     /// Whether no ratio is near its greatest value; if so, it sets when the section has to be looked at again: forces of low
     /// modes change by no more than their ways, all others stay below the size of the rest, and capacities change by no more
     /// than the compression, within a range and those beside it.
@@ -302,21 +332,24 @@ impl RatedSection {
         least: &LeastCapacities,
         entries: &[SectionRatio],
         reach: &Reach,
-        [axial, shear, moment]: [f64; 3],
+        forces: RatedForces,
         modal: &[f64],
     ) -> bool {
-        let most = least.near(entries, rating.compression(axial), NEAR);
-        if shear.abs() >= most[0] || moment.abs() >= most[1] {
+        let compression = rating.compression(forces.axial);
+        let most = least.near(entries, compression, NEAR);
+        let [shear, moment] = least.sizes(&forces);
+        if shear >= most[0] || moment >= most[1] {
             return false;
         }
-        let [n, v, m] = self
-            .forms
-            .each_ref()
-            .map(|form| form.of_low(reach.low, modal));
+        let low = self.forces(|form| form.of_low(reach.low, modal));
+        let [shear, moment] = least.sizes(&low);
         let mut slack = [0.0; ROWS];
-        slack[0] = least.reach - (axial - n).abs();
-        slack[1] = most[0] - v.abs();
-        slack[2] = most[1] - m.abs();
+        slack[0] = least.reach - (forces.axial - low.axial).abs();
+        let of_both = [most[0] - shear, most[1] - moment];
+        [slack[1], slack[2]] = of_both;
+        if self.forms.len() == MOST_FORMS {
+            [[slack[1], slack[3]], [slack[2], slack[4]]] = least.shares(of_both);
+        }
         self.watch.set(reach, &self.norms, &slack);
         true
     }

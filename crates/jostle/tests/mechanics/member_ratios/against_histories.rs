@@ -145,7 +145,7 @@ fn compare(solver: Solver, above: f64) {
                 let compression = own.compression_at_rest - axial;
                 let rule = &own.rules[0];
                 let strength = rule.shear.as_ref().expect("given").at(compression, 1.0);
-                let bending = rule.bending_ratio(compression, forces.moment_n_m);
+                let bending = rule.bending_ratio(compression, [forces.moment_n_m, 0.0]);
                 (forces.shear_n.abs() / strength).max(bending)
             })
         });

@@ -48,6 +48,7 @@ fn capacity(member: String, at_rest: f64) -> MemberCapacity {
         rule,
         shear: Some(shear(factor)),
         bending: [bending(factor), bending(0.8 * factor)],
+        across: None,
     };
     MemberCapacity {
         follows_axial: member.contains("column"),

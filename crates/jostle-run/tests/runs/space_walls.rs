@@ -1,0 +1,81 @@
+//! Walls of space frames: what they bear, against walls of frames at lines of a plan, and what a check says of them.
+
+use jostle::results::summary::PartSummary;
+use jostle_run::Ran;
+
+use crate::support::ran;
+
+const COMMON: &str =
+    "storey_height = [4.0, 3.2, 3.2]\nmass = \"70 t\"\ndamping = { alpha = 0.3, beta = 0.002 }\n";
+const BEAM: &str = "width = 0.3, depth = 0.6";
+
+fn shaken(more: &str, building: &str) -> Ran {
+    ran(&format!(
+        "[motion]\nrecord = \"el-centro-1940-ns\"\npga = \"0.3 g\"\nduration = \"5 s\"\n{more}\n[analysis]\nsolver = \"riccati\"\nstep = \"2 ms\"\naccept_unusual = true\n[[building]]\nname = \"A\"\n{COMMON}{building}"
+    ))
+}
+
+/// Two equal frames at lines of a plan, each with a wall at its first line, beside springs across.
+fn at_lines() -> Ran {
+    let building = format!(
+        "kind = \"frame\"\nplan = [12, 7]\n[[building.element]]\nat = [6, 3.5]\nstiffness = {{ x = 0.01, y = 60e6 }}\n[[building.frame]]\nname = \"F\"\nat = [[0, 0], [0, 7]]\nspans = [6, 6]\nconcrete = \"C30\"\naxial = {{ columns = \"flexible\" }}\nbeam = {{ {BEAM} }}\ncolumn = {{ width = 0.5, depth = 0.5 }}\n[[building.frame.wall]]\nline = 1\nlength = 3\nthickness = 0.25\n"
+    );
+    shaken("", &building)
+}
+
+/// The same as a space frame, its walls along x, or turned by a quarter.
+fn in_space(turned: bool) -> Ran {
+    let (lines, wall, motion) = match turned {
+        false => (
+            "lines_x = [0, 6, 12]\nlines_y = [0, 7]",
+            "along = \"x\"\nx = 1",
+            "",
+        ),
+        true => (
+            "lines_x = [0, 7]\nlines_y = [0, 6, 12]",
+            "along = \"y\"\ny = 1",
+            "angle = \"90 deg\"",
+        ),
+    };
+    let building = format!(
+        "kind = \"space-frame\"\nconcrete = \"C30\"\n{lines}\nbeam_x = {{ {BEAM} }}\nbeam_y = {{ {BEAM} }}\ncolumn = {{ size = [0.5, 0.5] }}\n[[building.wall]]\n{wall}\nlength = 3\nthickness = 0.25\n"
+    );
+    shaken(motion, &building)
+}
+
+fn walls(ran: &Ran) -> Vec<PartSummary> {
+    let parts = ran.summary().buildings.remove(0).parts;
+    parts.into_iter().filter(|own| own.kind == "wall").collect()
+}
+
+#[test]
+fn walls_bear_what_those_of_frames_at_lines_bear() {
+    let due = walls(&at_lines());
+    assert_eq!(due.len(), 2);
+    for turned in [false, true] {
+        let found = walls(&in_space(turned));
+        assert_eq!(found.len(), 2);
+        for (index, (found, due)) in found.iter().zip(&due).enumerate() {
+            assert_eq!(found.name, format!("A.wall.{}", index + 1));
+            for (found, due) in [
+                (found.force_max_n, due.force_max_n),
+                (found.force_min_n, due.force_min_n),
+                (found.deformation_max, due.deformation_max),
+                (found.deformation_min, due.deformation_min),
+                (
+                    found.moment_max_n_m.expect("a wall"),
+                    due.moment_max_n_m.expect("a wall"),
+                ),
+                (
+                    found.moment_min_n_m.expect("a wall"),
+                    due.moment_min_n_m.expect("a wall"),
+                ),
+            ] {
+                assert!(
+                    due != 0.0 && (found / due - 1.0).abs() < 1e-7,
+                    "{turned} {index}: {found} for {due}"
+                );
+            }
+        }
+    }
+}
