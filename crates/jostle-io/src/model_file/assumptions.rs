@@ -1,9 +1,10 @@
-//! What a valid model assumes that few drawings say: gross sections, and beams without mass between their ends.
+//! What a valid model assumes that few drawings say: gross sections, beams without mass between their ends, bars that nothing is
+//! compared with.
 
 use jostle::hysteresis::{Hysteresis, Side};
 use jostle::{Frame, Hinges, Model, Structure};
 
-use super::Input;
+use super::{CapacityRequest, Input};
 use crate::quantity::{Dimension, parse_quantity};
 use crate::tree::{Node, Table, Value};
 
@@ -15,7 +16,22 @@ impl Input {
     /// sections that are not cracked, and beams without mass between their ends.
     #[must_use]
     pub fn assumptions(&self) -> Vec<String> {
-        of_model(&self.model, &self.origin.root)
+        let mut found = of_model(&self.model, &self.origin.root);
+        found.extend(self.unrated());
+        found
+    }
+
+    /// That bars and ties are known, and nobody asked for the forces that are compared with what they bear. `capacity = false` says
+    /// that this is meant.
+    #[must_use]
+    pub fn unrated(&self) -> Option<String> {
+        let is_known = self.reinforced.iter().any(|own| own.section.ties.is_some());
+        let is_asked = self.model.analysis.members.envelopes;
+        let is_left = is_known && !is_asked && self.capacity == CapacityRequest::WhereKnown;
+        is_left.then(|| {
+            "columns and beams have bars and ties, but are not compared with their capacity: add members = true under [output]"
+                .to_owned()
+        })
     }
 }
 

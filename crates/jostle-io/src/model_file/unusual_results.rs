@@ -40,6 +40,7 @@ impl Input {
     pub fn add_notes(&self, summary: &mut Summary) {
         let motion = self.unusual_peak(summary.motion.pga_m_s2);
         let notes = self.warnings.iter().cloned().chain(motion);
+        let notes = notes.chain(self.unrated());
         for note in notes {
             if !summary.notes.contains(&note) {
                 summary.notes.push(note);

@@ -125,3 +125,39 @@ fn buildings_that_share_an_assumption_share_its_line() {
         "stiffness_factor = {",
     );
 }
+
+/// Bars and ties are there to be compared with: whoever does not ask is told, for plane frames and space frames alike.
+#[test]
+fn bars_without_a_comparison_are_named() {
+    let bars = "steel = \"HRB400\", concrete = \"C30\", bars = \"12 d20\", ties = \"d10 @ 100 mm\"";
+    let plane = FRAME.replace(
+        "depth = \"500 mm\" }",
+        &format!("depth = \"500 mm\", {bars} }}"),
+    );
+    let space = format!(
+        r#"
+[[building]]
+name = "A"
+kind = "space-frame"
+storeys = 1
+storey_height = "3.2 m"
+lines_x = ["0 m", "6 m"]
+lines_y = ["0 m", "5 m"]
+elastic_modulus = "30 GPa"
+column = {{ size = ["500 mm", "500 mm"], {bars} }}
+beam_x = {{ width = "300 mm", depth = "600 mm" }}
+beam_y = {{ width = "300 mm", depth = "600 mm" }}
+mass = "30 t"
+"#
+    );
+    for model in [plane, space] {
+        let is_named = |more: &str| {
+            let found = assumptions(&format!("{model}{more}"));
+            found.iter().any(|text| text.contains("members = true"))
+        };
+        assert!(is_named(""));
+        for asked in ["members = true", "capacity = true", "capacity = false"] {
+            assert!(!is_named(&format!("\n[output]\n{asked}\n")), "{asked}");
+        }
+    }
+}

@@ -195,14 +195,14 @@ impl<'a> Cut<'a> {
             deepest: 0.0,
         };
         let bars = section.bars.iter();
-        let distances = bars.map(|bar| own.distance(own.from_corner([bar.depth, bar.x])));
+        let distances = bars.map(|bar| own.distance(own.measured_from_corner([bar.depth, bar.x])));
         own.deepest = distances.fold(0.0, f64::max);
         own
     }
 
     /// Distances from the corner with the greatest compression over depth and width, of a point below the top and from the
     /// left \[–\].
-    fn from_corner(&self, [depth, x]: [f64; 2]) -> [f64; 2] {
+    fn measured_from_corner(&self, [depth, x]: [f64; 2]) -> [f64; 2] {
         let shares = [depth / self.section.depth, x / self.section.width];
         let seen = |axis: usize| match self.direction[axis] >= 0.0 {
             true => shares[axis],
@@ -212,8 +212,8 @@ impl<'a> Cut<'a> {
     }
 
     /// Distance from that corner against the direction.
-    fn distance(&self, from_corner: [f64; 2]) -> f64 {
-        self.direction[0].abs() * from_corner[0] + self.direction[1].abs() * from_corner[1]
+    fn distance(&self, measured_from_corner: [f64; 2]) -> f64 {
+        self.direction[0].abs() * measured_from_corner[0] + self.direction[1].abs() * measured_from_corner[1]
     }
 
     /// Compression, and moments about both axes that stretch the bottom and the right side, for the strain of the corner with the
@@ -223,9 +223,9 @@ impl<'a> Cut<'a> {
         let curvature = (top - bar) / self.deepest;
         let strain = |distance: f64| top - curvature * distance;
         let mut sum = [0.0; 3];
-        let mut add = |force: f64, from_corner: [f64; 2]| {
+        let mut add = |force: f64, measured_from_corner: [f64; 2]| {
             let arm = |axis: usize, size: f64| {
-                let own = (0.5 - from_corner[axis]) * size;
+                let own = (0.5 - measured_from_corner[axis]) * size;
                 if self.direction[axis] >= 0.0 {
                     own
                 } else {
@@ -276,7 +276,7 @@ impl<'a> Cut<'a> {
             }
         }
         for bar in &section.bars {
-            let place = self.from_corner([bar.depth, bar.x]);
+            let place = self.measured_from_corner([bar.depth, bar.x]);
             let own = strain(self.distance(place));
             // Bars displace concrete.
             let displaced = if own > 0.0 {
