@@ -210,7 +210,16 @@ pub(super) fn read_section(
         let text = reader.text(&field)?;
         understood(reader, &field, Ties::parse(&text))
     });
-    let bars_field = reader.get(view, "bars")?;
+    let Some(bars_field) = reader.get(view, "bars") else {
+        // Without bars nothing would use them.
+        for key in ["steel", "ties", "cover"] {
+            if let Some(field) = reader.get(view, key) {
+                *reader.bad(&field, "needs bars") =
+                    Some("add bars = \"12 d20\", or leave it out".into());
+            }
+        }
+        return None;
+    };
     let bars = read_bars(reader, &bars_field);
     let [width, depth] = size(reader);
     let concrete = match grade {

@@ -170,6 +170,9 @@ hinge = { yield = 1, positive = { yield = 1 } }
 [[building.beam_y]]
 width = 1
 depth = 1
+concrete = "C30"
+steel = "HRB400"
+bars = { top = "4 d20", bottom = "4 d20" }
 [[building]]
 kind = "space-frame"
 storeys = 1

@@ -6,6 +6,7 @@ use jostle::results::summary::{MemberSummary, RatioSummary};
 use jostle_run::{Ran, summary_text};
 use jostle_section::capacity::{Interaction, ObliqueInteraction};
 use jostle_section::{Concrete, Reinforcement, Section, Steel, StrengthLevel};
+use jostle_testkit::files::{refusal, sound};
 
 use crate::support::{ran, ran_with};
 
@@ -315,4 +316,35 @@ fn a_slow_motion_along_a_diagonal_by_hand() {
         text.contains("capacity (gb50010)") && text.contains("A.column."),
         "{text}"
     );
+}
+
+/// What would not be used is refused; what is known is used.
+#[test]
+fn ties_need_bars_and_beams_have_them() {
+    let model = |column: &str| {
+        format!(
+            "[output]\ncapacity = \"aci318\"\n[[building]]\nname = \"A\"\nkind = \"space-frame\"\nstoreys = 1\nlines_x = [0, 6]\nlines_y = [0, 7]\nmass = \"60 t\"\nconcrete = \"C30\"\nbeam_x = {{ {BEAM} }}\nbeam_y = {{ width = 0.3, depth = 0.6 }}\ncolumn = {{ size = [0.5, 0.4]{column} }}\n"
+        )
+    };
+    for key in [
+        "ties = \"d10 @ 150 mm\"",
+        "steel = \"HRB400\"",
+        "cover = \"30 mm\"",
+    ] {
+        let said = refusal(&model(&format!(", {key}")));
+        assert!(said.contains("needs bars"), "{said}");
+    }
+    let input = sound(&model(""));
+    let names: Vec<&str> = (input.model.analysis.members.capacities.iter())
+        .map(|own| &own.member[..])
+        .collect();
+    assert_eq!(names, ["A.beam_x.1.1.1", "A.beam_x.1.1.2"]);
+    // Half the width of a column at either end.
+    for own in &input.reinforced {
+        assert!(
+            (own.clear_length - 5.5).abs() < 1e-12,
+            "{}",
+            own.clear_length
+        );
+    }
 }

@@ -1,7 +1,8 @@
 //! Walls of space frames: what they bear, against walls of frames at lines of a plan, and what a check says of them.
 
 use jostle::results::summary::PartSummary;
-use jostle_run::Ran;
+use jostle_run::{Opened, Ran, check};
+use jostle_testkit::files::sound;
 
 use crate::support::ran;
 
@@ -23,8 +24,8 @@ fn at_lines() -> Ran {
     shaken("", &building)
 }
 
-/// The same as a space frame, its walls along x, or turned by a quarter.
-fn in_space(turned: bool) -> Ran {
+/// The same as a space frame, its walls along x, or turned by a quarter; and a motion that goes with it.
+fn space_frame(turned: bool) -> (String, &'static str) {
     let (lines, wall, motion) = match turned {
         false => (
             "lines_x = [0, 6, 12]\nlines_y = [0, 7]",
@@ -40,6 +41,11 @@ fn in_space(turned: bool) -> Ran {
     let building = format!(
         "kind = \"space-frame\"\nconcrete = \"C30\"\n{lines}\nbeam_x = {{ {BEAM} }}\nbeam_y = {{ {BEAM} }}\ncolumn = {{ size = [0.5, 0.5] }}\n[[building.wall]]\n{wall}\nlength = 3\nthickness = 0.25\n"
     );
+    (building, motion)
+}
+
+fn in_space(turned: bool) -> Ran {
+    let (building, motion) = space_frame(turned);
     shaken(motion, &building)
 }
 
@@ -77,5 +83,35 @@ fn walls_bear_what_those_of_frames_at_lines_bear() {
                 );
             }
         }
+    }
+}
+
+#[test]
+fn a_check_names_walls_and_takes_their_arms_for_no_rigid_ends() {
+    for (ends, is_said) in [("", false), ("rigid_ends = 0.5\n", true)] {
+        let (building, _) = space_frame(false);
+        let building = building.replace("[[building.wall]]", &format!("{ends}[[building.wall]]"));
+        let opened = Opened::new(
+            sound(&format!("[[building]]\nname = \"A\"\n{COMMON}{building}")),
+            "model",
+        );
+        let opened = opened.unwrap_or_else(|error| panic!("{error}"));
+        let text = check(&opened)
+            .unwrap_or_else(|error| panic!("{error}"))
+            .text;
+        // Three storeys of four columns beside those of the walls.
+        for due in [
+            "3 storeys, 12 columns and 21 beams",
+            "wall 1 along x at x = 0 m, y = 0 m, storeys 1–3, 3 m long",
+            "wall 2 along x at x = 0 m, y = 7 m, storeys 1–3, 3 m long",
+        ] {
+            assert!(text.contains(due), "{due} in {text}");
+        }
+        assert_eq!(
+            text.contains("rigid ends up to 125 mm of beams"),
+            is_said,
+            "{text}"
+        );
+        assert!(is_said || !text.contains("rigid ends"), "{text}");
     }
 }
