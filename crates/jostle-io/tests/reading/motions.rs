@@ -136,7 +136,7 @@ fn components_are_listed_beside_their_records() {
     };
     let pair = "\"el-centro-1940-ns\", \"nanjing-artificial\"";
     let swapped = "\"nanjing-artificial\", \"el-centro-1940-ns\"";
-    let names = |input: &jostle_io::ModelInput| {
+    let names = |input: &jostle_io::Input| {
         let motion = input.ground_motion().expect("a motion");
         let across = motion.bearing.expect("across").across.expect("a motion");
         let vertical = motion.grounds.first().and_then(|own| own.vertical.as_ref());

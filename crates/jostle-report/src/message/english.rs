@@ -1154,6 +1154,8 @@ messages! {
     // jostle-study: suite
     peak_displacement_over_height = "Peak displacement";
     peak_storey_drift_over_height = "Peak storey drift";
+    peak_drift_of_corners_over_height = "Peak storey drift of corners";
+    peak_acceleration_across_over_height = "Peak total acceleration across";
     peak_total_acceleration_over_height = "Peak total acceleration";
     peak_storey_shear_over_height = "Peak storey shear";
     thin_records_heavy_mean = "Thin: records. Heavy: their mean. Dashed: mean plus and minus one standard deviation. With dots: mean of the runs without contact.";

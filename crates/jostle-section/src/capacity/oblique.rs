@@ -213,7 +213,8 @@ impl<'a> Cut<'a> {
 
     /// Distance from that corner against the direction.
     fn distance(&self, measured_from_corner: [f64; 2]) -> f64 {
-        self.direction[0].abs() * measured_from_corner[0] + self.direction[1].abs() * measured_from_corner[1]
+        self.direction[0].abs() * measured_from_corner[0]
+            + self.direction[1].abs() * measured_from_corner[1]
     }
 
     /// Compression, and moments about both axes that stretch the bottom and the right side, for the strain of the corner with the

@@ -38,7 +38,9 @@ pub(super) fn findings(records: &[RecordResult]) -> Vec<Finding> {
         }
         let mut finding = worst.finding.clone();
         let differ = same.iter().any(|other| other.finding.text != finding.text);
-        if differ || same.len() < records.len() {
+        // What is said of a record names it.
+        let is_named = same.len() == 1 && finding.text.contains(worst.motion);
+        if !is_named && (differ || same.len() < records.len()) {
             let (count, of) = (same.len(), records.len());
             finding.text += &format!(" – {}, in {count} of {of} records", worst.motion);
         }

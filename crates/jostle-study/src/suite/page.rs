@@ -29,7 +29,7 @@ struct Peak {
     of: fn(&Value) -> Option<f64>,
 }
 
-const PEAKS: [Peak; 4] = [
+const PEAKS: [Peak; 6] = [
     Peak {
         title: message::peak_displacement_over_height,
         unit: Some(LENGTH),
@@ -41,6 +41,18 @@ const PEAKS: [Peak; 4] = [
         unit: None,
         of_storey: true,
         of: |floor| floor["storey_drift_peak"].as_f64(),
+    },
+    Peak {
+        title: message::peak_drift_of_corners_over_height,
+        unit: None,
+        of_storey: true,
+        of: |floor| floor["storey_drift_corner_peak"].as_f64(),
+    },
+    Peak {
+        title: message::peak_acceleration_across_over_height,
+        unit: Some(ACCELERATION),
+        of_storey: false,
+        of: |floor| floor["total_acceleration_across_peak_m_s2"].as_f64(),
     },
     Peak {
         title: message::peak_total_acceleration_over_height,

@@ -22,6 +22,26 @@ const FLOOR: [(&str, &str); 4] = [
     ("overturning_moment_peak_n_m", "overturning_moment_peak_n_m"),
 ];
 
+/// Peaks of a building with a plan beside those along x.
+const PLAN: [&str; 6] = [
+    "drift_across_peak",
+    "drift_corner_peak",
+    "corner_displacement_peak_m",
+    "rotation_peak_rad",
+    "base_shear_across_peak_n",
+    "base_torque_peak_n_m",
+];
+
+/// The same of a floor.
+const FLOOR_IN_PLAN: [&str; 6] = [
+    "storey_drift_across_peak",
+    "storey_drift_corner_peak",
+    "corner_displacement_peak_m",
+    "total_acceleration_across_peak_m_s2",
+    "storey_shear_across_peak_n",
+    "storey_torque_peak_n_m",
+];
+
 /// All numbers of a summary, in a fixed order.
 pub(super) fn quantities(summary: &Value) -> Vec<Quantity> {
     let mut all = Vec::new();
@@ -77,6 +97,18 @@ pub(super) fn quantities(summary: &Value) -> Vec<Quantity> {
             format!("{name}.residual_drift_peak"),
             greatest(&|floor| floor["residual_drift"].as_f64().map(f64::abs)),
         );
+        add(
+            format!("{name}.total_acceleration_across_peak_m_s2"),
+            greatest(&|floor| floor["total_acceleration_across_peak_m_s2"].as_f64()),
+        );
+        let apart_in_plan = &building["without_contact_in_plan"];
+        for key in PLAN {
+            add(format!("{name}.{key}"), building[key].as_f64());
+            add(
+                format!("{name}.without_contact.{key}"),
+                apart_in_plan[key].as_f64(),
+            );
+        }
         let capacity = &building["capacity"];
         add(
             format!("{name}.capacity_ratio"),
@@ -107,6 +139,9 @@ pub(super) fn quantities(summary: &Value) -> Vec<Quantity> {
         );
         for floor in &floors {
             let place = format!("{name}.floor{}", floor["floor"].as_u64().unwrap_or(0));
+            for key in FLOOR_IN_PLAN {
+                add(format!("{place}.{key}"), floor[key].as_f64());
+            }
             for (owner, middle) in [
                 (*floor, ""),
                 (&floor["without_contact"], ".without_contact"),

@@ -28,10 +28,14 @@ pub(super) fn shown(name: &str) -> Shown {
     let own = |end, unit: shown::Shown, decimals| {
         (end, unit.of(1.0), unit.name(), unit.decimals(decimals))
     };
-    let forms: [(&str, f64, &str, usize); 10] = [
+    let forms: [(&str, f64, &str, usize); 14] = [
         ("drift_peak", 100.0, "%", 3),
+        ("drift_across_peak", 100.0, "%", 3),
+        ("drift_corner_peak", 100.0, "%", 3),
+        ("_rad", 1e3, "mrad", 2),
         own("_m_s2", ACCELERATION, 2),
         own("moment_peak_n_m", MOMENT, 0),
+        own("torque_peak_n_m", MOMENT, 0),
         own("_n", FORCE, 1),
         own("_m", LENGTH, 1),
         ("impact_count", 1.0, "", 1),
@@ -57,7 +61,7 @@ impl Shown {
 
 /// Quantities of the tables on screen and page, with their names in words: of every gap, then of every building.
 pub(super) fn headlines(results: &SuiteResults) -> Vec<(String, &QuantityStatistics)> {
-    const ENDS: [(&str, &str); 11] = [
+    const ENDS: [(&str, &str); 17] = [
         (".peak_force_n", "peak force"),
         (".impact_count", "impacts"),
         (".closing_peak_m", "peak closing"),
@@ -66,9 +70,18 @@ pub(super) fn headlines(results: &SuiteResults) -> Vec<(String, &QuantityStatist
             "gap needed, sign as in the model",
         ),
         (".roof_displacement_peak_m", "roof displacement"),
+        (".corner_displacement_peak_m", "displacement of corners"),
         (".drift_peak", "storey drift"),
+        (".drift_across_peak", "storey drift across"),
+        (".drift_corner_peak", "storey drift of corners"),
         (".total_acceleration_peak_m_s2", "floor acceleration"),
+        (
+            ".total_acceleration_across_peak_m_s2",
+            "floor acceleration across",
+        ),
         (".base_shear_peak_n", "base shear"),
+        (".base_shear_across_peak_n", "base shear across"),
+        (".base_torque_peak_n_m", "base torque"),
         (".ductility", "ductility"),
         (".capacity_ratio", "demand over capacity of members"),
         (".residual_drift_peak", "residual drift"),
@@ -187,7 +200,9 @@ impl SuiteResults {
             )?;
             for name in &buildings {
                 let index = self.records.iter().position(|r| std::ptr::eq(r, record));
-                let drift = self.quantity(&format!("{name}.drift_peak"));
+                // Of a building with a plan, that of its corners.
+                let of = |key: &str| self.quantity(&format!("{name}.{key}"));
+                let drift = of("drift_corner_peak").or_else(|| of("drift_peak"));
                 let drift = drift.zip(index).and_then(|(q, index)| q.values[index]);
                 write!(text, "  {:>10.3} %", 100.0 * drift.unwrap_or(f64::NAN))?;
             }

@@ -307,7 +307,11 @@ fn walk(law: &ForceLaw, reversals: &[f64], mut take: impl FnMut(f64, f64, f64)) 
 
 fn crushing(force: f64, hardening: f64) -> ContactLaw {
     law(
-        LawKind::Crushing(Crush { force, hardening }),
+        LawKind::Crushing(Crush {
+            force,
+            hardening,
+            hertzian: false,
+        }),
         1.0,
         RestitutionIs::Input,
     )
@@ -407,6 +411,7 @@ fn shared_constants_add_up() {
         LawKind::Crushing(Crush {
             force: 2e5,
             hardening: 0.1,
+            hertzian: false,
         }),
         LawKind::Hertz,
     ];

@@ -693,7 +693,7 @@ fn what_a_foundation_in_plan_cannot_have_is_refused() {
     };
     let mut lifts = sound.clone();
     foundation_of(&mut lifts, &|own| {
-        own.uplift = Some(jostle::Uplift::with_springs(5))
+        own.uplift = Some(jostle::Uplift::with_springs(5));
     });
     let mut negative = sound.clone();
     foundation_of(&mut negative, &|own| own.torsional_damping = Some(-1.0));
