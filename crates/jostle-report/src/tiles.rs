@@ -117,13 +117,6 @@ fn width(gap: &GapSummary) -> f64 {
 
 /// The greatest drift of all buildings, and what is left of it where something yields.
 fn drift(summary: &Summary) -> Vec<Tile> {
-    let of_floor = |floor: &FloorSummary| {
-        let across = floor
-            .in_plan
-            .as_ref()
-            .map(|own| own.storey_drift_corner_peak);
-        floor.response.storey_drift_peak.max(across.unwrap_or(0.0))
-    };
     let residual = |floor: &FloorSummary| floor.response.residual_drift.abs();
     let greatest = |of: &dyn Fn(&FloorSummary) -> f64| {
         let floors = summary.buildings.iter().flat_map(|building| {
@@ -140,7 +133,7 @@ fn drift(summary: &Summary) -> Vec<Tile> {
     };
     let yields = summary.buildings.iter().any(|own| own.hinges.yielded > 0);
     let left = yields.then(|| of(message::residual_drift_of_all(), &residual));
-    let peak = of(message::greatest_drift(), &of_floor);
+    let peak = of(message::greatest_drift(), &FloorSummary::greatest_drift);
     peak.into_iter().chain(left.flatten()).collect()
 }
 

@@ -59,14 +59,14 @@ pub fn verdict(summary: &Summary) -> String {
 
 /// Whether a building drifts further than its model holds (check B2).
 pub(crate) fn is_outside(building: &BuildingSummary) -> bool {
-    building.response.drift_peak > OUTSIDE_DRIFT
+    building.greatest_drift() > OUTSIDE_DRIFT
 }
 
 /// What stands above results that are outside the model; `None` within it.
 pub(crate) fn outside(summary: &Summary) -> Option<String> {
     let buildings = summary.buildings.iter().filter(|own| is_outside(own));
     let found: Vec<String> = buildings
-        .map(|own| message::drift_of(&own.name, format::percent(own.response.drift_peak)))
+        .map(|own| message::drift_of(&own.name, format::percent(own.greatest_drift())))
         .collect();
     let limit = format::percent(OUTSIDE_DRIFT);
     (!found.is_empty()).then(|| message::results_are_outside(found.join(", "), limit))

@@ -73,7 +73,7 @@ fn compare(runs: [&Summary; 3]) -> IsolationBounds {
             name: own[0].name.clone(),
             stroke_m: isolated(stroke),
             force_n: isolated(force),
-            drift: Bounded::new(own.map(|run| run.response.drift_peak)),
+            drift: Bounded::new(own.map(BuildingSummary::greatest_drift)),
         }
     };
     let gap = |index: usize| {

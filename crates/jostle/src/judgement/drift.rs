@@ -12,10 +12,7 @@ pub(super) fn peak(known: &Known<'_>, tally: &mut Tally<'_>) {
     };
     for own in &summary.buildings {
         for floor in &own.floors {
-            let corner = floor
-                .in_plan
-                .map_or(0.0, |own| own.storey_drift_corner_peak);
-            let drift = floor.response.storey_drift_peak.max(corner);
+            let drift = floor.greatest_drift();
             tally.add(drift, || {
                 let place = format!("{}, storey {}", own.name, floor.floor);
                 let beyond = match drift > super::table::OUTSIDE_DRIFT {

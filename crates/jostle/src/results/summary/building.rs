@@ -82,6 +82,17 @@ pub struct BuildingSummary {
     pub capacity: Option<CapacitySummary>,
 }
 
+impl BuildingSummary {
+    /// Greatest drift ratio of any storey anywhere: along the row, and at the corners of a plan \[–\].
+    #[must_use]
+    pub fn greatest_drift(&self) -> f64 {
+        let storeys = self.floors.iter().filter(|floor| floor.floor > 0);
+        storeys
+            .map(FloorSummary::greatest_drift)
+            .fold(0.0, f64::max)
+    }
+}
+
 #[rustfmt::skip]
 impl BuildingSummary {
     /// Numbers that do not depend on the motion.
@@ -117,6 +128,13 @@ pub struct FloorSummary {
 }
 
 impl FloorSummary {
+    /// Greatest drift ratio of the storey below anywhere: along the row, and at the corners of a plan \[–\].
+    #[must_use]
+    pub fn greatest_drift(&self) -> f64 {
+        let corner = self.in_plan.map_or(0.0, |own| own.storey_drift_corner_peak);
+        self.response.storey_drift_peak.max(corner)
+    }
+
     /// Greatest displacement of the centre of mass in a horizontal direction, either sign, without contact if that run exists \[m\].
     ///
     /// Along neither axis it is a bound: the greatest displacements along both, at whatever instants.
