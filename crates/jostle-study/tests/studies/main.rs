@@ -11,4 +11,5 @@ mod ready_made;
 mod scan;
 mod size;
 mod studies;
+mod suites_in_plan;
 mod trends;
