@@ -281,16 +281,18 @@ fn read(
         }
         // Those of a plan are part of it.
         Structure::Tiers(_) => {
-            let here = (reader.count_faults() == noted && is_sound(&building))
-                .then(|| reinforced::members_in_plan(index, &building, &bars_in_plan));
+            let firm = on_firm_ground(&building);
+            let here = (reader.count_faults() == noted && is_sound(&firm))
+                .then(|| reinforced::members_in_plan(index, &firm, &bars_in_plan));
             members.extend(sound_members(reader, &view, here).unwrap_or_default());
             None
         }
         Structure::Given(_) => None,
         Structure::Frame(frame) => {
             let reinforced = reinforced::read(reader, &view, frame);
-            let here = (reader.count_faults() == noted && is_sound(&building))
-                .then(|| reinforced::members(index, &building, &reinforced));
+            let firm = on_firm_ground(&building);
+            let here = (reader.count_faults() == noted && is_sound(&firm))
+                .then(|| reinforced::members(index, &firm, &reinforced));
             let here = sound_members(reader, &view, here);
             let hinges = stated
                 .as_ref()
@@ -334,6 +336,14 @@ fn sound_members(
             None
         }
     }
+}
+
+/// The building on rigid ground: its soil is not read yet. One rigid foundation under all columns leaves their shares of the weight
+/// nearly as they are.
+fn on_firm_ground(building: &Building) -> Building {
+    let mut firm = building.clone();
+    firm.base.foundation = None;
+    firm
 }
 
 /// Whether a building by itself would pass the check of a model.

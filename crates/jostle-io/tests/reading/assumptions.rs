@@ -150,7 +150,15 @@ beam_y = {{ width = "300 mm", depth = "600 mm" }}
 mass = "30 t"
 "#
     );
-    for model in [plane, space] {
+    // On soil as well, which is read after the bars.
+    let soil = "[building.foundation]\nlength = \"14 m\"\nwidth = \"8 m\"\nmass = \"120 t\"\n\
+        [soil]\nshear_wave_velocity = \"250 m/s\"\ndensity = \"1900 kg/m3\"\npoisson_ratio = 0.33\n";
+    let grounded = |model: &str| {
+        let damped = "damping = { ratio = 0.05, relative_to = \"ground\" }\n";
+        [format!("{model}{soil}"), format!("{model}{damped}{soil}")]
+    };
+    let on_soil = [grounded(&plane), grounded(&space)].concat();
+    for model in [vec![plane, space], on_soil].concat() {
         let is_named = |more: &str| {
             let found = assumptions(&format!("{model}{more}"));
             found.iter().any(|text| text.contains("members = true"))
