@@ -95,7 +95,7 @@ pub fn render_suite(page: &SuitePage) -> String {
                 }
                 main {
                     p.verdict { (page.headline) }
-                    @if !page.accuracy.is_empty() { p.quiet { (page.accuracy) } }
+                    @if !page.accuracy.is_empty() { p.quiet { b { (message::accuracy()) " " } (page.accuracy) "." } }
                     (quantities(page))
                     (records(page))
                     (checks::found(&page.checks, &[]))

@@ -95,7 +95,9 @@ impl SuiteResults {
             title: self.title.clone(),
             headline: self.governing.in_words(self.records.len()),
             warnings: self.warnings.clone(),
-            accuracy: self.accuracy_in_words().unwrap_or_default(),
+            accuracy: self.accuracy_in_words().map_or_else(String::new, |words| {
+                words.trim_start_matches("accuracy: ").to_owned()
+            }),
             checks: self.checks.clone(),
             records: self.rows(links),
             quantities: self.quantity_rows(),

@@ -86,12 +86,24 @@ pub(super) fn headlines(results: &SuiteResults) -> Vec<(String, &QuantityStatist
         (".capacity_ratio", "demand over capacity of members"),
         (".residual_drift_peak", "residual drift"),
     ];
+    // Peaks that are those along x, where a building has others.
+    const ALONG: [&str; 4] = [
+        ".roof_displacement_peak_m",
+        ".drift_peak",
+        ".total_acceleration_peak_m_s2",
+        ".base_shear_peak_n",
+    ];
     let all = results.quantities.iter().filter_map(|quantity| {
         let owned = ENDS.iter().find_map(|(end, words)| {
             let owner = quantity.name.strip_suffix(end)?;
             // Floors and the run without contact have names of more parts.
             let plain = !owner.ends_with(".without_contact") && !is_floor(owner);
-            plain.then(|| format!("{owner}, {words}"))
+            let is_in_plan = results.quantity(&format!("{owner}.drift_across_peak"));
+            let along = match is_in_plan.is_some() && ALONG.contains(end) {
+                true => " along x",
+                false => "",
+            };
+            plain.then(|| format!("{owner}, {words}{along}"))
         })?;
         Some((owned, quantity))
     });
