@@ -546,7 +546,7 @@ fn an_interrupted_curve_keeps_what_is_done() {
     let output = child.wait_with_output().expect("its end");
     assert_eq!(output.status.code(), Some(130), "{}", complained(&output));
     assert!(
-        complained(&output).contains("the curves of the records before are in"),
+        complained(&output).contains("stopped: what follows lacks the records"),
         "{}",
         complained(&output)
     );

@@ -343,6 +343,7 @@ fn sound_members(
 fn on_firm_ground(building: &Building) -> Building {
     let mut firm = building.clone();
     firm.base.foundation = None;
+    firm.mass_damping = MassDamping::default();
     firm
 }
 

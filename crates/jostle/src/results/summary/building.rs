@@ -86,10 +86,8 @@ impl BuildingSummary {
     /// Greatest drift ratio of any storey anywhere: along the row, and at the corners of a plan \[–\].
     #[must_use]
     pub fn greatest_drift(&self) -> f64 {
-        let storeys = self.floors.iter().filter(|floor| floor.floor > 0);
-        storeys
-            .map(FloorSummary::greatest_drift)
-            .fold(0.0, f64::max)
+        let corner = self.in_plan.map_or(0.0, |own| own.drift_corner_peak);
+        self.response.drift_peak.max(corner)
     }
 }
 
