@@ -228,7 +228,16 @@ fn a_run_says_which_member_goes_first() {
 fn nothing_is_said_unless_asked_for() {
     let ran = run("", "members = false");
     let summary = ran.summary();
-    assert!(!summary_text(&summary, &ran.prepared.input).contains("capacity"));
+    // But that nobody asked.
+    let said = summary_text(&summary, &ran.prepared.input);
+    let lines: Vec<&str> = said
+        .lines()
+        .filter(|line| line.contains("capacity"))
+        .collect();
+    assert!(
+        matches!(lines[..], [line] if line.contains("add members = true")),
+        "{lines:?}"
+    );
     let json = summary_json(&summary);
     assert!(!json.contains("\"ratio\"") && !json.contains("\"capacity\""));
 }

@@ -294,6 +294,12 @@ fn every_number_of_the_summary_is_in_the_registry_and_the_other_way_round() {
     let isolated_in_space = serde_json::to_value(summary_of(ISOLATED_IN_SPACE));
     let isolated_in_space = isolated_in_space.expect("a summary is JSON");
     let founded = serde_json::to_value(summary_of(FOUNDED)).expect("a summary is JSON");
+    let founded_in_space = FOUNDED.replace(
+        "stiffness = \"200 MN/m\"",
+        "plan = [\"12 m\", \"10 m\"]\nstiffness = { x = \"200 MN/m\", y = \"200 MN/m\", torsion = \"9 GN.m/rad\" }",
+    );
+    let founded_in_space = serde_json::to_value(summary_of(&founded_in_space));
+    let founded_in_space = founded_in_space.expect("a summary is JSON");
     let delayed = serde_json::to_value(summary_of(DELAYED)).expect("a summary is JSON");
     let delayed_in_space = IN_SPACE.replacen(
         "[[building]]\n",
@@ -330,6 +336,9 @@ fn every_number_of_the_summary_is_in_the_registry_and_the_other_way_round() {
         } else if owner.title == "Ground in plan" {
             let same_key = all.iter().filter(|other| other.key == owner.key);
             compare(&delayed_in_space, &same_key.collect::<Vec<_>>());
+        } else if owner.title == "Foundations in plan" {
+            let same_key = all.iter().filter(|other| other.key == owner.key);
+            compare(&founded_in_space, &same_key.collect::<Vec<_>>());
         } else if in_space(&owner) {
             // The same objects have the numbers of one plane as well.
             let same_key = all.iter().filter(|other| other.key == owner.key);
