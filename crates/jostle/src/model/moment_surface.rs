@@ -7,9 +7,9 @@ use super::CapacityLine;
 
 /// Moment capacities in all directions against the compression.
 ///
-/// A moment in the first plane and one across are a vector. The surface has its greatest length in some directions, at equal
-/// angles from the first plane all round, each as a line over the compression; between two of them it is the straight line
-/// that joins their ends, so that it lies within a surface that is convex there.
+/// A moment in the first plane and one across are a vector. Its greatest length is known in some directions, at equal angles from
+/// the first plane all round, as a line over the compression. Between two directions the edge is straight: where the true surface
+/// is convex, this one lies within it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MomentSurface {
     lines: Arc<[CapacityLine]>,
