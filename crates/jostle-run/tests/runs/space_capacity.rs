@@ -263,8 +263,8 @@ fn a_mirrored_motion_has_mirrored_ratios() {
 }
 
 /// A single storey on four square columns between stiff beams, moved so slowly along a diagonal of its plan that its floor bears m a at
-/// every instant: V = m a/4 along the diagonal and M = V h/2 at foot and head; the column at the corner ahead bears m g/4 and what the
-/// couple m a h − 4 M of all feet presses on it, a quarter of it per span along either axis.
+/// every instant. Each column bears V = m a/4 along the diagonal, and M = V h/2 at foot and head. The column at the corner ahead bears m g/4
+/// besides. The couple m a h − 4 M presses on it too, with a quarter of itself per span along either axis.
 #[test]
 fn a_slow_motion_along_a_diagonal_by_hand() {
     let [mass, height, span, amplitude] = [100e3, 3.5, 6.0, 3.0_f64];
