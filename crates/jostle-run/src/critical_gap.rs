@@ -158,7 +158,7 @@ pub struct GapProgress {
 /// What a search has found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GapSearch {
-    /// Gaps in the order of the model. Of the last one outcomes or the curve are missing where the search was stopped.
+    /// Gaps in the order of the model. Where the search was stopped, the last one lacks its curve, and outcomes that are not known.
     pub gaps: Vec<CriticalGap>,
     /// Whether it was stopped before its end.
     pub stopped: bool,
@@ -572,10 +572,15 @@ impl Search<'_> {
                     needs: rule.needs,
                 })
                 .collect(),
-            curve: curve
-                .iter()
-                .filter_map(|width| signs[0].known_at(*width))
-                .collect(),
+            // A part of a curve would be taken for all of it.
+            curve: if stopped {
+                Vec::new()
+            } else {
+                let points = curve.iter();
+                points
+                    .filter_map(|width| signs[0].known_at(*width))
+                    .collect()
+            },
         };
         Ok((found, stopped))
     }

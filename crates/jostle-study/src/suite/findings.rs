@@ -129,7 +129,7 @@ mod tests {
                     check(drift, "warning", 9.0, "J2")
                 ]),
             ),
-            record("c", json!([check("lightly-damped", "remark", 1.5, "J1")])),
+            record("c", json!([check("modal-damping", "remark", 1.5, "J1")])),
         ];
         let texts: Vec<String> = findings(&records).into_iter().map(|f| f.text).collect();
         assert_eq!(
