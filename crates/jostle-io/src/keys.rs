@@ -1062,8 +1062,8 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Joint, "rotational_stiffness", WordOr("rigid", D::RotationalStiffness), "\"rigid\"", "Rotational stiffness of the hinge between beam end and column.").usual("a rotational stiffness", 1e4, 1e12),
 
     default(S::Damping, "ratio", Quantity(D::Dimensionless), "0.05", "Fraction of critical damping in the modes below.").usual("a damping ratio", 1e-4, 1.0),
-    default(S::Damping, "along", Choice(&["x"]), "\"x\"", "With a plan: modes are counted as if the building swayed along x only."),
-    default(S::Damping, "modes", Modes, "[1, 3]; [1, 2] with two lateral modes, [1] with one", "Lateral modes that have this ratio. \"all\": same ratio in every mode (elastic buildings, modal solver only)."),
+    default(S::Damping, "along", Choice(&["x", "y", "both"]), "\"x\"", "With a plan: modes are counted as if the building swayed that way only. \"both\": the lower frequency of the first mode and the higher one of the second, so that no mode between them has more than the ratio either way."),
+    default(S::Damping, "modes", Modes, "[1, 3]; [1, 2] with two lateral modes, [1] with one", "Lateral modes that have this ratio. Where fewer than two carry 1 % of the mass, as above a soft storey, further modes of sway count. \"all\": same ratio in every mode (elastic buildings, modal solver only)."),
     optional(S::Damping, "alpha", Quantity(D::Frequency), "Rayleigh coefficient on the masses, instead of ratio.").usual("a Rayleigh coefficient", 1e-4, 100.0),
     optional(S::Damping, "beta", Quantity(D::Time), "Rayleigh coefficient on the stiffness, instead of ratio.").usual("a Rayleigh coefficient", 1e-7, 1.0),
     default(S::Damping, "relative_to", Choice(&["foundation", "ground"]), "\"foundation\"", "On a foundation: what damping in proportion to mass acts relative to. \"foundation\" does not damp a building that sways and rocks as a rigid body; \"ground\" damps every mass and rotary inertia."),

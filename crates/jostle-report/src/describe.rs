@@ -312,7 +312,7 @@ fn damping(damping: &Damping, rayleigh: Option<(f64, f64)>) -> String {
     match damping {
         Damping::AllModes { ratio } => message::in_all_modes(format::plain(ratio * 100.0, 3)),
         Damping::Rayleigh { alpha, beta } => message::rayleigh_beta(coefficients(*alpha, *beta)),
-        Damping::Ratio { ratio, modes } => {
+        Damping::Ratio { ratio, modes, .. } => {
             let modes: Vec<String> = modes.iter().map(usize::to_string).collect();
             if modes.is_empty() {
                 let used = rayleigh

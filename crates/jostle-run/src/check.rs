@@ -6,12 +6,13 @@ mod hinges;
 mod losses;
 mod motion;
 
+use std::f64::consts::PI;
 use std::fmt::Write;
 
 use jostle::eigen::Mode;
 use jostle::hysteresis::Side;
 use jostle::judgement::Stated;
-use jostle::model::{Damping, Structure, Tiers, usual_damping_modes};
+use jostle::model::{Damping, Structure, Sway, Tiers};
 use jostle::system::BuildingSystem;
 use jostle::{Building, LinkLaw, Model, SpaceMember, SpacePlace, SpaceWall, System};
 
@@ -716,23 +717,37 @@ fn describe_building(
     let damped = match damping {
         Damping::AllModes { ratio } => format!("damping {} % in every mode", percent(*ratio)),
         Damping::Rayleigh { .. } => "Rayleigh damping".to_owned(),
-        Damping::Ratio { ratio, modes } => {
+        Damping::Ratio { ratio, modes, sway } => {
             let is_isolated = building.discretization.mat.is_some();
-            let named = match &modes[..] {
-                [] if is_isolated => &[1],
-                [] => usual_damping_modes(lateral),
-                modes => modes,
+            let damped = building.damped_at.iter();
+            let numbers: Vec<usize> = match &modes[..] {
+                [] if is_isolated => vec![1],
+                [] => damped.clone().map(|(number, _)| *number).collect(),
+                modes => modes.to_vec(),
             };
-            let modes: Vec<String> = named.iter().map(usize::to_string).collect();
+            let in_plane = !building.is_in_space();
+            // Modes with less than 1 % of the mass have no period among those above.
+            let kind = match in_plane && numbers.iter().any(|number| *number > lateral) {
+                true => "sway",
+                false => "lateral",
+            };
+            let periods = damped.map(|(_, frequency)| decimals(2.0 * PI / frequency, 4));
+            let periods: Vec<String> = periods.filter(|_| kind == "sway").collect();
+            let modes: Vec<String> = numbers.iter().map(usize::to_string).collect();
             let plural = if modes.len() == 1 { "" } else { "s" };
             format!(
-                "Rayleigh damping {} % in lateral mode{plural} {}{}{}:",
+                "Rayleigh damping {} % in {kind} mode{plural} {}{}{}{}:",
                 percent(*ratio),
                 modes.join(" and "),
-                if building.is_in_space() {
-                    " of those along x"
-                } else {
-                    ""
+                match periods.is_empty() {
+                    true => String::new(),
+                    false => format!(" ({} s)", periods.join(" and ")),
+                },
+                match sway {
+                    _ if in_plane => "",
+                    Sway::Along => " of those along x",
+                    Sway::Across => " of those along y",
+                    Sway::Both => " of those along x and y",
                 },
                 if is_isolated {
                     " of the building fixed on its mat"

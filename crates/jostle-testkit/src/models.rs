@@ -2,13 +2,14 @@
 
 use jostle::{
     Building, ContactLaw, Damping, Frame, LawKind, PlanPoint, RestitutionIs, Section, Shear,
-    Structure,
+    Structure, Sway,
 };
 
 /// Damping of 5 % in the usual modes.
 pub const FIVE_PERCENT: Damping = Damping::Ratio {
     ratio: 0.05,
     modes: Vec::new(),
+    sway: Sway::Along,
 };
 
 /// No damping.

@@ -232,10 +232,7 @@ fn free_decay(basic: &Value) -> Row {
 fn rayleigh(basic: &Value) -> Vec<Row> {
     let value = |name: &str| number(basic, &format!("/rayleigh/{name}"));
     let mut frame = frames::stored("B_2bay5");
-    let damping = Damping::Ratio {
-        ratio: value("z1"),
-        modes: vec![1, 2],
-    };
+    let damping = Damping::ratio(value("z1"), [1, 2]);
     frame
         .damp(&damping)
         .expect("the frame has two lateral modes");

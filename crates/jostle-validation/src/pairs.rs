@@ -76,10 +76,10 @@ fn building(random: &mut Random, name: &str) -> Building {
             stiffness: vec![mass * (2.0 * PI / period / slowest).powi(2); storeys],
             storey_heights: vec![3.0; storeys],
         }),
-        damping: Damping::Ratio {
-            ratio: random.between(0.02, 0.07),
-            modes: if storeys > 1 { vec![1, 2] } else { vec![1] },
-        },
+        damping: Damping::ratio(
+            random.between(0.02, 0.07),
+            if storeys > 1 { vec![1, 2] } else { vec![1] },
+        ),
         ..Building::default()
     }
 }

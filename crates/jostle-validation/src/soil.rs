@@ -130,10 +130,7 @@ fn one_mass(case: &Value) -> Model {
                 stiffness: vec![number(inputs, "/stiffness_n_m")],
                 storey_heights: vec![number(inputs, "/height_m")],
             }),
-            damping: Damping::Ratio {
-                ratio: number(inputs, "/damping_ratio"),
-                modes: vec![1],
-            },
+            damping: Damping::ratio(number(inputs, "/damping_ratio"), [1]),
             base: foundation(number(on, "/mass_kg"), number(on, "/rotary_inertia_kg_m2")),
             ..Building::default()
         }],

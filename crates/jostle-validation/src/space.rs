@@ -639,10 +639,7 @@ fn polygons() -> Vec<Row> {
                     storey_heights: vec![3.0],
                     ..Tiers::default()
                 }),
-                damping: Damping::Ratio {
-                    ratio: 0.05,
-                    modes: Vec::new(),
-                },
+                damping: Damping::ratio(0.05, []),
                 ..Building::default()
             }
         };

@@ -23,7 +23,7 @@
 //!             stiffness: vec![stiffness; storeys],
 //!             storey_heights: vec![3.2; storeys],
 //!         }),
-//!         damping: Damping::Ratio { ratio: 0.05, modes: Vec::new() },
+//!         damping: Damping::ratio(0.05, []),
 //!         ..Building::default()
 //!     }
 //! }
@@ -122,7 +122,7 @@ pub use model::{
     PlanContact, PlanFoundationSprings, PlanFrame, PlanPoint, PlanSpring, ProportionalDamping,
     Rise, Section, Shear, ShearEnds, ShearSpring, SlidingSurface, Soil, SoilCoupling, Solver,
     SpaceFrame, SpaceMember, SpacePlace, SpaceSection, SpaceWall, SpeedFriction, Stop, Structure,
-    Tier, TierStorey, Tiers, Uplift, Wall,
+    Sway, Tier, TierStorey, Tiers, Uplift, Wall,
 };
 pub use motion::{Bearing, GroundMotion, GroundPath, GroundPoint, Grounds, OwnGround, Wave};
 pub use quantity::{Quantity, Unit};

@@ -4,7 +4,7 @@ use jostle::model::{FrameHinges, Hinges};
 use jostle::separation::BuildingCodes;
 use jostle::{
     AcrossBase, Base, Building, Damping, Gravity, MassDamping, Model, PlanPoint,
-    ProportionalDamping, Structure,
+    ProportionalDamping, Structure, Sway,
 };
 
 use super::damper::{self, Damper};
@@ -491,10 +491,7 @@ fn read_damping(
     floors: usize,
     is_shear: bool,
 ) -> (Damping, Option<ProportionalDamping>) {
-    let usual = Damping::Ratio {
-        ratio: 0.05,
-        modes: Vec::new(),
-    };
+    let usual = Damping::ratio(0.05, []);
     let Some(field) = reader.get(view, "damping") else {
         return (usual, None);
     };
@@ -512,9 +509,13 @@ fn read_damping(
         let field = reader.get(&view, key)?;
         reader.quantity(&field, dimension)
     };
-    if let Some(field) = reader.get(&view, "along") {
-        reader.choice(&field, &["x"], &[]);
-    }
+    let sway = reader.get(&view, "along").and_then(|field| {
+        match reader.choice(&field, &["x", "y", "both"], &[])? {
+            "y" => Some(Sway::Across),
+            "both" => Some(Sway::Both),
+            _ => Some(Sway::Along),
+        }
+    });
     let alpha = number(reader, "alpha", Dimension::Frequency);
     let beta = number(reader, "beta", Dimension::Time);
     let ratio = number(reader, "ratio", Dimension::Dimensionless);
@@ -535,8 +536,8 @@ fn read_damping(
         modes
     });
     if view.has("alpha") || view.has("beta") {
-        if view.has("ratio") || view.has("modes") {
-            *reader.bad(&field, "mixes ratio and modes with alpha and beta") =
+        if ["ratio", "modes", "along"].iter().any(|key| view.has(key)) {
+            *reader.bad(&field, "mixes ratio, modes and along with alpha and beta") =
                 Some("keep either ratio and modes, or alpha and beta".into());
         }
         let damping = Damping::Rayleigh {
@@ -550,7 +551,11 @@ fn read_damping(
         Damping::AllModes { ratio }
     } else {
         let modes = modes.unwrap_or_default();
-        Damping::Ratio { ratio, modes }
+        Damping::Ratio {
+            ratio,
+            modes,
+            sway: sway.unwrap_or_default(),
+        }
     };
     (damping, on_yielding)
 }

@@ -6,6 +6,7 @@ mod bearings;
 mod capacity;
 mod codes;
 mod damage;
+mod damped_modes;
 mod defaults;
 mod diagonals;
 mod faults;

@@ -92,13 +92,7 @@ fn paper_example_is_as_documented() {
         "2500 kg/m3 × 0.25 m2"
     );
     assert_eq!(f1.beam_mass, [5850.0; 5]);
-    assert_eq!(
-        j2.damping,
-        Damping::Ratio {
-            ratio: 0.05,
-            modes: vec![1, 3]
-        }
-    );
+    assert_eq!(j2.damping, Damping::ratio(0.05, [1, 3]));
     let gap = &input.model.gaps[0];
     assert_eq!(
         (gap.between, &gap.floors),

@@ -27,10 +27,7 @@ fn tower(name: &str, mass: f64, stiffness: f64) -> Building {
             stiffness: vec![stiffness; 3],
             storey_heights: vec![3.2; 3],
         }),
-        damping: Damping::Ratio {
-            ratio: 0.05,
-            modes: Vec::new(),
-        },
+        damping: Damping::ratio(0.05, []),
         ..Building::default()
     }
 }

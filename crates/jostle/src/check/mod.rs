@@ -19,7 +19,7 @@ use neighbours::check_neighbours;
 
 use crate::model::{
     Base, Building, Damping, Diagonal, DiagonalPlace, Frame, FrameHinges, Hinges, Model,
-    ModelFault, Shear, ShearSpring, Structure, WALL,
+    ModelFault, Shear, ShearSpring, Structure, Sway, WALL,
 };
 
 /// Collects faults under the path of the part being checked.
@@ -155,7 +155,7 @@ fn check_building(faults: &mut Faults, path: &str, building: &Building) {
         }
     }
     match &building.damping {
-        Damping::Ratio { ratio, modes } => {
+        Damping::Ratio { ratio, modes, sway } => {
             let field = format!("{path}.damping");
             faults.require((0.0..1.0).contains(ratio), format!("{field}.ratio"), || {
                 format!("must lie between 0 and 1 (0.05 is 5 % of critical), found {ratio}")
@@ -166,6 +166,12 @@ fn check_building(faults: &mut Faults, path: &str, building: &Building) {
             faults.require(usable, format!("{field}.modes"), || {
                 format!("takes one lateral mode, or two different ones in rising order, counted from 1; found {modes:?}")
             });
+            let has_plan = matches!(building.structure, Structure::Tiers(_));
+            faults.require(
+                *sway == Sway::Along || has_plan,
+                format!("{field}.along"),
+                || "is for buildings with a plan; leave it out".into(),
+            );
         }
         Damping::AllModes { ratio } => {
             faults.require(

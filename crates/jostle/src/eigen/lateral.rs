@@ -1,6 +1,6 @@
 //! Modes excited by horizontal ground motion, by Lanczos' method.
 
-use super::{LATERAL_SHARE, Mode, tridiagonal};
+use super::{LATERAL_SHARE, Mode, modes, tridiagonal};
 use crate::linear::full_matrix::{FullMatrix, PivotedLu};
 use crate::linear::sort_by;
 use crate::linear::{NotPositive, Row, StepMatrix};
@@ -36,6 +36,40 @@ pub(crate) fn lateral_modes_along(
 ) -> Result<Vec<Mode>, NotPositive> {
     excited(building, sweep, &building.equations.driven_mass)
         .map(|modes| modes.into_iter().filter(Mode::is_lateral).collect())
+}
+
+/// The first modes of sway along the row, at most `count`, longest period first: lateral ones, and those that carry less than 1 % of
+/// the mass but whose kinetic energy is mostly that of motion along the row, as of the higher modes above a soft storey.
+///
+/// # Errors
+/// [`NotPositive`] when the building can move without deforming.
+pub(crate) fn sway_modes(
+    building: &AssembledBuilding,
+    count: usize,
+) -> Result<Vec<Mode>, NotPositive> {
+    let equations = &building.equations;
+    let masses = equations.mass.iter().filter(|mass| **mass > 0.0).count();
+    // Shapes have a mass of 1 kg.
+    let is_sway = |mode: &Mode| {
+        let along = equations.mass.iter().zip(&equations.driven_mass);
+        let energies = along
+            .zip(&mode.shape)
+            .map(|((mass, driven), own)| match *driven {
+                driven if driven > 0.0 => mass * own * own,
+                _ => 0.0,
+            });
+        mode.is_along() || energies.sum::<f64>() >= 0.5
+    };
+    let mut listed = 8 * count;
+    loop {
+        let mut found = modes(building, listed)?;
+        found.retain(is_sway);
+        if found.len() >= count || listed >= masses {
+            found.truncate(count);
+            return Ok(found);
+        }
+        listed *= 2;
+    }
 }
 
 /// Modes that carry at least 1 % of the mass vertically, longest period first.

@@ -17,7 +17,7 @@ use crate::structure::AssembledBuilding;
 
 pub use dense::modes_dense;
 pub use lateral::lateral_modes;
-pub(crate) use lateral::{lateral_modes_along, vertical_modes_along};
+pub(crate) use lateral::{lateral_modes_along, sway_modes, vertical_modes_along};
 pub use slicing::modes;
 pub use spectrum::{LogDeterminant, Spectrum, log_determinant, number_of_modes};
 

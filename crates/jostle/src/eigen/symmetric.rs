@@ -15,6 +15,37 @@ pub(crate) fn eigen(lower: &[Vec<f64>]) -> (Vec<f64>, Vec<Vec<f64>>) {
     in_wide_registers(lower.len(), Eigen(lower))
 }
 
+/// Eigenvalues and eigenvectors, in no order, of a flexibility whose displacements are partly held: what remains of it when forces at
+/// those keep them at rest. Their components are zero.
+pub(crate) fn held(lower: &[Vec<f64>], held: &[bool]) -> Vec<(f64, Vec<f64>)> {
+    let n = lower.len();
+    let at = |rows: &[Vec<f64>], i: usize, j: usize| rows[i.max(j)][i.min(j)];
+    let mut rest = lower.to_vec();
+    for hold in (0..n).filter(|hold| held[*hold]) {
+        let column: Vec<f64> = (0..n).map(|row| at(&rest, row, hold)).collect();
+        let pivot = column[hold];
+        for (i, row) in rest.iter_mut().enumerate() {
+            for (value, own) in row.iter_mut().zip(&column) {
+                *value -= column[i] * own / pivot;
+            }
+        }
+    }
+    let kept: Vec<usize> = (0..n).filter(|dof| !held[*dof]).collect();
+    let part = kept.iter().enumerate();
+    let part: Vec<Vec<f64>> = part
+        .map(|(own, &i)| kept[..=own].iter().map(|&j| at(&rest, i, j)).collect())
+        .collect();
+    let (values, vectors) = eigen(&part);
+    let pairs = values.into_iter().zip(vectors).map(|(value, vector)| {
+        let mut whole = vec![0.0; n];
+        for (&dof, own) in kept.iter().zip(vector) {
+            whole[dof] = own;
+        }
+        (value, whole)
+    });
+    pairs.collect()
+}
+
 struct Eigen<'a>(&'a [Vec<f64>]);
 
 impl NullaryFnOnce for Eigen<'_> {

@@ -79,7 +79,7 @@ pub use wall::Wall;
 ///             stiffness: vec![60e6], // one storey has no stiffness
 ///             storey_heights: vec![3.0, 3.0],
 ///         }),
-///         damping: Damping::Ratio { ratio: 0.05, modes: Vec::new() },
+///         damping: Damping::ratio(0.05, []),
 ///         ..Building::default()
 ///     }],
 ///     ..Model::default()
@@ -120,7 +120,7 @@ pub struct Model {
 ///         stiffness: vec![60e6, 60e6],   // N/m
 ///         storey_heights: vec![4.0, 3.2], // m
 ///     }),
-///     damping: Damping::Ratio { ratio: 0.02, modes: vec![1, 2] },
+///     damping: Damping::ratio(0.02, [1, 2]),
 ///     ..Building::default()
 /// };
 /// assert_eq!(building.floors(), 2);
@@ -233,7 +233,7 @@ pub struct Gravity {
 ///         stiffness: vec![60e6; 2],
 ///         storey_heights: vec![3.0; 2],
 ///     }),
-///     damping: Damping::Ratio { ratio: 0.05, modes: Vec::new() },
+///     damping: Damping::ratio(0.05, []),
 ///     hinges: Some(Hinges::Storeys(vec![storey; 2])),
 ///     ..Building::default()
 /// };
@@ -445,19 +445,21 @@ pub fn usual_damping_modes(lateral_modes: usize) -> &'static [usize] {
 /// ```
 /// use jostle::Damping;
 ///
-/// let two_percent = Damping::Ratio { ratio: 0.02, modes: vec![1, 3] };
-/// let usual = Damping::Ratio { ratio: 0.05, modes: Vec::new() }; // jostle chooses the modes
+/// let two_percent = Damping::ratio(0.02, [1, 3]);
+/// let usual = Damping::ratio(0.05, []); // jostle chooses the modes
 /// assert_ne!(two_percent, usual);
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Damping {
-    /// The same ratio in one or two lateral modes (counted from 1). One mode: mass-proportional. Modes of a building in space
-    /// are counted as if it were held to sway along x alone.
+    /// The same ratio in one or two lateral modes (counted from 1). One mode: mass-proportional. Where fewer carry 1 % of the mass,
+    /// as above a soft storey, further modes of sway count too, as many as there are floors.
     Ratio {
         /// Fraction of critical damping, 0 ≤ ratio < 1 \[–\].
         ratio: f64,
         /// Lateral modes with this ratio; empty means [`usual_damping_modes`].
         modes: Vec<usize>,
+        /// Whose modes these are, of a building with a plan.
+        sway: Sway,
     },
     /// The coefficients themselves.
     Rayleigh {
@@ -471,6 +473,31 @@ pub enum Damping {
         /// Fraction of critical damping, 0 ≤ ratio < 1 \[–\].
         ratio: f64,
     },
+}
+
+impl Damping {
+    /// [`Damping::Ratio`] in lateral modes along the row; none named: the usual ones.
+    #[must_use]
+    pub fn ratio(ratio: f64, modes: impl Into<Vec<usize>>) -> Self {
+        Self::Ratio {
+            ratio,
+            modes: modes.into(),
+            sway: Sway::Along,
+        }
+    }
+}
+
+/// Sway of a building with a plan whose modes [`Damping::Ratio`] counts: as if it were held to move that way alone.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Sway {
+    /// Along x.
+    #[default]
+    Along,
+    /// Across, along y.
+    Across,
+    /// Both: of each mode the lower frequency is taken for the first, the higher one for the second, so that no mode between them
+    /// has more than the ratio, in whichever direction.
+    Both,
 }
 
 /// How stiffness-proportional damping acts on a spring. On an elastic one, both stiffnesses are the same.

@@ -13,17 +13,14 @@ use crate::eigen::{
 };
 use crate::hysteresis::HysteresisMemory;
 use crate::linear::Row;
-use crate::model::{
-    Building, Damping, Gravity, LEVEL_TOLERANCE, PlanPoint, STANDARD_GRAVITY, usual_damping_modes,
-};
+use crate::model::{Building, Gravity, LEVEL_TOLERANCE, PlanPoint, STANDARD_GRAVITY};
 use crate::motion::Ground;
 use crate::simd;
 use crate::statics::{Collapse, Settled, under_gravity};
 use crate::structure::element::{THETA, X, Y, over_nodes};
 use crate::structure::motion_at;
 use crate::structure::{
-    AssembledBuilding, AtRest, Discretization, Influence, InnerLink, MemberForces, PlanBase,
-    SpringPlace,
+    AssembledBuilding, AtRest, Discretization, InnerLink, MemberForces, PlanBase, SpringPlace,
 };
 use crate::transfer::riccati::RiccatiSweep;
 
@@ -65,6 +62,8 @@ pub struct BuildingSystem {
     pub foundation_in_plan: Option<FoundationInPlan>,
     /// The ratio of critical damping that all modes have, where damping is not Rayleigh's \[–\].
     pub modal_damping: Option<f64>,
+    /// Numbers and circular frequencies of the modes at which Rayleigh damping has its ratio; empty without such modes \[–, rad/s\].
+    pub damped_at: Vec<(usize, f64)>,
     /// Lateral modes, longest period first; empty when the building can move without deforming.
     /// [`crate::eigen::modes`] finds those of all kinds.
     pub modes: Vec<Mode>,
@@ -235,6 +234,7 @@ impl BuildingSystem {
             foundation: None,
             foundation_in_plan: None,
             modal_damping: None,
+            damped_at: Vec::new(),
             modes,
             members: MemberForces::default(),
             weakening: Vec::new(),
@@ -453,79 +453,6 @@ impl BuildingSystem {
         })
     }
 
-    /// Sets the Rayleigh damping (theory, Eq. D1).
-    ///
-    /// # Errors
-    /// A message when a lateral mode of that number does not exist.
-    pub fn damp(&mut self, damping: &Damping) -> Result<(), String> {
-        self.damp_as(damping, false)
-    }
-
-    /// The same for a building that stands fixed here and will stand on a mat: a single mode is damped in proportion to
-    /// stiffness, and the first mode alone unless others are named.
-    ///
-    /// # Errors
-    /// As [`BuildingSystem::damp`].
-    pub(super) fn damp_as(&mut self, damping: &Damping, on_mat: bool) -> Result<(), String> {
-        self.modal_damping = match damping {
-            Damping::AllModes { ratio } => Some(*ratio),
-            _ => None,
-        };
-        let (alpha, beta) = match damping {
-            Damping::AllModes { .. } => (0.0, 0.0),
-            Damping::Rayleigh { alpha, beta } => (*alpha, *beta),
-            Damping::Ratio { ratio, modes } => {
-                let lateral = self.modes_along();
-                let frequency =
-                    |number: &usize| {
-                        lateral.get(number - 1).map(|own| own.frequency).ok_or_else(|| {
-                        format!(
-                            "lateral mode {number} does not exist: \"{}\" has {} lateral modes",
-                            self.name,
-                            lateral.len()
-                        )
-                    })
-                    };
-                let usual = usual_damping_modes(lateral.len());
-                let asked = &modes[..];
-                let modes = if modes.is_empty() { usual } else { asked };
-                let modes = if on_mat && asked.is_empty() {
-                    &[1]
-                } else {
-                    modes
-                };
-                let frequencies = modes.iter().map(frequency).collect::<Result<Vec<_>, _>>()?;
-                // Squares of frequencies, as far as damping in proportion to stiffness acts: not on springs of links.
-                let damped: Vec<f64> = modes
-                    .iter()
-                    .map(|number| lateral[number - 1].own_stiffness)
-                    .collect();
-                match (&frequencies[..], &damped[..]) {
-                    (&[single], &[own]) if on_mat && !self.inner_links.is_empty() => {
-                        (0.0, 2.0 * ratio * single / own)
-                    }
-                    (&[low, high], &[own_low, own_high]) if !self.inner_links.is_empty() => {
-                        let beta = 2.0 * ratio * (high - low) / (own_high - own_low);
-                        let alpha = 2.0 * ratio * low - beta * own_low;
-                        if alpha >= 0.0 && beta >= 0.0 {
-                            (alpha, beta)
-                        } else {
-                            // No such coefficients damp: those of a building whose stiffness is all its own.
-                            rayleigh(*ratio, [low, high])
-                        }
-                    }
-                    (&[single], _) if on_mat => (0.0, 2.0 * ratio / single),
-                    (&[single], _) => (2.0 * ratio * single, 0.0),
-                    (&[low, high], _) => rayleigh(*ratio, [low, high]),
-                    _ => return Err("damping takes one or two modes".to_owned()),
-                }
-            }
-        };
-        let equations = &mut self.structure.equations;
-        (equations.alpha, equations.beta) = (alpha, beta);
-        Ok(())
-    }
-
     /// Share of critical damping that a mode really has, φᵀCφ/(2ω φᵀMφ): Rayleigh damping of what it acts on, dashpots of the base,
     /// and those of links between floors; springs that yield as long as they have not \[–\].
     #[must_use]
@@ -547,91 +474,10 @@ impl BuildingSystem {
         0.5 * (equations.alpha + damped / mass) / mode.circular_frequency
     }
 
-    /// Lateral modes along the row, longest period first: of a building in space with all displacements but those along x held.
-    fn modes_along(&self) -> Vec<ModeAlong> {
-        if self.is_in_space() {
-            return self.modes_with_all_else_held();
-        }
-        let of_mode = |mode: &Mode| ModeAlong::new(mode, &self.inner_links);
-        self.lateral_modes().map(of_mode).collect()
-    }
-
     /// Whether its floors move in both horizontal directions and turn.
     #[must_use]
     pub fn is_in_space(&self) -> bool {
         !self.structure.discretization.centres.is_empty()
-    }
-
-    fn modes_with_all_else_held(&self) -> Vec<ModeAlong> {
-        let mut nodes = self.discretization.stick_model.nodes.iter();
-        if nodes.any(|node| node.influence != Influence::OF_FLOOR) || !self.plan_base.is_empty() {
-            return self.modes_of_frames_along();
-        }
-        let equations = &self.equations;
-        let along: Vec<usize> = (0..equations.len())
-            .filter(|dof| equations.driven_mass[*dof] > 0.0)
-            .collect();
-        let mut column = vec![0.0; equations.len()];
-        let mut lower: Vec<Vec<f64>> = (0..along.len()).map(|row| vec![0.0; row + 1]).collect();
-        for (j, &dof) in along.iter().enumerate() {
-            let mut unit = vec![0.0; equations.len()];
-            unit[dof] = 1.0;
-            column.fill(0.0);
-            equations.stiffness.multiply_add(&unit, &mut column);
-            equations.undamped.multiply_add(&unit, &mut column);
-            for spring in &equations.springs {
-                let force = spring.hysteresis.initial_tangent() * spring.deformation(&unit);
-                spring.row.push(force, &mut column);
-            }
-            for link in &self.inner_links {
-                let force = link.stiffness * link.shortening.value(&unit);
-                link.shortening.push(force, &mut column);
-            }
-            for (i, &row) in along.iter().enumerate().skip(j) {
-                lower[i][j] = column[row] / (equations.mass[row] * equations.mass[dof]).sqrt();
-            }
-        }
-        let (values, vectors) = symmetric::eigen(&lower);
-        let modes = values.into_iter().zip(vectors).map(|(value, vector)| {
-            let mut shape = vec![0.0; equations.len()];
-            for (&dof, own) in along.iter().zip(vector) {
-                shape[dof] = own / equations.mass[dof].sqrt();
-            }
-            ModeAlong::of_shape(value.sqrt(), &shape, &self.inner_links)
-        });
-        modes.collect()
-    }
-
-    /// The same for a building with frames: lateral modes of the building whose floors neither move across nor turn.
-    fn modes_of_frames_along(&self) -> Vec<ModeAlong> {
-        let mut held = self.discretization.clone();
-        let base = held
-            .stick_model
-            .plan_base
-            .into_iter()
-            .flat_map(PlanBase::nodes);
-        for node in held.floors.iter().copied().chain(base) {
-            held.stick_model.nodes[node].hold_but_along();
-        }
-        let mut held = AssembledBuilding::new(&self.name, held);
-        // Links act on floors, which only move along x now.
-        let n = self.floors.len();
-        let moved = |(dof, share): &(usize, f64)| {
-            let mut along = self.tracks[..n].iter();
-            let floor = along.position(|own| own.dof - self.offset == *dof)?;
-            Some((held.floor_dofs[floor], *share))
-        };
-        let links = self.inner_links.iter().map(|link| InnerLink {
-            shortening: link.shortening.entries().iter().filter_map(moved).collect(),
-            ..link.clone()
-        });
-        held.inner_links = links.collect();
-        let sweep = RiccatiSweep::through(&held.equations);
-        let modes = lateral_modes_along(&held, &sweep).unwrap_or_default();
-        let along = modes.iter().filter(|mode| mode.is_along());
-        along
-            .map(|mode| ModeAlong::new(mode, &held.inner_links))
-            .collect()
     }
 
     /// Places the corners of its floors, given on the site from the ground up \[m\].
@@ -743,38 +589,6 @@ impl BuildingSystem {
     pub fn range(&self) -> std::ops::Range<usize> {
         self.offset..self.offset + self.equations.len()
     }
-}
-
-/// A lateral mode along the row, as far as damping needs it.
-struct ModeAlong {
-    /// Circular frequency \[rad/s\].
-    frequency: f64,
-    /// φᵀKφ without the springs of links between floors, ω² if there are none \[rad²/s²\].
-    own_stiffness: f64,
-}
-
-impl ModeAlong {
-    fn new(mode: &Mode, links: &[InnerLink]) -> Self {
-        Self::of_shape(mode.circular_frequency, &mode.shape, links)
-    }
-
-    /// `shape`: with a mass of 1 kg.
-    fn of_shape(frequency: f64, shape: &[f64], links: &[InnerLink]) -> Self {
-        let links = links.iter();
-        let links = links.map(|link| link.stiffness * link.shortening.value(shape).powi(2));
-        Self {
-            frequency,
-            own_stiffness: frequency.powi(2) - links.sum::<f64>(),
-        }
-    }
-}
-
-/// Coefficients that give two modes a damping ratio (theory, Eq. D1) \[1/s, s\].
-fn rayleigh(ratio: f64, [low, high]: [f64; 2]) -> (f64, f64) {
-    (
-        2.0 * ratio * low * high / (low + high),
-        2.0 * ratio / (low + high),
-    )
 }
 
 /// Lateral modes; all of a building in space. None where it can move without deforming.

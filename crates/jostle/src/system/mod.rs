@@ -2,6 +2,7 @@
 
 mod assemble;
 mod building;
+mod damping;
 mod finite;
 mod grounds;
 mod half_space;

@@ -41,7 +41,7 @@ use crate::structure::StepEquations;
 ///         stiffness: vec![40e6; 3],
 ///         storey_heights: vec![3.0; 3],
 ///     }),
-///     damping: Damping::Ratio { ratio: 0.05, modes: Vec::new() },
+///     damping: Damping::ratio(0.05, []),
 ///     ..Building::default()
 /// };
 /// let model = Model {

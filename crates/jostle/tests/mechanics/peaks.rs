@@ -119,10 +119,7 @@ fn peaks_are_those_of_histories() {
     let tower = |name: &str, mass: f64, stiffness: f64| Building {
         name: name.into(),
         structure: Structure::Shear(equal_storeys(4, [mass, stiffness])),
-        damping: Damping::Ratio {
-            ratio: 0.05,
-            modes: vec![1, 2],
-        },
+        damping: Damping::ratio(0.05, [1, 2]),
         ..Building::default()
     };
     let mut model = Model {

@@ -15,10 +15,7 @@ fn towers() -> Model {
     let tower = |name: &str, mass: f64, stiffness: f64| Building {
         name: name.into(),
         structure: Structure::Shear(equal_storeys(4, [mass, stiffness])),
-        damping: Damping::Ratio {
-            ratio: 0.05,
-            modes: vec![1, 2],
-        },
+        damping: Damping::ratio(0.05, [1, 2]),
         ..Building::default()
     };
     Model {

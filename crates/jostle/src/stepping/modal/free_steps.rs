@@ -529,10 +529,7 @@ mod tests {
                 stiffness: vec![stiffness; floors],
                 storey_heights: vec![3.0; floors],
             }),
-            damping: Damping::Ratio {
-                ratio: 0.05,
-                modes: vec![1, 2],
-            },
+            damping: Damping::ratio(0.05, [1, 2]),
             ..Building::default()
         };
         let law = ContactLaw {

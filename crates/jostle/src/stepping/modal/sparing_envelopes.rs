@@ -83,10 +83,7 @@ fn models() -> Vec<Model> {
         },
         ..Model::default()
     };
-    let ratio = Damping::Ratio {
-        ratio: 0.05,
-        modes: Vec::new(),
-    };
+    let ratio = Damping::ratio(0.05, []);
     let hertz = || Gap::after(0, 0.02, law(LawKind::HertzDamp));
     let at_columns = Gap {
         floors: FloorPairs::Listed(vec![
@@ -122,10 +119,7 @@ fn models() -> Vec<Model> {
 fn leaning() -> Vec<Model> {
     let mut models: Vec<Model> = models().into_iter().take(2).collect();
     for building in models.iter_mut().flat_map(|model| &mut model.buildings) {
-        building.damping = Damping::Ratio {
-            ratio: 0.05,
-            modes: vec![1],
-        };
+        building.damping = Damping::ratio(0.05, [1]);
         building.gravity = Gravity {
             p_delta: true,
             ..Gravity::default()

@@ -44,10 +44,7 @@ fn link(stiffness: f64, damping: f64) -> Link {
 }
 
 fn ratio(ratio: f64, modes: &[usize]) -> Damping {
-    Damping::Ratio {
-        ratio,
-        modes: modes.to_vec(),
-    }
+    Damping::ratio(ratio, modes)
 }
 
 /// What is broken, where it is reported, and part of what is said.

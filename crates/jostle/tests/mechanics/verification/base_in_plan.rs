@@ -390,10 +390,7 @@ fn a_stiff_base_is_a_fixed_one() {
         rotational_stiffness: Some(1e18),
         ..Base::default()
     };
-    let damping = Damping::Ratio {
-        ratio: 0.05,
-        modes: vec![1, 2],
-    };
+    let damping = Damping::ratio(0.05, [1, 2]);
     let periods = |base: Base| {
         let system = assembled(&model(
             Structure::Tiers(own.clone()),

@@ -45,10 +45,7 @@ fn storeys_that_never_yield_are_damped_like_elastic_ones() {
     let pair = |damping: Option<Option<ProportionalDamping>>| {
         let towers = [tower("a", 4, 2.5e5, 0.46), tower("b", 6, 3e5, 0.9)];
         let towers = towers.map(|mut building| {
-            building.damping = Damping::Ratio {
-                ratio: 0.07,
-                modes: vec![1, 3],
-            };
+            building.damping = Damping::ratio(0.07, [1, 3]);
             if let Some(damping) = damping {
                 building = yielding(building, 0.9, 0.2);
                 building.yielding_damping = damping;

@@ -9,10 +9,7 @@ use crate::verification::support::{EVERYTHING, assembled, law, run, shaking, two
 fn lightly_damped_frames() -> System {
     let mut frames = two_frames(0.02, law(LawKind::Linear, 1.0));
     for frame in &mut frames.buildings {
-        frame.damping = Damping::Ratio {
-            ratio: 0.005,
-            modes: vec![1],
-        };
+        frame.damping = Damping::ratio(0.005, [1]);
     }
     assembled(&frames)
 }

@@ -196,10 +196,7 @@ fn four_equal_frames_on_a_mat_are_twice_an_isolated_plane_frame() {
         plane.floor_mass[floor] = 0.5 * slab + across;
     }
     let plane_mat = 0.5 * mat + column_mass(0);
-    let damping = Damping::Ratio {
-        ratio: 0.05,
-        modes: vec![1, 2],
-    };
+    let damping = Damping::ratio(0.05, [1, 2]);
     let motion = shaking("line", 4.0, 1.0);
     for yields in [false, true] {
         let hinges = if yields {
@@ -904,10 +901,7 @@ fn a_space_frame_on_a_mat_is_two_isolated_plane_frames() {
                 ..FrameHinges::default()
             })
         });
-        let damping = Damping::Ratio {
-            ratio: 0.04,
-            modes: vec![1, 2],
-        };
+        let damping = Damping::ratio(0.04, [1, 2]);
         let motion = shaking("line", 4.0, 1.0);
         let pairs = bearings(mat, 2.0).into_iter().zip(bearings(0.5 * mat, 1.0));
         for (isolation, half) in pairs {

@@ -167,10 +167,7 @@ fn along(outcome: &Outcome, floors: usize, angle: f64) -> Vec<f64> {
 #[test]
 fn on_a_line_bearings_are_those_of_one_plane() {
     let (storeys, properties) = (3, [1.5e5, 1.2e8]);
-    let damping = Damping::Ratio {
-        ratio: 0.05,
-        modes: vec![1, 2],
-    };
+    let damping = Damping::ratio(0.05, [1, 2]);
     for own in bearings() {
         let shear = equal_storeys(storeys, properties);
         let plane = model(
@@ -578,10 +575,7 @@ fn before_walls(isolation: Isolation, angle: f64) -> Model {
         .collect();
     let mut own = tiers(2, [2e5, 1.5e8], &plan, turned([0.8, -0.5], angle));
     own.bearings = PLACES.iter().map(|[x, y]| corner(*x, *y)).collect();
-    let damping = Damping::Ratio {
-        ratio: 0.03,
-        modes: vec![1, 2],
-    };
+    let damping = Damping::ratio(0.03, [1, 2]);
     let mut model = model(building(Structure::Tiers(own), damping, isolation), 1e-3);
     model.analysis.contact_step = Some(2e-4);
     let wall = |name: &str, from: PlanPoint, to: PlanPoint| Wall {
@@ -658,10 +652,7 @@ fn the_site_may_be_turned() {
 #[test]
 fn a_mat_before_a_wall_hits_it_as_in_one_plane() {
     let (storeys, properties) = (2, [1.5e5, 1.2e8]);
-    let damping = Damping::Ratio {
-        ratio: 0.05,
-        modes: vec![1],
-    };
+    let damping = Damping::ratio(0.05, [1]);
     let isolation = Isolation::new(lead_rubber(), 9e4);
     let shear = equal_storeys(storeys, properties);
     let plan = rectangle(0.0, 0.0, 10.0, 8.0);

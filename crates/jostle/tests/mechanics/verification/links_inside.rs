@@ -273,10 +273,7 @@ fn braced_storeys_are_stiffer_storeys() {
         shear.stiffness = vec![12e7; 4];
         model
     };
-    let five = Damping::Ratio {
-        ratio: 0.05,
-        modes: Vec::new(),
-    };
+    let five = Damping::ratio(0.05, []);
     let of_mass = Damping::Rayleigh {
         alpha: 0.4,
         beta: 0.0,
@@ -413,10 +410,7 @@ fn modes_of_braced_frames_have_the_energy_of_braces() {
 }
 
 fn five() -> Damping {
-    Damping::Ratio {
-        ratio: 0.05,
-        modes: Vec::new(),
-    }
+    Damping::ratio(0.05, [])
 }
 
 /// A pushover of storeys of 40 MN/m with braces of 80 MN/m is that of storeys of 120 MN/m; dashpots do not resist it.

@@ -288,10 +288,7 @@ fn damping_in_all_modes_is_that_of_a_single_mode() {
         let system = assembled(&model);
         run(&system, &shaking(4.0), &modal(&steps(0.005, 32)))
     };
-    let one = with(Damping::Ratio {
-        ratio: 0.05,
-        modes: vec![1],
-    });
+    let one = with(Damping::ratio(0.05, [1]));
     let all = with(Damping::AllModes { ratio: 0.05 });
     assert!(!one.impacts.is_empty());
     assert!((peak(&one) / peak(&all) - 1.0).abs() < 1e-12);

@@ -100,10 +100,7 @@ pub(crate) fn framed(name: &str, frame: Frame) -> Building {
     Building {
         name: name.to_owned(),
         structure: Structure::Frame(frame),
-        damping: Damping::Ratio {
-            ratio: 0.05,
-            modes: vec![1, 2],
-        },
+        damping: Damping::ratio(0.05, [1, 2]),
         ..Building::default()
     }
 }
@@ -119,10 +116,7 @@ pub(crate) fn tower(name: &str, storeys: usize, mass: f64, period: f64) -> Build
             stiffness: vec![stiffness; storeys],
             storey_heights: vec![3.2; storeys],
         }),
-        damping: Damping::Ratio {
-            ratio: 0.05,
-            modes: if storeys > 1 { vec![1, 2] } else { vec![1] },
-        },
+        damping: Damping::ratio(0.05, if storeys > 1 { vec![1, 2] } else { vec![1] }),
         ..Building::default()
     }
 }

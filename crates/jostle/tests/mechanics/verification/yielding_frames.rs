@@ -242,10 +242,7 @@ fn random_frames_never_fail() {
             law(LawKind::HertzDamp, 0.65),
         );
         for building in &mut model.buildings {
-            building.damping = Damping::Ratio {
-                ratio: 0.05,
-                modes: Vec::new(),
-            };
+            building.damping = Damping::ratio(0.05, []);
         }
         let system = assembled(&model);
         let mut motion = shaking(6.0);

@@ -39,10 +39,7 @@ fn building(name: &str, structure: Structure, hinges: Option<Hinges>) -> Buildin
     Building {
         name: name.to_owned(),
         structure,
-        damping: Damping::Ratio {
-            ratio: 0.04,
-            modes: Vec::new(),
-        },
+        damping: Damping::ratio(0.04, []),
         gravity: Gravity {
             preload: false,
             p_delta: true,

@@ -19,10 +19,7 @@ fn tower(name: &str, storeys: usize, mass: f64, stiffness: f64) -> Building {
             stiffness: vec![stiffness; storeys],
             storey_heights: vec![3.2; storeys],
         }),
-        damping: Damping::Ratio {
-            ratio: 0.05,
-            modes: Vec::new(),
-        },
+        damping: Damping::ratio(0.05, []),
         ..Building::default()
     }
 }

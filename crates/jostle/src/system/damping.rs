@@ -1,0 +1,266 @@
+//! Damping of a building: the modes at which it is given, and the coefficients that follow.
+
+use super::building::{BuildingSystem, Direction};
+use crate::eigen::{LATERAL_SHARE, Mode, lateral_modes_along, modes_dense, sway_modes, symmetric};
+use crate::model::{Damping, Sway, usual_damping_modes};
+use crate::structure::{AssembledBuilding, Influence, InnerLink, PlanBase};
+use crate::transfer::riccati::RiccatiSweep;
+
+impl BuildingSystem {
+    /// Sets the Rayleigh damping (theory, Eq. D1).
+    ///
+    /// # Errors
+    /// A message when a lateral mode of that number does not exist.
+    pub fn damp(&mut self, damping: &Damping) -> Result<(), String> {
+        self.damp_as(damping, false)
+    }
+
+    /// The same for a building that stands fixed here and will stand on a mat: a single mode is damped in proportion to
+    /// stiffness, and the first mode alone unless others are named.
+    ///
+    /// # Errors
+    /// As [`BuildingSystem::damp`].
+    pub(super) fn damp_as(&mut self, damping: &Damping, on_mat: bool) -> Result<(), String> {
+        self.modal_damping = match damping {
+            Damping::AllModes { ratio } => Some(*ratio),
+            _ => None,
+        };
+        let (alpha, beta) = match damping {
+            Damping::AllModes { .. } => (0.0, 0.0),
+            Damping::Rayleigh { alpha, beta } => (*alpha, *beta),
+            Damping::Ratio { ratio, modes, sway } => {
+                let modes = match (on_mat, &modes[..]) {
+                    (true, []) => &[1],
+                    (_, asked) => asked,
+                };
+                let found = self.damped_modes(modes, *sway)?;
+                let frequencies: Vec<f64> = found.iter().map(|own| own.frequency).collect();
+                // Squares of frequencies, as far as damping in proportion to stiffness acts: not on springs of links.
+                let damped: Vec<f64> = found.iter().map(|own| own.own_stiffness).collect();
+                self.damped_at = found
+                    .iter()
+                    .map(|own| (own.number, own.frequency))
+                    .collect();
+                match (&frequencies[..], &damped[..]) {
+                    (&[single], &[own]) if on_mat && !self.inner_links.is_empty() => {
+                        (0.0, 2.0 * ratio * single / own)
+                    }
+                    (&[low, high], &[own_low, own_high]) if !self.inner_links.is_empty() => {
+                        let beta = 2.0 * ratio * (high - low) / (own_high - own_low);
+                        let alpha = 2.0 * ratio * low - beta * own_low;
+                        if alpha >= 0.0 && beta >= 0.0 {
+                            (alpha, beta)
+                        } else {
+                            // No such coefficients damp: those of a building whose stiffness is all its own.
+                            rayleigh(*ratio, [low, high])
+                        }
+                    }
+                    (&[single], _) if on_mat => (0.0, 2.0 * ratio / single),
+                    (&[single], _) => (2.0 * ratio * single, 0.0),
+                    (&[low, high], _) => rayleigh(*ratio, [low, high]),
+                    _ => return Err("damping takes one or two modes".to_owned()),
+                }
+            }
+        };
+        let equations = &mut self.structure.equations;
+        (equations.alpha, equations.beta) = (alpha, beta);
+        Ok(())
+    }
+
+    /// The modes that Rayleigh damping is given at: those asked for, or the usual ones where none is.
+    ///
+    /// # Errors
+    /// A message when a lateral mode of that number does not exist.
+    fn damped_modes(&self, asked: &[usize], sway: Sway) -> Result<Vec<DampedMode>, String> {
+        let directions: &[Direction] = match sway {
+            _ if !self.is_in_space() => &[Direction::Along],
+            Sway::Along => &[Direction::Along],
+            Sway::Across => &[Direction::Across],
+            Sway::Both => &[Direction::Along, Direction::Across],
+        };
+        let highest = asked.iter().max().copied().unwrap_or(2);
+        let lateral = directions.iter().map(|direction| {
+            let modes = match direction {
+                Direction::Across => self.modes_across(),
+                _ => self.modes_along(highest),
+            };
+            (*direction, modes)
+        });
+        let lateral: Vec<_> = lateral.collect();
+        let fewest = lateral.iter().map(|(_, modes)| modes.len()).min();
+        let numbers = match asked {
+            [] => usual_damping_modes(fewest.unwrap_or(0)),
+            asked => asked,
+        };
+        let mut found: Vec<DampedMode> = Vec::with_capacity(numbers.len());
+        for (place, &number) in numbers.iter().enumerate() {
+            let mut best: Option<DampedMode> = None;
+            for (direction, modes) in &lateral {
+                let own = modes.get(number - 1).ok_or_else(|| {
+                    let across = match direction {
+                        Direction::Across => " across",
+                        _ => "",
+                    };
+                    format!(
+                        "lateral mode {number} does not exist: \"{}\" has {} lateral modes{across}",
+                        self.name,
+                        modes.len()
+                    )
+                })?;
+                // The lowest first and the highest last mode bound all in between.
+                best = match best {
+                    Some(best) if (own.frequency < best.frequency) == (place > 0) => Some(best),
+                    _ => Some(*own),
+                };
+            }
+            found.extend(best.map(|own| DampedMode { number, ..own }));
+        }
+        Ok(found)
+    }
+
+    /// Lateral modes along the row, longest period first: of a building in space with all displacements but those along x held.
+    /// Where fewer than `count` carry 1 % of the mass, those of sway, as many as there are floors.
+    fn modes_along(&self, count: usize) -> Vec<DampedMode> {
+        if self.is_in_space() {
+            return self.modes_with_all_else_held(count);
+        }
+        let of_mode = |mode: &Mode| DampedMode::new(mode, &self.inner_links);
+        let lateral: Vec<DampedMode> = self.lateral_modes().map(of_mode).collect();
+        let count = count.min(self.floors.len());
+        if lateral.len() >= count {
+            return lateral;
+        }
+        let sways = sway_modes(&self.structure, count).unwrap_or_default();
+        sways.iter().map(of_mode).collect()
+    }
+
+    /// The same across, with motion along and rotation of floors held.
+    fn modes_across(&self) -> Vec<DampedMode> {
+        let equations = &self.equations;
+        let is_held = |dof: usize| {
+            let mut tracks = self.tracks.iter();
+            tracks.any(|own| own.direction != Direction::Across && own.dof - self.offset == dof)
+        };
+        let massed = (0..equations.len()).filter(|dof| equations.mass[*dof] > 0.0);
+        let held: Vec<bool> = massed.map(is_held).collect();
+        let modes = modes_dense(&self.structure, |lower| Some(symmetric::held(lower, &held)));
+        let modes = modes.unwrap_or_default().into_iter();
+        let across = modes.filter(|mode| mode.effective_mass_ratio_across >= LATERAL_SHARE);
+        across
+            .map(|mode| DampedMode::new(&mode, &self.inner_links))
+            .collect()
+    }
+
+    fn modes_with_all_else_held(&self, count: usize) -> Vec<DampedMode> {
+        let mut nodes = self.discretization.stick_model.nodes.iter();
+        if nodes.any(|node| node.influence != Influence::OF_FLOOR) || !self.plan_base.is_empty() {
+            return self.modes_of_frames_along(count);
+        }
+        let equations = &self.equations;
+        let along: Vec<usize> = (0..equations.len())
+            .filter(|dof| equations.driven_mass[*dof] > 0.0)
+            .collect();
+        let mut column = vec![0.0; equations.len()];
+        let mut lower: Vec<Vec<f64>> = (0..along.len()).map(|row| vec![0.0; row + 1]).collect();
+        for (j, &dof) in along.iter().enumerate() {
+            let mut unit = vec![0.0; equations.len()];
+            unit[dof] = 1.0;
+            column.fill(0.0);
+            equations.stiffness.multiply_add(&unit, &mut column);
+            equations.undamped.multiply_add(&unit, &mut column);
+            for spring in &equations.springs {
+                let force = spring.hysteresis.initial_tangent() * spring.deformation(&unit);
+                spring.row.push(force, &mut column);
+            }
+            for link in &self.inner_links {
+                let force = link.stiffness * link.shortening.value(&unit);
+                link.shortening.push(force, &mut column);
+            }
+            for (i, &row) in along.iter().enumerate().skip(j) {
+                lower[i][j] = column[row] / (equations.mass[row] * equations.mass[dof]).sqrt();
+            }
+        }
+        let (values, vectors) = symmetric::eigen(&lower);
+        let modes = values.into_iter().zip(vectors).map(|(value, vector)| {
+            let mut shape = vec![0.0; equations.len()];
+            for (&dof, own) in along.iter().zip(vector) {
+                shape[dof] = own / equations.mass[dof].sqrt();
+            }
+            DampedMode::of_shape(value.sqrt(), &shape, &self.inner_links)
+        });
+        modes.collect()
+    }
+
+    /// The same for a building with frames: lateral modes of the building whose floors neither move across nor turn.
+    fn modes_of_frames_along(&self, count: usize) -> Vec<DampedMode> {
+        let mut held = self.discretization.clone();
+        let base = held
+            .stick_model
+            .plan_base
+            .into_iter()
+            .flat_map(PlanBase::nodes);
+        for node in held.floors.iter().copied().chain(base) {
+            held.stick_model.nodes[node].hold_but_along();
+        }
+        let mut held = AssembledBuilding::new(&self.name, held);
+        // Links act on floors, which only move along x now.
+        let n = self.floors.len();
+        let moved = |(dof, share): &(usize, f64)| {
+            let mut along = self.tracks[..n].iter();
+            let floor = along.position(|own| own.dof - self.offset == *dof)?;
+            Some((held.floor_dofs[floor], *share))
+        };
+        let links = self.inner_links.iter().map(|link| InnerLink {
+            shortening: link.shortening.entries().iter().filter_map(moved).collect(),
+            ..link.clone()
+        });
+        held.inner_links = links.collect();
+        let sweep = RiccatiSweep::through(&held.equations);
+        let mut modes = lateral_modes_along(&held, &sweep).unwrap_or_default();
+        modes.retain(Mode::is_along);
+        let count = count.min(n);
+        if modes.len() < count {
+            modes = sway_modes(&held, count).unwrap_or_default();
+        }
+        modes
+            .iter()
+            .map(|mode| DampedMode::new(mode, &held.inner_links))
+            .collect()
+    }
+}
+
+/// A lateral mode, as far as damping needs it.
+#[derive(Clone, Copy)]
+struct DampedMode {
+    /// Number among the lateral modes of its direction, from 1; 0 before it is chosen.
+    number: usize,
+    /// Circular frequency \[rad/s\].
+    frequency: f64,
+    /// φᵀKφ without the springs of links between floors, ω² if there are none \[rad²/s²\].
+    own_stiffness: f64,
+}
+
+impl DampedMode {
+    fn new(mode: &Mode, links: &[InnerLink]) -> Self {
+        Self::of_shape(mode.circular_frequency, &mode.shape, links)
+    }
+
+    /// `shape`: with a mass of 1 kg.
+    fn of_shape(frequency: f64, shape: &[f64], links: &[InnerLink]) -> Self {
+        let links = links.iter();
+        let links = links.map(|link| link.stiffness * link.shortening.value(shape).powi(2));
+        Self {
+            number: 0,
+            frequency,
+            own_stiffness: frequency.powi(2) - links.sum::<f64>(),
+        }
+    }
+}
+
+/// Coefficients that give two modes a damping ratio (theory, Eq. D1) \[1/s, s\].
+fn rayleigh(ratio: f64, [low, high]: [f64; 2]) -> (f64, f64) {
+    (
+        2.0 * ratio * low * high / (low + high),
+        2.0 * ratio / (low + high),
+    )
+}
