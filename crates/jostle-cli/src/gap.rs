@@ -194,7 +194,7 @@ impl GapArgs {
     fn codes(&self, of_model: &CodeInputs) -> CodeInputs {
         let mut codes = of_model.clone();
         if let Some(system) = self.system.as_deref().and_then(JointSystem::named) {
-            codes.system = system;
+            codes.system = Some(system);
         }
         if !self.code.is_empty() {
             codes.shown = self

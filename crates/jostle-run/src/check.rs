@@ -489,7 +489,18 @@ fn describe(
             describe_places(text, model, index, &places)?;
             continue;
         }
-        if let Some(contact) = contacts.last() {
+        // Faces that stand back may never touch.
+        let narrowest = contacts.iter().map(|contact| contact.width);
+        let narrowest = narrowest.fold(f64::INFINITY, f64::min);
+        let nearest = |contact: &&&jostle::interface::Contact| contact.width <= narrowest;
+        if let Some(contact) = contacts.iter().rev().find(nearest) {
+            let place = match contacts
+                .last()
+                .is_some_and(|top| top.height > contact.height)
+            {
+                true => format!("at {}", HEIGHT.text(contact.height, 2)),
+                false => "at the top".to_owned(),
+            };
             let [left, right] = contact.ports.masses().map(|mass| {
                 if mass.is_finite() {
                     MASS.text(mass, 1)
@@ -499,7 +510,7 @@ fn describe(
             });
             writeln!(
                 text,
-                "  colliding masses at the top {left} and {right}; an elastic impact at {} lasts {:.1} ms\n",
+                "  colliding masses {place} {left} and {right}; an elastic impact at {} lasts {:.1} ms\n",
                 SPEED.text(0.5, 1),
                 contact.law.elastic_duration(contact.effective_mass(), 0.5) * 1e3
             )?;

@@ -6,6 +6,7 @@ use jostle::contact::{
     rod_collision, spring_of_duration, spring_of_force,
 };
 use jostle::interface::Contact;
+use jostle::judgement::Stated;
 use jostle::statics::stiffness_at;
 use jostle::{Model, Summary, System};
 use jostle_io::shown::MASS;
@@ -175,18 +176,26 @@ pub fn contact_advice(
             ));
         };
         let names = ["left", "right"].map(str::to_owned);
+        let known = known.with_stated([None; 2]);
         return Ok(vec![known.advise(names, None, masses.map(Some))]);
     };
     if opened.system.contacts.is_empty() {
         return Err(RunError::Argument("the model has no contact".into()));
     }
     let model = &opened.input.model;
-    let of_gap = |gap| of_contact(&known, model, &opened.system, gap);
+    let stated = &opened.input.stated;
+    let of_gap = |gap| of_contact(&known, model, stated, &opened.system, gap);
     Ok((0..model.gaps.len()).filter_map(of_gap).collect())
 }
 
 /// Advice on the contact of a gap with the greatest effective mass; `None` without a contact.
-fn of_contact(known: &Known, model: &Model, system: &System, gap: usize) -> Option<ContactAdvice> {
+fn of_contact(
+    known: &Known,
+    model: &Model,
+    stated: &Stated,
+    system: &System,
+    gap: usize,
+) -> Option<ContactAdvice> {
     let own = system.contacts.iter().filter(|contact| contact.gap == gap);
     let contact = own.max_by(|a, b| a.effective_mass().total_cmp(&b.effective_mass()))?;
     let names = model.gaps[gap]
@@ -196,6 +205,8 @@ fn of_contact(known: &Known, model: &Model, system: &System, gap: usize) -> Opti
         .struck_masses()
         .map(|mass| mass.is_finite().then_some(mass));
     let given = known.masses.map(|given| given.map(Some));
+    let buildings = model.buildings_beside(model.gaps[gap].between);
+    let known = known.with_stated(buildings.map(|side| stated.buildings.get(side?)?.modulus));
     let advice = known.advise(names, Some(contact.height), given.unwrap_or(masses));
     Some(ContactAdvice {
         lateral: lateral(system, contact),
@@ -222,7 +233,12 @@ fn lateral(system: &System, contact: &Contact) -> Option<LateralAdvice> {
 }
 
 /// Contact data of a run for its report: what is used, and what masses and the greatest impact speed suggest.
-pub(crate) fn contact_boxes(model: &Model, system: &System, summary: &Summary) -> Vec<ContactBox> {
+pub(crate) fn contact_boxes(
+    model: &Model,
+    stated: &Stated,
+    system: &System,
+    summary: &Summary,
+) -> Vec<ContactBox> {
     let Ok(mut known) = Known::read(&AdviceOptions::default()) else {
         return Vec::new();
     };
@@ -234,7 +250,7 @@ pub(crate) fn contact_boxes(model: &Model, system: &System, summary: &Summary) -
         let fastest = speeds.fold(0.0, f64::max);
         let impact_speed = (fastest > 0.0).then_some(fastest);
         known.speed = impact_speed.unwrap_or(usual_speed);
-        let Some(advice) = of_contact(&known, model, system, index) else {
+        let Some(advice) = of_contact(&known, model, stated, system, index) else {
             continue;
         };
         boxes.push(ContactBox {
@@ -253,10 +269,13 @@ pub(crate) fn contact_boxes(model: &Model, system: &System, summary: &Summary) -
 }
 
 /// Options in SI.
+#[derive(Clone)]
 struct Known {
     masses: Option<[f64; 2]>,
     size: Option<[[f64; 2]; 3]>,
     material: [SlabMaterial; 2],
+    /// Whether options name the modulus.
+    modulus_is_given: bool,
     speed: f64,
     notes: Vec<String>,
 }
@@ -288,7 +307,8 @@ impl Known {
                 "The size of the slabs is not known: with --length, --width and --thickness there are also E A/L and the estimate by waves.".to_owned(),
             );
         }
-        let moduli = moduli(options, &mut notes)?;
+        let given = moduli(options)?;
+        let moduli = given.unwrap_or([SlabMaterial::default().modulus; 2]);
         let ratio = parse_quantity(&options.poisson_ratio, Dimension::Dimensionless)
             .map_err(|error| RunError::Argument(format!("--poisson-ratio: {error}")))?;
         if !(0.0..0.5).contains(&ratio) {
@@ -308,9 +328,30 @@ impl Known {
             masses,
             size,
             material,
+            modulus_is_given: given.is_some(),
             speed,
             notes,
         })
+    }
+
+    /// The same with the moduli that a model states for the concrete of its buildings, where no option names one.
+    fn with_stated(&self, stated: [Option<f64>; 2]) -> Self {
+        let mut own = self.clone();
+        if self.modulus_is_given {
+            return own;
+        }
+        // A wall is as stiff as the floor beside it.
+        let moduli = [stated[0].or(stated[1]), stated[1].or(stated[0])];
+        for (material, modulus) in own.material.iter_mut().zip(moduli) {
+            material.modulus = modulus.unwrap_or(material.modulus);
+        }
+        if moduli[0].is_none() {
+            own.notes.push(format!(
+                "E = {:.0} GPa is assumed; state it with --concrete or --modulus.",
+                1e-9 * own.material[0].modulus
+            ));
+        }
+        own
     }
 
     fn advise(
@@ -522,28 +563,18 @@ fn of_family(estimates: &[StiffnessEstimate], family: &str) -> Option<RangeAdvic
     })
 }
 
-fn moduli(options: &AdviceOptions, notes: &mut Vec<String>) -> Result<[f64; 2], RunError> {
+fn moduli(options: &AdviceOptions) -> Result<Option<[f64; 2]>, RunError> {
     match (&options.modulus, &options.concrete) {
         (Some(_), Some(_)) => Err(RunError::Argument(
             "--concrete: cannot stand beside --modulus".into(),
         )),
-        (Some(text), None) => {
-            let moduli = pair("--modulus", Some(text), Dimension::Modulus)?;
-            Ok(moduli.unwrap_or([SlabMaterial::default().modulus; 2]))
-        }
+        (Some(text), None) => pair("--modulus", Some(text), Dimension::Modulus),
         (None, Some(text)) => {
             let concrete = parse_concrete(text, StrengthLevel::Characteristic)
                 .map_err(|problem| RunError::Argument(format!("--concrete: {problem}")))?;
-            Ok([concrete.modulus; 2])
+            Ok(Some([concrete.modulus; 2]))
         }
-        (None, None) => {
-            let modulus = SlabMaterial::default().modulus;
-            notes.push(format!(
-                "E = {:.0} GPa is assumed; state it with --concrete or --modulus.",
-                1e-9 * modulus
-            ));
-            Ok([modulus; 2])
-        }
+        (None, None) => Ok(None),
     }
 }
 

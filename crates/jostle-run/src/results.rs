@@ -47,6 +47,7 @@ impl<'a> Results<'a> {
         let calculation = self.prepared.calculation();
         let contacts = contact_boxes(
             &self.prepared.input.model,
+            &self.prepared.input.stated,
             &self.prepared.system,
             self.summary,
         );

@@ -344,10 +344,15 @@ fn write_isolation(text: &mut String, summary: &Summary) -> std::fmt::Result {
         let stop = own.stop_force_peak_n.map_or_else(String::new, |force| {
             format!(", {} on a stop", FORCE.text(force, 0))
         });
+        // Where the mat strikes a wall, storeys above bear more than the bearings.
+        let above = building.floors.first().map_or_else(String::new, |lowest| {
+            let shear = FORCE.text(lowest.response.storey_shear_peak_n, 0);
+            format!(", {shear} in the storey above")
+        });
         if let Some(plan) = &own.in_plan {
             writeln!(
                 text,
-                "\nmat of {}: bearing {} of {} moves {}, {} in the bearings along x and {} across{stop}, {} at the end",
+                "\nmat of {}: bearing {} of {} moves {}, {} in the bearings along x and {} across{stop}{above}, {} at the end",
                 building.name,
                 plan.stroke_bearing,
                 plan.bearings,
@@ -360,7 +365,7 @@ fn write_isolation(text: &mut String, summary: &Summary) -> std::fmt::Result {
         }
         writeln!(
             text,
-            "\nmat of {}: {}, {} in the bearings{stop}, {} at the end",
+            "\nmat of {}: {}, {} in the bearings{stop}{above}, {} at the end",
             building.name,
             LENGTH.text(own.displacement_peak_m(), 1),
             FORCE.text(own.force_peak_n, 0),
@@ -801,11 +806,13 @@ fn write_codes(
             ),
         };
     }
-    let from = if has_impacts {
-        ", from displacements with impacts"
-    } else {
-        ""
-    };
+    // Codes mean displacements without contact.
+    if has_impacts {
+        return writeln!(
+            text,
+            "  Minimum by codes: not known without the run without contact, which was left out; see jostle gap."
+        );
+    }
     let short = |rule: &&&Requirement| computed.is_some_and(|computed| rule.width < computed);
     let short: Vec<&str> = rules.iter().filter(short).map(|rule| &*rule.name).collect();
     if let (Some(computed), false) = (computed, short.is_empty()) {
@@ -822,7 +829,7 @@ fn write_codes(
     if !widths.is_empty() {
         write_list(
             text,
-            &format!("  Minimum by codes{from} [{}]: ", LENGTH.name()),
+            &format!("  Minimum by codes [{}]: ", LENGTH.name()),
             &widths,
         )?;
     }

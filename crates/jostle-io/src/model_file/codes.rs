@@ -29,7 +29,7 @@ pub(super) fn read(
         codes.motion = MotionLevel::ALL[index];
     }
     if let Some(index) = word(reader, "system", JOINT_SYSTEMS) {
-        codes.system = JointSystem::ALL[index];
+        codes.system = Some(JointSystem::ALL[index]);
     }
     if let Some(index) = word(reader, "hazard", HAZARD_ZONES) {
         codes.hazard = HazardZone::ALL[index];

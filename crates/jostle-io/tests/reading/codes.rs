@@ -45,7 +45,7 @@ fn values_of_a_building_come_before_those_of_all() {
     assert_eq!(codes.shown, [Code::En1998, Code::Asce7]);
     assert_eq!(codes.motion, MotionLevel::Reduced);
     assert_eq!(codes.floors_are_level, Some(false));
-    assert_eq!(codes.system, JointSystem::Wall);
+    assert_eq!(codes.system, Some(JointSystem::Wall));
     assert_eq!(codes.hazard, HazardZone::Low);
     let acceleration = codes.ground_acceleration.expect("it is given");
     assert!((acceleration - 2.451_662_5).abs() < 1e-9);

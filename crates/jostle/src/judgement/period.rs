@@ -14,7 +14,7 @@ const FORMULAS: [(f64, f64); 6] = [
 ];
 
 /// First period over the nearest of the periods by the formulas; 1 between them. The formulas are those of buildings that have not
-/// cracked: the period is multiplied by the root of the factor on EI, where the file states one. One storey often stands for a whole
+/// cracked: the period is multiplied by the root of the factor on EI, where the file states one, but not with infill panels. One storey often stands for a whole
 /// building, whose height it does not have.
 pub(super) fn first_period(known: &Known<'_>, tally: &mut Tally<'_>) {
     let buildings = known.model.buildings.iter().zip(&known.system.buildings);
@@ -28,7 +28,12 @@ pub(super) fn first_period(known: &Known<'_>, tally: &mut Tally<'_>) {
         }
         let (least, most) = range(heights);
         let [columns, beams] = known.stated(index).stiffness_factor;
-        let period = mode.period() * (0.5 * (columns + beams)).min(1.0).sqrt();
+        // Panels, not the members of the frame, make its stiffness.
+        let cracked = match building.has_panels() {
+            true => 1.0,
+            false => (0.5 * (columns + beams)).min(1.0),
+        };
+        let period = mode.period() * cracked.sqrt();
         let ratio = if period < least {
             period / least
         } else {

@@ -101,8 +101,12 @@ pub(super) fn rotation(known: &Known<'_>, tally: &mut Tally<'_>) {
             };
             tally.add(own.rotation_rad / last.rotation_rad, || {
                 let text = format!(
-                    "{}: a rotation of {:.1} mrad exceeds the {:.1} mrad of {} ({})",
+                    "{}: a {}rotation of {:.1} mrad exceeds the {:.1} mrad of {} ({})",
                     member.name,
+                    match own.measure {
+                        "plastic" => "plastic ",
+                        _ => "",
+                    },
                     1e3 * own.rotation_rad,
                     1e3 * last.rotation_rad,
                     last.level,
@@ -111,6 +115,29 @@ pub(super) fn rotation(known: &Known<'_>, tally: &mut Tally<'_>) {
                 (member.name.clone(), text)
             });
         }
+    }
+}
+
+/// Shear over capacity of columns that a neighbour strikes between floors.
+pub(super) fn struck_columns(known: &Known<'_>, tally: &mut Tally<'_>) {
+    let Some((summary, _)) = known.results else {
+        return;
+    };
+    for member in summary.buildings.iter().flat_map(|own| &own.members) {
+        let Some(ratio) = &member.ratio else { continue };
+        let (Some(times), Some(place)) = (ratio.shear, &ratio.shear_at) else {
+            continue;
+        };
+        if member.struck.iter().all(|point| point.impact_count == 0) || place.impact.is_none() {
+            continue;
+        }
+        tally.add(times, || {
+            let text = format!(
+                "{} is struck with {times:.1} times the shear that it can bear ({})",
+                member.name, ratio.rule
+            );
+            (member.name.clone(), text)
+        });
     }
 }
 

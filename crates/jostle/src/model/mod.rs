@@ -779,6 +779,16 @@ impl Model {
 }
 
 impl Building {
+    /// Whether infill panels stand in its plane frame.
+    #[must_use]
+    pub fn has_panels(&self) -> bool {
+        let Structure::Frame(frame) = &self.structure else {
+            return false;
+        };
+        let mut kinds = frame.diagonals.iter().map(|own| own.place.kind);
+        kinds.any(|kind| kind == DiagonalKind::Infill)
+    }
+
     /// Height of every floor above the common datum, from the ground up \[m\].
     #[must_use]
     pub fn floor_levels(&self) -> Vec<f64> {

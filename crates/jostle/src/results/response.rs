@@ -40,7 +40,7 @@ impl BuildingResponse {
         Quantity::<Self>::real("total_acceleration_peak_m_s2", Unit::M_S2, "greatest total acceleration of any floor", |b| b.total_acceleration_peak_m_s2).in_study().compared(),
         Quantity::<Self>::optional("filtered_acceleration_peak_m_s2", Unit::M_S2, "the same below 25 Hz, or the corner of floor spectra; null without histories", |b| b.filtered_acceleration_peak_m_s2),
         Quantity::<Self>::real("residual_drift_peak", Unit::NONE, "greatest drift ratio of any storey at the end", |b| b.residual_drift_peak).in_study().compared(),
-        Quantity::<Self>::real("base_shear_peak_n", Unit::N, "greatest elastic base shear", |b| b.base_shear_peak_n).in_study().compared(),
+        Quantity::<Self>::real("base_shear_peak_n", Unit::N, "greatest horizontal force on the ground: of columns, walls, braces, dampers and the base, of an isolated building that of its bearings and stops", |b| b.base_shear_peak_n).in_study().compared(),
         Quantity::<Self>::real("residual_roof_displacement_m", Unit::M, "roof displacement at the end", |b| b.residual_roof_displacement_m).in_study().compared(),
         Quantity::<Self>::whole("hinges_cracked", "hinges that cracked", |b| b.hinges_cracked).in_study().compared().if_yielding(),
         Quantity::<Self>::whole("hinges_yielded", "hinges that yielded", |b| b.hinges_yielded).in_study().compared().if_yielding(),

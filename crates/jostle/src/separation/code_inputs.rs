@@ -141,8 +141,8 @@ pub struct CodeInputs {
     pub shown: Vec<Code>,
     /// What the displacements belong to.
     pub motion: MotionLevel,
-    /// Structural system for GB 50011.
-    pub system: JointSystem,
+    /// Structural system for GB 50011; `None` is concrete frames.
+    pub system: Option<JointSystem>,
     /// Whether all floors that face each other lie at equal height; `None` follows the model.
     pub floors_are_level: Option<bool>,
     /// a_g S of NTC 2018; `None` is the peak of the motion \[m/s²\].

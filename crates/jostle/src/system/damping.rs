@@ -2,8 +2,8 @@
 
 use super::building::{BuildingSystem, Direction};
 use crate::eigen::{LATERAL_SHARE, Mode, lateral_modes_along, modes_dense, sway_modes, symmetric};
-use crate::model::{Damping, Sway, usual_damping_modes};
-use crate::structure::{AssembledBuilding, Influence, InnerLink, PlanBase};
+use crate::model::{Damping, ProportionalDamping, Sway, usual_damping_modes};
+use crate::structure::{AssembledBuilding, Influence, InnerLink, PlanBase, SpringPlace};
 use crate::transfer::riccati::RiccatiSweep;
 
 impl BuildingSystem {
@@ -35,17 +35,19 @@ impl BuildingSystem {
                 };
                 let found = self.damped_modes(modes, *sway)?;
                 let frequencies: Vec<f64> = found.iter().map(|own| own.frequency).collect();
-                // Squares of frequencies, as far as damping in proportion to stiffness acts: not on springs of links.
+                // Squares of frequencies, as far as damping in proportion to stiffness acts: not on links, and not on braces and panels
+                // that yield unless asked for.
                 let damped: Vec<f64> = found.iter().map(|own| own.own_stiffness).collect();
                 self.damped_at = found
                     .iter()
                     .map(|own| (own.number, own.frequency))
                     .collect();
+                let beside_undamped = found.iter().any(|own| own.own_stiffness != own.squared());
                 match (&frequencies[..], &damped[..]) {
-                    (&[single], &[own]) if on_mat && !self.inner_links.is_empty() => {
+                    (&[single], &[own]) if on_mat && beside_undamped => {
                         (0.0, 2.0 * ratio * single / own)
                     }
-                    (&[low, high], &[own_low, own_high]) if !self.inner_links.is_empty() => {
+                    (&[low, high], &[own_low, own_high]) if beside_undamped => {
                         let beta = 2.0 * ratio * (high - low) / (own_high - own_low);
                         let alpha = 2.0 * ratio * low - beta * own_low;
                         if alpha >= 0.0 && beta >= 0.0 {
@@ -73,7 +75,6 @@ impl BuildingSystem {
     /// A message when a lateral mode of that number does not exist.
     fn damped_modes(&self, asked: &[usize], sway: Sway) -> Result<Vec<DampedMode>, String> {
         let directions: &[Direction] = match sway {
-            _ if !self.is_in_space() => &[Direction::Along],
             Sway::Along => &[Direction::Along],
             Sway::Across => &[Direction::Across],
             Sway::Both => &[Direction::Along, Direction::Across],
@@ -121,10 +122,11 @@ impl BuildingSystem {
     /// Lateral modes along the row, longest period first: of a building in space with all displacements but those along x held.
     /// Where fewer than `count` carry 1 % of the mass, those of sway, as many as there are floors.
     fn modes_along(&self, count: usize) -> Vec<DampedMode> {
-        if self.is_in_space() {
+        let mut tracks = self.tracks.iter();
+        if tracks.any(|own| own.direction != Direction::Along) {
             return self.modes_with_all_else_held(count);
         }
-        let of_mode = |mode: &Mode| DampedMode::new(mode, &self.inner_links);
+        let of_mode = |mode: &Mode| DampedMode::new(mode, self);
         let lateral: Vec<DampedMode> = self.lateral_modes().map(of_mode).collect();
         let count = count.min(self.floors.len());
         if lateral.len() >= count {
@@ -146,9 +148,7 @@ impl BuildingSystem {
         let modes = modes_dense(&self.structure, |lower| Some(symmetric::held(lower, &held)));
         let modes = modes.unwrap_or_default().into_iter();
         let across = modes.filter(|mode| mode.effective_mass_ratio_across >= LATERAL_SHARE);
-        across
-            .map(|mode| DampedMode::new(&mode, &self.inner_links))
-            .collect()
+        across.map(|mode| DampedMode::new(&mode, self)).collect()
     }
 
     fn modes_with_all_else_held(&self, count: usize) -> Vec<DampedMode> {
@@ -186,7 +186,7 @@ impl BuildingSystem {
             for (&dof, own) in along.iter().zip(vector) {
                 shape[dof] = own / equations.mass[dof].sqrt();
             }
-            DampedMode::of_shape(value.sqrt(), &shape, &self.inner_links)
+            DampedMode::of_shape(value.sqrt(), &shape, self)
         });
         modes.collect()
     }
@@ -224,7 +224,7 @@ impl BuildingSystem {
         }
         modes
             .iter()
-            .map(|mode| DampedMode::new(mode, &held.inner_links))
+            .map(|mode| DampedMode::new(mode, &held))
             .collect()
     }
 }
@@ -236,24 +236,42 @@ struct DampedMode {
     number: usize,
     /// Circular frequency \[rad/s\].
     frequency: f64,
-    /// φᵀKφ without the springs of links between floors, ω² if there are none \[rad²/s²\].
+    /// φᵀKφ without the springs of links between floors and without undamped braces and panels, ω² if there are none \[rad²/s²\].
     own_stiffness: f64,
 }
 
 impl DampedMode {
-    fn new(mode: &Mode, links: &[InnerLink]) -> Self {
-        Self::of_shape(mode.circular_frequency, &mode.shape, links)
+    fn new(mode: &Mode, building: &AssembledBuilding) -> Self {
+        Self::of_shape(mode.circular_frequency, &mode.shape, building)
     }
 
     /// `shape`: with a mass of 1 kg.
-    fn of_shape(frequency: f64, shape: &[f64], links: &[InnerLink]) -> Self {
-        let links = links.iter();
+    fn of_shape(frequency: f64, shape: &[f64], building: &AssembledBuilding) -> Self {
+        let links = building.inner_links.iter();
         let links = links.map(|link| link.stiffness * link.shortening.value(shape).powi(2));
+        let own = &building.discretization;
+        let damping = own.stick_model.single_springs();
+        let damping = damping.map(|own| own.proportional_damping);
+        let springs = building.equations.springs.iter().zip(damping);
+        let diagonals = springs
+            .zip(&own.spring_places)
+            .filter(|((_, damping), place)| {
+                matches!(place, SpringPlace::Diagonal { .. })
+                    && *damping == ProportionalDamping::None
+            });
+        let diagonals = diagonals.map(|((spring, _), _)| {
+            spring.hysteresis.initial_tangent() * spring.deformation(shape).powi(2)
+        });
         Self {
             number: 0,
             frequency,
-            own_stiffness: frequency.powi(2) - links.sum::<f64>(),
+            own_stiffness: frequency.powi(2) - links.chain(diagonals).sum::<f64>(),
         }
+    }
+
+    /// ω² \[rad²/s²\].
+    fn squared(&self) -> f64 {
+        self.frequency.powi(2)
     }
 }
 

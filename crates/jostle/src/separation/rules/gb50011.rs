@@ -1,7 +1,7 @@
 //! GB 50011.
 
 use super::{Code, Table};
-use crate::separation::gb50011_joint;
+use crate::separation::{JointSystem, gb50011_joint};
 
 impl Table<'_> {
     pub(super) fn gb50011(&mut self) {
@@ -12,7 +12,13 @@ impl Table<'_> {
             );
         }
         let height = self.lower_height();
-        let system = self.inputs.system;
+        let (system, said) = match self.inputs.system {
+            Some(system) => (system, format!("system = {}", system.name())),
+            None => (
+                JointSystem::Frame,
+                "system = frame (default: of concrete)".to_owned(),
+            ),
+        };
         for intensity in 6..=9 {
             let width = gb50011_joint(height, intensity, system).filter(|width| width.is_finite());
             if let Some(width) = width {
@@ -21,7 +27,7 @@ impl Table<'_> {
                     Some(Code::Gb50011),
                     &format!("GB 50011-2010 (2016) §6.1.4, intensity {intensity}, {height:.1} m"),
                     width,
-                    vec![format!("system = {}", system.name())],
+                    vec![said.clone()],
                 );
             }
         }

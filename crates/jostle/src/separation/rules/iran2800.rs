@@ -1,10 +1,13 @@
 //! Iran's Standard 2800.
 
-use super::{BuildingCodes, Code, Place, Side, Table};
+use super::{BuildingCodes, Code, OF_HEIGHTS, Place, Side, Table};
 use crate::separation::codes::{IRAN2800_MOST_STOREYS, iran2800_setback};
 
 impl Table<'_> {
     pub(super) fn iran2800(&mut self) {
+        if self.is_at_mat() {
+            return self.leave_out("Standard 2800", OF_HEIGHTS);
+        }
         // Displacements count only where the share of the height does not.
         let by_displacement = |side: &Side, codes: &BuildingCodes| {
             side.storeys > IRAN2800_MOST_STOREYS || codes.importance.unwrap_or(1.0) > 1.0

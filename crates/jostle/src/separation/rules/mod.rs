@@ -15,7 +15,10 @@ mod ubc97;
 use super::code_inputs::{BuildingCodes, Code, CodeInputs, HazardZone, MotionLevel};
 use super::codes::asce7_displacement;
 use super::srss;
-use crate::model::{FloorPairs, Gap, Model};
+use crate::model::{FloorPairs, Gap, LEVEL_TOLERANCE, Model};
+
+/// What rules need that give shares of heights.
+const OF_HEIGHTS: &str = "a floor above the mat: its widths are shares of heights";
 
 /// Standard gravity, to which codes refer ground accelerations \[m/s²\].
 const GRAVITY: f64 = 9.806_65;
@@ -193,6 +196,12 @@ impl Table<'_> {
         places
             .map(|place| (rule(place), place))
             .max_by(|a, b| a.0.total_cmp(&b.0))
+    }
+
+    /// Whether neighbours can touch at the mat of an isolated building alone, which has no height above the base.
+    fn is_at_mat(&self) -> bool {
+        let mut places = self.neighbours.places.iter();
+        places.all(|place| place.height <= LEVEL_TOLERANCE)
     }
 
     /// Whether one side is a wall, such as a property line.

@@ -1,11 +1,14 @@
 //! NSR-10.
 
-use super::{Code, HazardZone, Table};
+use super::{Code, HazardZone, OF_HEIGHTS, Table};
 use crate::separation::codes::{Nsr10Neighbour, nsr10_setback};
 
 impl Table<'_> {
     /// Either building may be the new one, beside a neighbour that stands on the line.
     pub(super) fn nsr10(&mut self) {
+        if self.is_at_mat() {
+            return self.leave_out("NSR-10", OF_HEIGHTS);
+        }
         let (level, words) = self.level();
         let neighbour = if level {
             Nsr10Neighbour::LevelSlabs
