@@ -276,7 +276,7 @@ pub(crate) fn critical_gaps(
     let prepared = model.prepare(false)?;
     let mut inputs = prepared.input.codes.clone();
     if let Some(system) = system {
-        inputs.system = system;
+        inputs.system = Some(system);
     }
     if !shown.is_empty() {
         inputs.shown = shown;
