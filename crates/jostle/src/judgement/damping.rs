@@ -17,7 +17,6 @@ fn ratios(known: &Known<'_>, mut add: impl FnMut(&Building, usize, f64)) {
         if building.base.isolation.is_some() || building.base.foundation.is_some() {
             continue;
         }
-        let equations = &own.equations;
         for (index, mode) in own.lateral_modes().take(MODES).enumerate() {
             let share = mode
                 .effective_mass_ratio_x
@@ -25,13 +24,7 @@ fn ratios(known: &Known<'_>, mut add: impl FnMut(&Building, usize, f64)) {
             if share < SHARE {
                 continue;
             }
-            let omega = mode.circular_frequency;
-            let by_rayleigh = 0.5 * (equations.alpha / omega + equations.beta * omega);
-            add(
-                building,
-                index + 1,
-                own.modal_damping.unwrap_or(by_rayleigh),
-            );
+            add(building, index + 1, own.damping_by_coefficients(mode));
         }
     }
 }

@@ -35,8 +35,7 @@ impl BuildingSystem {
                 };
                 let found = self.damped_modes(modes, *sway)?;
                 let frequencies: Vec<f64> = found.iter().map(|own| own.frequency).collect();
-                // Squares of frequencies, as far as damping in proportion to stiffness acts: not on links, and not on braces and panels
-                // that yield unless asked for.
+                // Squares of frequencies, as far as damping in proportion to stiffness acts: not on springs of links.
                 let damped: Vec<f64> = found.iter().map(|own| own.own_stiffness).collect();
                 self.damped_at = found
                     .iter()
@@ -67,6 +66,17 @@ impl BuildingSystem {
         let equations = &mut self.structure.equations;
         (equations.alpha, equations.beta) = (alpha, beta);
         Ok(())
+    }
+
+    /// Share of critical damping of a mode by α and β alone, without dashpots of bases and links; β as far as it acts: not on braces and
+    /// panels that yield unless the model says so \[–\].
+    pub(crate) fn damping_by_coefficients(&self, mode: &Mode) -> f64 {
+        if let Some(ratio) = self.modal_damping {
+            return ratio;
+        }
+        let frequency = mode.circular_frequency;
+        let damped = frequency.powi(2) - undamped_diagonals(&self.structure, &mode.shape);
+        0.5 * (self.equations.alpha + self.equations.beta * damped) / frequency
     }
 
     /// The modes that Rayleigh damping is given at: those asked for, or the usual ones where none is.
@@ -236,7 +246,7 @@ struct DampedMode {
     number: usize,
     /// Circular frequency \[rad/s\].
     frequency: f64,
-    /// φᵀKφ without the springs of links between floors and without undamped braces and panels, ω² if there are none \[rad²/s²\].
+    /// φᵀKφ without the springs of links between floors, ω² if there are none \[rad²/s²\].
     own_stiffness: f64,
 }
 
@@ -249,23 +259,10 @@ impl DampedMode {
     fn of_shape(frequency: f64, shape: &[f64], building: &AssembledBuilding) -> Self {
         let links = building.inner_links.iter();
         let links = links.map(|link| link.stiffness * link.shortening.value(shape).powi(2));
-        let own = &building.discretization;
-        let damping = own.stick_model.single_springs();
-        let damping = damping.map(|own| own.proportional_damping);
-        let springs = building.equations.springs.iter().zip(damping);
-        let diagonals = springs
-            .zip(&own.spring_places)
-            .filter(|((_, damping), place)| {
-                matches!(place, SpringPlace::Diagonal { .. })
-                    && *damping == ProportionalDamping::None
-            });
-        let diagonals = diagonals.map(|((spring, _), _)| {
-            spring.hysteresis.initial_tangent() * spring.deformation(shape).powi(2)
-        });
         Self {
             number: 0,
             frequency,
-            own_stiffness: frequency.powi(2) - links.chain(diagonals).sum::<f64>(),
+            own_stiffness: frequency.powi(2) - links.sum::<f64>(),
         }
     }
 
@@ -273,6 +270,24 @@ impl DampedMode {
     fn squared(&self) -> f64 {
         self.frequency.powi(2)
     }
+}
+
+/// What the springs of braces and panels that yield, and have no damping in proportion to stiffness, add to ω² of a mode; `shape` with
+/// a mass of 1 kg \[rad²/s²\].
+fn undamped_diagonals(building: &AssembledBuilding, shape: &[f64]) -> f64 {
+    let own = &building.discretization;
+    let damping = own.stick_model.single_springs();
+    let damping = damping.map(|own| own.proportional_damping);
+    let springs = building.equations.springs.iter().zip(damping);
+    let diagonals = springs
+        .zip(&own.spring_places)
+        .filter(|((_, damping), place)| {
+            matches!(place, SpringPlace::Diagonal { .. }) && *damping == ProportionalDamping::None
+        });
+    let stiffness = diagonals.map(|((spring, _), _)| {
+        spring.hysteresis.initial_tangent() * spring.deformation(shape).powi(2)
+    });
+    stiffness.sum()
 }
 
 /// Coefficients that give two modes a damping ratio (theory, Eq. D1) \[1/s, s\].
