@@ -82,6 +82,7 @@ fn verdict(name: &str, capacity: &CapacitySummary) -> String {
             name,
             capacity.exceeded,
             capacity.rated,
+            capacity.exceeded_in_shear,
             place(first),
             &worst,
         ),

@@ -484,8 +484,9 @@ fn write_capacity(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt:
     let worst = worst.max_by(|a, b| a.ratio.total_cmp(&b.ratio));
     let firsts = rated().filter_map(|capacity| capacity.first.as_ref());
     let first = firsts.min_by(|a, b| a.at_s.total_cmp(&b.at_s));
-    let (all, exceeded) = rated().fold((0, 0), |(all, exceeded), capacity| {
-        (all + capacity.rated, exceeded + capacity.exceeded)
+    let (all, exceeded, in_shear) = rated().fold((0, 0, 0), |(all, exceeded, shear), own| {
+        let shear = shear + own.exceeded_in_shear;
+        (all + own.rated, exceeded + own.exceeded, shear)
     });
     let label = format!("capacity ({rule}):");
     match first {
@@ -493,7 +494,7 @@ fn write_capacity(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt:
             let beyond = format!("{exceeded} of {all} members exceed it");
             writeln!(
                 text,
-                "\n{label} {}, first {}",
+                "\n{label} {}, {in_shear} in shear; first {}",
                 styled(LOUD, &beyond),
                 place(first)
             )?;

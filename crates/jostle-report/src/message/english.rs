@@ -387,7 +387,7 @@ messages! {
     during_the_impact(left, right, start) = ", during the impact of {left} and {right} that starts at {start}";
     in_at(member, kind, at, at_2, during) = "{member} in {kind} at its {at}, at {at_2}{during}";
     greatest_ratio_title(ratio, worst) = "Greatest ratio {ratio}: {worst}.";
-    of_members_are_beyond(name, exceeded, rated, place, worst) = "{name}: {exceeded} of {rated} members exceed their capacity, first {place}. {worst}";
+    of_members_are_beyond(name, exceeded, rated, in_shear, place, worst) = "{name}: {exceeded} of {rated} members exceed their capacity, {in_shear} of them in shear; first {place}. {worst}";
     none_of_members_is_beyond(name, rated, worst) = "{name}: none of {rated} members exceeds its capacity. {worst}";
     no_capacity = "no capacity";
     beyond_last(last) = "beyond {last}";

@@ -275,12 +275,13 @@ pub(super) fn of_building(
         ratio: value,
         impact: place.impact.clone(),
     };
-    let exceeded = rated()
-        .filter(|(_, ratio)| ratio.bending > 1.0 || ratio.shear.is_some_and(|shear| shear > 1.0));
+    let in_shear = |ratio: &RatioSummary| ratio.shear.is_some_and(|shear| shear > 1.0);
+    let exceeded = rated().filter(|(_, ratio)| ratio.bending > 1.0 || in_shear(ratio));
     Some(CapacitySummary {
         rule: rated().next()?.1.rule,
         rated: rated().count(),
         exceeded: exceeded.count(),
+        exceeded_in_shear: rated().filter(|(_, ratio)| in_shear(ratio)).count(),
         first: first_of(building, run),
         worst,
         joints_rated: joints

@@ -144,6 +144,8 @@ pub struct CapacitySummary {
     pub rated: usize,
     /// Number of members beyond it, in shear or in bending.
     pub exceeded: usize,
+    /// Those of them beyond it in shear, which do not just yield in bending.
+    pub exceeded_in_shear: usize,
     /// The first member beyond its capacity; `null` if there is none.
     pub first: Option<ExceededSummary>,
     /// The member with the greatest ratio.
@@ -162,6 +164,7 @@ impl CapacitySummary {
     pub const QUANTITIES: &[Quantity<Self>] = &[
         Quantity::<Self>::whole("rated", "members with a known capacity", |c| c.rated),
         Quantity::<Self>::whole("exceeded", "members beyond their capacity, in shear or in bending", |c| c.exceeded).in_study(),
+        Quantity::<Self>::whole("exceeded_in_shear", "those of them beyond it in shear", |c| c.exceeded_in_shear).in_study(),
         Quantity::<Self>::whole("joints_rated", "joints with a known capacity", |c| c.joints_rated),
         Quantity::<Self>::whole("joints_exceeded", "joints beyond their capacity in shear", |c| c.joints_exceeded).in_study(),
         Quantity::<Self>::real("ratio", Unit::NONE, "greatest demand over capacity of any member", |c| c.worst.ratio).not_in_summary().in_study(),
