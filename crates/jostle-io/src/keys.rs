@@ -90,6 +90,8 @@ pub(crate) enum Section {
     Joint,
     RigidEnds,
     FibreSteel,
+    /// Strains at which fibres fail.
+    FibreLimits,
     /// Springs and dashpots under any building.
     ShearBase,
     /// Further ones under the columns of a frame.
@@ -1050,6 +1052,10 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::FrameBase, "rotational_hinge", Kind::Table(S::BaseRocking), "Yielding of the rotational spring; without this table it is elastic."),
     default(S::FrameBase, "rotational_damping", Quantity(D::RotationalDamping), "0", "Dashpot parallel to the rotational spring.").usual("a rotational dashpot coefficient", 100.0, 1e11),
 
+    default(S::FibreLimits, "spalling", Quantity(D::Dimensionless), "crushing strain of the unconfined concrete", "Strain of unconfined concrete in compression at which it spalls.").usual("a strain", 1e-3, 2e-2),
+    default(S::FibreLimits, "crushing", Quantity(D::Dimensionless), "0.004 + 1.4 ρ_s f_y ε_su/f_cc", "Strain of the concrete within ties in compression at which it is crushed.").usual("a strain", 2e-3, 0.2),
+    optional(S::FibreLimits, "buckling", Quantity(D::Dimensionless), "Strain of bars in tension from which they buckle when the load turns back. No rule computes it: without it buckling of bars is not judged.").usual("a strain", 2e-3, 0.2),
+    default(S::FibreLimits, "fracture", Quantity(D::Dimensionless), "rupture strain of the steel", "Strain of bars in tension at which they break.").usual("a strain", 5e-3, 0.5),
     required(S::FibreSteel, "rule", Choice(FIBRE_STEELS), "Loops of the bars."),
     default(S::FibreSteel, "R0", Quantity(D::Dimensionless), "20", "menegotto-pinto: exponent of the first curve, 1 or more; smaller ones bend earlier.").usual("an exponent", 5.0, 30.0),
     default(S::FibreSteel, "cR1", Quantity(D::Dimensionless), "0.925", "menegotto-pinto: share of the exponent that plastic deformation takes.").usual("a share of an exponent", 0.5, 0.97),
@@ -1092,6 +1098,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Hinges, "ultimate_strain", Quantity(D::Dimensionless), "on the straight line through its stress at the crushing strain", "Strain at which concrete has fallen to its residual strength.").usual("a strain", 2e-3, 0.3),
     default(S::Hinges, "hardening", Quantity(D::Dimensionless), "that of the steel", "Modulus of bars after yield over that before.").usual("a ratio of stiffnesses", 1e-4, 0.2),
     default(S::Hinges, "steel", TextOrTable(S::FibreSteel), "\"bilinear\"", "Loops of the bars: straight lines with one corner, or `\"menegotto-pinto\"`, which bend smoothly; its numbers as a table."),
+    optional(S::Hinges, "limits", Kind::Table(S::FibreLimits), "Strains that are judged, instead of those that follow from the sections."),
     default(S::Hinges, "beam_rule", Choice(RULES), "\"peak-oriented\"", "Rule of the hinges of beams beside fibres in columns; from = \"section\" computes their moments."),
 
     optional(S::Hinge, "cracking", Quantity(D::Moment), "Cracking moment.").usual("a cracking moment", 1e3, 1e9),
@@ -1120,6 +1127,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::SpaceHinges, "ultimate_strain", Quantity(D::Dimensionless), "on the straight line through its stress at the crushing strain", "Strain at which concrete has fallen to its residual strength.").usual("a strain", 2e-3, 0.3),
     default(S::SpaceHinges, "hardening", Quantity(D::Dimensionless), "that of the steel", "Modulus of bars after yield over that before.").usual("a ratio of stiffnesses", 1e-4, 0.2),
     default(S::SpaceHinges, "steel", TextOrTable(S::FibreSteel), "\"bilinear\"", "Loops of the bars: straight lines with one corner, or `\"menegotto-pinto\"`, which bend smoothly; its numbers as a table."),
+    optional(S::SpaceHinges, "limits", Kind::Table(S::FibreLimits), "Strains that are judged, instead of those that follow from the sections."),
     default(S::SpaceHinges, "beam_rule", Choice(RULES), "\"peak-oriented\"", "Rule of the hinges of beams beside fibres in columns."),
     optional(S::ColumnHinge, "cracking", Quantity(D::Moment), "Cracking moment.").usual("a cracking moment", 1e3, 1e9),
     optional(S::ColumnHinge, "yield", Quantity(D::Moment), "Yield moment.").usual("a yield moment", 1e3, 1e9),

@@ -132,7 +132,7 @@ column = { width = 1, depth = 1, bars = { top = "4 d20" } }
 beam = { EI = 1 }
 axial = "flexible"
 floor_load = 1
-hinges = { rule = "fibre", length = 1, steel = { rule = "bilinear" }, beam_rule = "takeda", beam = { yield = 1 } }
+hinges = { rule = "fibre", length = 1, steel = { rule = "bilinear" }, limits = { spalling = 0.004 }, beam_rule = "takeda", beam = { yield = 1 } }
 "#,
     r#"
 [[building]]

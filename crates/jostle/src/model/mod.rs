@@ -38,7 +38,7 @@ pub use capacity::{
     ShearCapacity,
 };
 pub use diagonal::{Diagonal, DiagonalKind, DiagonalPlace, GridLine, PanelAcross, Rise};
-pub use fibres::{ColumnFibres, Fibre};
+pub use fibres::{ColumnFibres, Fibre, FibreLimit, FibreMaterial};
 pub(crate) use floor_matrices::displacement_in_words;
 pub use floor_matrices::{FloorMatrices, GivenFloor, GivenInPlan};
 pub use frame_members::FramePlace;

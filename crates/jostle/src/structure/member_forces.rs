@@ -298,9 +298,11 @@ impl MemberForces {
         for section in &discretization.sections {
             let springs = discretization.springs_of_section(section);
             let mut sum = |share: &dyn Fn([f64; 2]) -> f64| {
-                let fibres = springs.clone().zip(&section.at);
+                let fibres = springs.clone().zip(section.fibres.iter());
                 self.index_of(LinearForm {
-                    springs: fibres.map(|(spring, at)| (spring, share(*at))).collect(),
+                    springs: fibres
+                        .map(|(spring, own)| (spring, share(own.at)))
+                        .collect(),
                     ..LinearForm::default()
                 })
             };

@@ -36,7 +36,7 @@ pub use members::{
     AcrossSummary, ForcesSummary, MemberComparison, MemberSummary, SectionSummary, StruckSummary,
 };
 pub use parts::PartSummary;
-pub use sections::{FibreAcrossSummary, FibreSummary};
+pub use sections::{FibreAcrossSummary, FibreSummary, StrainLimitSummary};
 pub use shear_failure::{ShearFailure, ShearFailureSummary};
 
 use serde::Serialize;
