@@ -33,6 +33,7 @@ mod matching;
 pub(crate) mod motion;
 mod out_of_plane;
 mod output;
+mod panel_struts;
 mod partial;
 mod places;
 mod plan;

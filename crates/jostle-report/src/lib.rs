@@ -34,6 +34,7 @@ pub mod message;
 mod method;
 mod motion_page;
 mod page;
+mod panels;
 mod payload;
 mod plan_motion;
 mod pushover;

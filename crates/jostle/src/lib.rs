@@ -119,10 +119,10 @@ pub use model::{
     FrameHinges, FramePlace, FrameWall, Gap, Given, GivenFloor, GivenInPlan, Gravity, GridLine,
     GroundSprings, HalfSpace, Hinges, Integrator, Isolation, Isolator, IsolatorDamping, Joint,
     JointRequest, Level, Link, LinkLaw, MassDamping, MemberRequest, Model, ModelFault, PanelAcross,
-    PlanArea, PlanAxis, PlanContact, PlanFoundationSprings, PlanFrame, PlanPoint, PlanSpring,
-    ProportionalDamping, Rise, Section, Shear, ShearEnds, ShearSpring, SlidingSurface, Soil,
-    SoilCoupling, Solver, SpaceFrame, SpaceMember, SpacePlace, SpaceSection, SpaceWall,
-    SpeedFriction, Stop, Structure, Tier, TierStorey, Tiers, Uplift, Wall,
+    PanelDamage, PlanArea, PlanAxis, PlanContact, PlanFoundationSprings, PlanFrame, PlanPoint,
+    PlanSpring, ProportionalDamping, Rise, Section, Shear, ShearEnds, ShearSpring, SlidingSurface,
+    Soil, SoilCoupling, Solver, SpaceFrame, SpaceMember, SpacePlace, SpaceSection, SpaceWall,
+    SpeedFriction, Stop, Structure, StrutLine, Tier, TierStorey, Tiers, Uplift, Wall,
 };
 pub use motion::{Bearing, GroundMotion, GroundPath, GroundPoint, Grounds, OwnGround, Wave};
 pub use quantity::{Quantity, Unit};

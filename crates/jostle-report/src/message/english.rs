@@ -1133,6 +1133,16 @@ messages! {
     interaction_of_the_section = "capacity";
     paths_of_ends(count) = "Axial compression and moment of the {count} ends whose strains came nearest to a limit. The dashed curve is the capacity of the section without confinement and hardening, at the crushing strain of plain concrete and at 1 % in the bars: confined columns go beyond it.";
 
+    // panels
+    infill_panels = "Infill panels";
+    damage_by_drift = "Damage state by the greatest drift of the bay: how much its diagonal shortens, over the cosine of its slope and the storey height.";
+    panels_of_states(name, counts, total) = "{name}: {counts} of {total} panels.";
+    state_in(state, count) = "state {state} in {count}";
+    no_state_in_any = "no damage state reached in any";
+    panel = "panel";
+    damage_state = "damage state";
+    across_its_plane = "across its plane";
+
     // shear_failures
     columns_that_fail_in_shear = "Columns that fail in shear";
     columns_failed_in_shear(name, failed, total, first, dissipated) = "{name}: {failed} of {total} columns fail in shear, first at {first}; {dissipated} dissipated.";

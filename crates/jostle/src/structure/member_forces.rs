@@ -266,13 +266,11 @@ impl AssembledBuilding {
         let Discretization {
             stick_model,
             diagonals,
-            spring_places,
             ..
         } = &self.discretization;
         let own = &diagonals[diagonal];
-        let place = SpringPlace::of_diagonal(own);
         let mut form = LinearForm::default();
-        match spring_places.iter().position(|known| *known == place) {
+        match self.discretization.spring_of_diagonal(own) {
             Some(spring) if own.spring.is_some() => form.springs = Row::single(spring),
             _ => {
                 let elongation = stick_model.carried_row(&own.elongation);

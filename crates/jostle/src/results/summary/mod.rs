@@ -35,7 +35,7 @@ pub use links::{LinkFloorSummary, LinkSummary};
 pub use members::{
     AcrossSummary, ForcesSummary, MemberComparison, MemberSummary, SectionSummary, StruckSummary,
 };
-pub use parts::PartSummary;
+pub use parts::{PanelDamageSummary, PartSummary};
 pub use sections::{FibreAcrossSummary, FibreSummary, StrainLimitSummary};
 pub use shear_failure::{ShearFailure, ShearFailureSummary};
 

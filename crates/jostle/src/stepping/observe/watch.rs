@@ -71,6 +71,7 @@ pub(super) fn watches(system: &System, rises: bool) -> Vec<Watch> {
         of_foundation(index, building, &mut all);
         of_foundation_in_plan(index, building, &mut all);
         of_sections(index, building, &mut all);
+        of_panels(building, &mut all);
         of_footings(building, &mut all);
         if rises {
             all.extend(building.vertical_points().map(|(floor, dof)| {
@@ -221,6 +222,21 @@ fn of_footings(building: &BuildingSystem, all: &mut Vec<Watch>) {
         let column = Column::along(Owner::Spring(spring), Kind::Lifted);
         Watch::new(column, Statistic::Lifted(spring))
     }));
+}
+
+/// Bays of infill panels whose damage is judged: how much their diagonals change their length.
+fn of_panels(building: &BuildingSystem, all: &mut Vec<Watch>) {
+    let own = &building.discretization;
+    for diagonal in own.diagonals.iter().filter(|own| own.damage.is_some()) {
+        let Some(spring) = own.spring_of_diagonal(diagonal) else {
+            continue;
+        };
+        let row = own.stick_model.carried_row(&diagonal.between_joints);
+        let row = building.equations.row(&row).moved_up(building.offset);
+        let owner = Owner::Spring(building.spring_offset + spring);
+        let column = Column::along(owner, Kind::Stroke);
+        all.push(Watch::new(column, Statistic::Extremes(row)));
+    }
 }
 
 /// Ends of columns that are made of fibres.
