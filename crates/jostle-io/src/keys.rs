@@ -146,6 +146,8 @@ pub(crate) enum Section {
     /// How the faces of a gap crush.
     Crush,
     Link,
+    /// Soil beside floors of a building.
+    SoilSpring,
     /// A link inside one building.
     Damper,
     /// What links and dampers share.
@@ -676,6 +678,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Building, "storey_height", PerStorey(D::Length), "Storey height; required for frames, 3 m by default for shear buildings.").usual("a storey height", 1.5, 30.0).possible(0.01, 1000.0),
     default(S::Building, "elevation", Quantity(D::Length), "0", "Height of its base above a datum that all buildings share. Floors and columns of neighbours face each other by their heights above the datum, which heights of contacts and links are; heights in a building are those above its base.").usual("an elevation", 1e-3, 200.0).possible(0.0, 2000.0).signed(),
     default(S::Building, "damping", Kind::Table(S::Damping), "5 % in lateral modes 1 and 3", "Viscous damping, such as `{ ratio = 0.05, modes = [1, 3] }` or `{ alpha = 0.5, beta = \"1 ms\" }`. With hinges 3 % or less is usual: they dissipate as well."),
+    optional(S::Building, "soil_spring", Tables(&[S::SoilSpring]), "Soil beside floors below ground, of buildings in one plane that stand on a fixed base; links between these floors and the base, which follow the dampers in results."),
     optional(S::Building, "damper", Tables(&[S::Damper, S::LinkLaw]), "Dampers and other links between two of its floors; a short form of link. They follow the links in results."),
     optional(S::Building, "position", Quantity(D::Length), "Place along the row, for apparent_velocity and coherency of [motion]; buildings with a plan have that of the centre of their plan.").usual("a position along the row", 1e-3, 1e5).signed(),
     optional(S::Building, "motion", Kind::TableOf(&[S::OwnMotion, S::Motion]), "The ground under this building, if it differs: arrival, a motion of its own, or a scale of the common one. A motion without an amplitude or a scaling of its own has the factor of the common one."),
@@ -1216,6 +1219,13 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Link, "floors", FloorPairs, "\"common\"", "Points that are joined, as for gaps. Inside one building: pairs of its floors, such as [[0, 1], [1, 2]]; 0 is its base.").any("heights are compared with those of the floors"),
     default(S::Link, "level_tolerance", Quantity(D::Length), "\"1 mm\"", "Floors whose heights differ by no more than this can be joined.").usual("a tolerance of levels", 1e-5, 1.0).possible(0.0, 20.0),
     optional(S::LinkLaw, "at", Kind::PlanPoints, "For buildings with a plan: both ends, between which the force acts; of a link on the site, of a damper from the origin of the plan, the lower floor of a pair first.").usual("a length in plan", 1e-3, 5e3).possible(0.0, 1e5).signed(),
+    required(S::SoilSpring, "floors", Kind::FromTo, "The floor that soil holds, counted from 1 above the base; or the first and the last."),
+    required(S::SoilSpring, "stiffness", Quantity(D::Stiffness), "Force per displacement of one floor; with gapping that of the soil on one side, which acts alone.").usual("a stiffness of soil", 1e5, 1e11),
+    optional(S::SoilSpring, "strength", Quantity(D::Force), "Greatest force of the soil on one side of one floor, such as its passive resistance; without it and hinge it stays elastic.").usual("a strength of soil", 1e3, 1e9),
+    default(S::SoilSpring, "post_yield", Quantity(D::Dimensionless), "0", "Stiffness after strength over that before.").usual("a ratio of stiffnesses", 1e-4, 1.0),
+    optional(S::SoilSpring, "hinge", Kind::Table(S::LinkHinge), "Corners of the curve instead of strength, such as those of a p–y curve times the area of the floor; with gapping by the rule pinched."),
+    default(S::SoilSpring, "gapping", Flag, "false", "Whether soil on either side bears compression alone and leaves a gap where it has yielded."),
+    optional(S::SoilSpring, "dashpot", Quantity(D::Damping), "Dashpot beside the springs of one floor, which acts at all times, also across a gap.").usual("a dashpot of soil", 1e3, 1e10),
     required(S::Damper, "floors", FloorPairs, "The two floors that it joins, such as [0, 1], or a list of such pairs; 0 is the mat of an isolated building, otherwise the base.").any("heights are compared with those of the floors"),
 
     default(S::LinkLaw, "law", Choice(LINK_LAWS), "\"linear\"", "linear, spring and dashpot side by side; viscous, F = c v^α against the motion, with a spring in series if stiffness is given; maxwell, spring and dashpot in series; friction, a slider; yielding, a hysteresis rule; cable, tension only; stopper, compression only. All but linear need solver = \"riccati\"."),

@@ -47,6 +47,7 @@ mod shear_failure;
 mod site;
 mod slab;
 mod soil;
+mod soil_spring;
 mod space_frame;
 mod space_hinges;
 mod space_walls;

@@ -274,6 +274,11 @@ const TABLES: &[(Section, &str, &str)] = &[
         "A short form of `[[link]]` inside one building.",
     ),
     (
+        Section::SoilSpring,
+        "`[[building.soil_spring]]`",
+        "See [Basements](how-to/basements.md).",
+    ),
+    (
         Section::LinkLaw,
         "`[[link]]`, `[[building.damper]]`, further keys",
         "",

@@ -60,6 +60,7 @@ hinges = { rule = "pinched", pinching = {}, damage = {}, column = { positive = {
 kind = "shear"
 codes = { importance = 1 }
 damper = [{ floors = [0, 1], law = "friction" }]
+soil_spring = [{ floors = 1, hinge = { rule = "pinched" } }]
 base = { mass = 1, across = { horizontal_stiffness = 1 } }
 isolation = { kind = "triple-friction-pendulum", stop = {} }
 hinges = { rule = "normal" }
