@@ -5,7 +5,6 @@ use jostle::results::summary::FibreSummary;
 use jostle::structure::{Discretization, FibreSection};
 use jostle_section::Section;
 use jostle_section::capacity::Interaction;
-use maud::{Markup, html};
 
 use crate::static_plot::{Line, Plot};
 use crate::thin_loop::thin_loop;
@@ -25,20 +24,13 @@ struct End<'a> {
     building: usize,
 }
 
-/// Figures of the ends whose strains came nearest to their limits; nothing without histories or in space, where the capacity is a
-/// surface.
-pub(crate) fn figures(page: &Page) -> Markup {
+/// Those whose strains came nearest to their limits; none without histories, nor in space, where the capacity is a surface.
+pub(crate) fn plots(page: &Page) -> Vec<Plot> {
     let mut ends = ends(page);
     let strained = |own: &End<'_>| own.summary.worst_ratio().unwrap_or(0.0);
     sort_by(&mut ends, |a, b| strained(b).total_cmp(&strained(a)));
     ends.truncate(MOST);
-    let plots: Vec<Plot> = ends.iter().filter_map(|end| plot(page, end)).collect();
-    html! {
-        @if !plots.is_empty() {
-            div.static-plots { @for plot in &plots { (plot.figure()) } }
-            p.quiet { (message::paths_of_ends(plots.len())) }
-        }
-    }
+    ends.iter().filter_map(|end| plot(page, end)).collect()
 }
 
 fn ends<'a>(page: &Page<'a>) -> Vec<End<'a>> {

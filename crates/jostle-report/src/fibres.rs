@@ -20,11 +20,15 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
         return None;
     }
     let all: Vec<&FibreSummary> = own.iter().flat_map(|(_, all)| *all).collect();
+    let paths = fibre_paths::plots(page);
     Some(html! {
         section #fibres {
             h2 { (message::columns_that_follow_their_axial_force()) }
             @for (name, all) in &own { p { (sentence(name, all)) } }
-            (fibre_paths::figures(page))
+            @if !paths.is_empty() {
+                div.static-plots { @for path in &paths { (path.figure()) } }
+                p.quiet { (message::paths_of_ends(paths.len())) }
+            }
             (table(&all))
         }
     })

@@ -79,7 +79,7 @@ fn in_words(limit: FibreLimit) -> &'static str {
     match limit {
         FibreLimit::Spalling => "cover spalls",
         FibreLimit::Crushing => "core is crushed",
-        FibreLimit::Buckling => "bars buckle",
+        FibreLimit::Buckling => "bars stretch to buckle",
         FibreLimit::Fracture => "bars break",
     }
 }

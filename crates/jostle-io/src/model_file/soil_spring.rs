@@ -64,31 +64,35 @@ pub(super) fn read_all(reader: &mut Reader<'_>, building: &Field<'_>, index: usi
 
 fn read(reader: &mut Reader<'_>, field: &Field<'_>, index: usize) -> Option<Vec<Damper>> {
     let view = reader.open(field, &[Section::SoilSpring])?;
-    if !view.has("floors") {
-        reader.missing(&view, "floors", "add floors = [1, 2], the first and the last floor that soil holds, counted from the foundation");
-        return None;
-    }
-    let [first, last] = range(reader, &view, "floors", MOST_LINKS)?;
+    let floors = match view.has("floors") {
+        true => range(reader, &view, "floors", MOST_LINKS),
+        false => {
+            reader.missing(&view, "floors", "add floors = [1, 2], the first and the last floor that soil holds, counted from the foundation");
+            None
+        }
+    };
     let stiffness = match reader.get(&view, "stiffness") {
-        Some(field) => reader.positive(&field, Dimension::Stiffness)?,
+        Some(field) => reader.positive(&field, Dimension::Stiffness),
         None => {
             reader.missing(
                 &view,
                 "stiffness",
                 "add stiffness = \"200 MN/m\", that of the soil on one side of one floor",
             );
-            return None;
+            None
         }
     };
     let gapping = match reader.get(&view, "gapping") {
-        Some(field) => reader.flag(&field)?,
-        None => false,
+        Some(field) => reader.flag(&field),
+        None => Some(false),
     };
     let dashpot = match reader.get(&view, "dashpot") {
-        Some(field) => reader.positive(&field, Dimension::Damping)?,
-        None => 0.0,
+        Some(field) => reader.positive(&field, Dimension::Damping),
+        None => Some(0.0),
     };
-    let law = law(reader, &view, stiffness, gapping)?;
+    let law = law(reader, &view, stiffness, gapping == Some(true));
+    let ([first, last], stiffness) = (floors?, stiffness?);
+    let (gapping, dashpot, law) = (gapping?, dashpot?, law?);
     let link = |law: LinkLaw, stiffness: f64, damping: f64| Damper {
         link: Link {
             between: [Some(index); 2],
@@ -121,7 +125,7 @@ fn read(reader: &mut Reader<'_>, field: &Field<'_>, index: usize) -> Option<Vec<
 fn law(
     reader: &mut Reader<'_>,
     view: &View<'_>,
-    stiffness: f64,
+    stiffness: Option<f64>,
     gapping: bool,
 ) -> Option<Option<Hysteresis>> {
     let strength = match reader.get(view, "strength") {
@@ -164,7 +168,7 @@ fn law(
         }
         (Some((strength, field)), None) => {
             let corners = Corners::bilinear(strength, post_yield);
-            let own = Backbone::from_forces(stiffness, corners, corners)
+            let own = Backbone::from_forces(stiffness?, corners, corners)
                 .and_then(|backbone| Hysteresis::new(rule, backbone));
             let own = own.map_err(|faults| faults.into_iter().next());
             let own = own.and_then(|own| one_sided(own).map_err(Some));
@@ -179,7 +183,7 @@ fn law(
         }
         (None, Some(field)) => {
             let sections = &[Section::LinkHinge];
-            let own = read_spring(reader, &field, sections, Some(stiffness), Dimension::Force)?;
+            let own = read_spring(reader, &field, sections, stiffness, Dimension::Force)?;
             match one_sided(own) {
                 Ok(own) => Some(Some(own)),
                 Err(fault) => {
@@ -192,7 +196,7 @@ fn law(
         (None, None) => match gapping {
             false => Some(None),
             // Elastic soil on both sides that cannot pull.
-            true => Some(Hysteresis::without_tension(stiffness).ok()),
+            true => Some(Hysteresis::without_tension(stiffness?).ok()),
         },
     }
 }
