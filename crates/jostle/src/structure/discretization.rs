@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::column_ends::FibreSection;
-use super::cuts::{cut_at, equal_cuts};
+use super::cuts::{cut_at, cut_exactly, equal_cuts};
 use super::diagonals::FrameDiagonal;
 use super::element::{Element, Part, Place, THETA, X, Y, index_of};
 use super::frame_walls::InFrame;
@@ -446,9 +446,6 @@ impl StickModel {
     }
 }
 
-/// Share of a column by which no division point moves \[–\].
-const EXACTLY: f64 = 1e-9;
-
 pub(super) fn discretize_frame(
     frame: &Frame,
     base: &Base,
@@ -570,7 +567,7 @@ pub(super) fn discretize_frame(
             }
             // Struts end exactly where they are said to.
             for above in frame.ends_of_struts([storey, line]) {
-                cut_at(&mut cuts, (above - rigid[0]) / clear_height, EXACTLY);
+                cut_exactly(&mut cuts, (above - rigid[0]) / clear_height);
             }
             let first = stick_model.members.len();
             let interior = stick_model.add_line(

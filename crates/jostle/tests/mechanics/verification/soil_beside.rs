@@ -1,14 +1,16 @@
 //! Soil on both sides of a floor that leaves gaps: springs of one side against linear ones and against an integration of their own.
 
+use jostle::history::{Kind, Owner};
 use jostle::hysteresis::{
     Backbone, Corners, Hysteresis, HysteresisMemory, HysteresisRule, Pinching,
 };
 use jostle::{
-    Building, Column, Damping, FloorPairs, Link, LinkLaw, Model, Outcome, Shear, Structure,
+    Building, Column, Damping, FloorPairs, FrameHinges, Hinges, Link, LinkLaw, Model, Outcome,
+    Shear, Structure,
 };
 use jostle_testkit::motions::fading;
 
-use crate::verification::support::{assembled, column, largest, run, steps};
+use crate::verification::support::{assembled, column, frame, framed, largest, run, steps};
 
 const MASS: f64 = 200e3;
 const OWN: f64 = 4e6;
@@ -154,4 +156,42 @@ fn gaps_follow_an_integration_of_their_own() {
     let scale = largest(&moved);
     assert!(crushed[0] > 1e-3 && crushed[1] > 1e-3, "{crushed:?}");
     assert!(worst < 2e-3 * scale, "{worst:e} of {scale:e}");
+}
+
+/// Columns yield at their feet beyond hinges, which are not the base: the link changes its length as the floor moves.
+#[test]
+fn hinges_at_feet_are_not_the_base() {
+    let corners = Corners::bilinear(150e3, 0.02);
+    let hinge = Backbone::from_forces(4e9, corners, corners)
+        .and_then(|backbone| Hysteresis::new(HysteresisRule::Bilinear, backbone));
+    let own = frame(1, &[5.0]);
+    let hinges = FrameHinges {
+        columns: vec![vec![hinge.expect("sound"); 2]],
+        ..FrameHinges::default()
+    };
+    let model = Model {
+        buildings: vec![Building {
+            hinges: Some(Hinges::Frame(hinges)),
+            damping: Damping::Rayleigh {
+                alpha: 0.2,
+                beta: 0.0,
+            },
+            ..framed("A", own)
+        }],
+        links: vec![link(LinkLaw::Linear, 2e6, 0.0)],
+        ..Model::default()
+    };
+    let motion = fading("along", 9.0, [2.5, 3.0], 150);
+    let outcome = run(&assembled(&model), &motion, &steps(5e-4, 1));
+    let roof = outcome.peaks.floor(0, 1).displacement().size();
+    let stroke = outcome
+        .peaks
+        .owned_by(Owner::Link(0))
+        .of(Kind::Stroke)
+        .size();
+    assert!(
+        roof > 0.0 && (stroke / roof - 1.0).abs() < 1e-3,
+        "{stroke} {roof}"
+    );
+    assert!(!outcome.spring_events.is_empty());
 }
