@@ -118,14 +118,16 @@ class Frame(Part):
             ``{"rule": "peak-oriented", "from": "section"}`` or
             ``{"rule": "normal", "initial": 100, "column": {"cracking": "120 kN.m", …}, "beam": {…}}``. With
             ``{"rule": "fibre", "length": "0.4 m"}`` the ends of columns with bars are fibres, whose strength follows the axial force;
-            ``"steel": "menegotto-pinto"`` bends the loops of their bars.
+            ``"steel": "menegotto-pinto"`` bends the loops of their bars, and ``"limits": {"buckling": 0.04}`` states strains
+            by which they are judged.
         shear_failure: columns that fail in shear: ``{"rule": "sezen-moehle", "residual": 0.2}`` or
             ``{"strength": "300 kN", "slope": "5 MN/m"}``; without it their shear strength has no limit.
         brace: braces between joints: ``[{"storeys": [1, 3], "bay": 1, "direction": "both", "EA": "600 MN"}]``; with ``"hinge"`` they
             yield, or buckle: ``{"profile": "HEB160", "hinge": {"rule": "buckling", "curve": "c", "yield_strength": "275 MPa"}}``.
         infill: masonry panels in the bays, as struts that bear compression alone:
             ``[{"storeys": [2, 4], "modulus": "4 GPa", "thickness": "200 mm", "width": "1.4 m"}]``; ``"out_of_plane"`` compares
-            what they bear across their plane.
+            what they bear across their plane; ``"offset": "300 mm"`` lets struts meet the columns off the joints, and
+            ``"damage_drifts"`` are the drifts of four damage states.
         wall: walls, each in place of a column line: ``[{"at": "4.5 m", "length": "3 m", "thickness": "250 mm"}]``; with ``"hinge"``
             they yield at their feet.
         coupling_beam: beams between walls with properties of their own, whose forces are reported:
@@ -137,6 +139,8 @@ class Frame(Part):
         p_delta: whether P-Delta from the weight above is included; ``False`` by default.
         damper: dampers and other links between two floors of this building, such as
             ``[{"floors": [0, 1], "law": "viscous", "damping": "200 kN.(s/m)^0.5", "exponent": 0.5}]``.
+        soil_spring: soil beside floors below ground, on a fixed base in one plane:
+            ``[{"floors": [1, 2], "stiffness": "200 MN/m", "strength": "1.5 MN", "gapping": True}]``.
         codes: factors of this building in the separation rules of codes: ``{"behaviour_factor": 3.9}``.
         shear: ``"rigid"`` (default), or ``"flexible"`` for members with shear deformation (Timoshenko), or
             ``{"columns": …, "beams": …}``.
@@ -196,6 +200,7 @@ class Frame(Part):
         gravity: bool | None = None,
         p_delta: bool | None = None,
         damper: Sequence[Table] | None = None,
+        soil_spring: Sequence[Table] | None = None,
         codes: Table | None = None,
         shear: _Flexibility | Table | None = None,
         poisson_ratio: float | None = None,
@@ -239,6 +244,7 @@ class Frame(Part):
                 "gravity": gravity,
                 "p_delta": p_delta,
                 "damper": damper,
+                "soil_spring": soil_spring,
                 "codes": codes,
                 "shear": shear,
                 "poisson_ratio": poisson_ratio,
@@ -275,6 +281,8 @@ class Shear(Part):
         p_delta: whether P-Delta from the weight above is included; ``False`` by default.
         damper: dampers and other links between two floors of this building, such as
             ``[{"floors": [0, 1], "law": "viscous", "damping": "200 kN.(s/m)^0.5", "exponent": 0.5}]``.
+        soil_spring: soil beside floors below ground, on a fixed base in one plane:
+            ``[{"floors": [1, 2], "stiffness": "200 MN/m", "strength": "1.5 MN", "gapping": True}]``.
         codes: factors of this building in the separation rules of codes: ``{"behaviour_factor": 3.9}``.
         floors: the same as ``storeys``.
         plan: width along x and depth across, ``["20 m", "12 m"]``, corners counter-clockwise, or a list of ``{"size": …}`` or
@@ -322,6 +330,7 @@ class Shear(Part):
         gravity: bool | None = None,
         p_delta: bool | None = None,
         damper: Sequence[Table] | None = None,
+        soil_spring: Sequence[Table] | None = None,
         codes: Table | None = None,
         floors: int | None = None,
         plan: Sequence[Any] | None = None,
@@ -352,6 +361,7 @@ class Shear(Part):
                 "gravity": gravity,
                 "p_delta": p_delta,
                 "damper": damper,
+                "soil_spring": soil_spring,
                 "codes": codes,
                 "floors": floors,
                 "plan": plan,
@@ -427,6 +437,7 @@ class SpaceFrame(Part):
         position: place along the row, for ``apparent_velocity`` and ``coherency`` of the motion.
         motion: the ground under this building, if it differs: ``{"arrival": "30 ms"}``, ``{"record": …, "scale": …}``.
         damper: dampers and other links between two floors of this building.
+        soil_spring: soil beside floors below ground, of buildings in one plane alone.
         codes: factors of this building in the separation rules of codes: ``{"behaviour_factor": 3.9}``.
         floors: the same as ``storeys``.
         **units: the same with units in names, as in ``lines_x_m=[0, 6, 12]``.
@@ -490,6 +501,7 @@ class SpaceFrame(Part):
         position: Quantity | None = None,
         motion: Table | None = None,
         damper: Sequence[Table] | None = None,
+        soil_spring: Sequence[Table] | None = None,
         codes: Table | None = None,
         floors: int | None = None,
         **units: Unpack[SpaceFrameUnits],
@@ -537,6 +549,7 @@ class SpaceFrame(Part):
                 "position": position,
                 "motion": motion,
                 "damper": damper,
+                "soil_spring": soil_spring,
                 "codes": codes,
                 "floors": floors,
             },
@@ -578,6 +591,7 @@ class Given(Part):
             matrix.
         damper: dampers and other links between two floors of this building, such as
             ``[{"floors": [0, 1], "law": "viscous", "damping": "200 kN.(s/m)^0.5", "exponent": 0.5}]``.
+        soil_spring: soil beside floors below ground, of buildings in one plane alone.
         elevation: height of the base above a datum that all buildings share, 0 by default; neighbours face each other by it.
         position: place along the row, for ``apparent_velocity`` and ``coherency`` of the motion.
         motion: the ground under this building, if it differs: ``{"arrival": "30 ms"}``, ``{"record": …, "scale": …}``.
@@ -617,6 +631,7 @@ class Given(Part):
         storey_height: Quantities | None = None,
         damping: Table | None = None,
         damper: Sequence[Table] | None = None,
+        soil_spring: Sequence[Table] | None = None,
         elevation: Quantity | None = None,
         position: Quantity | None = None,
         motion: Table | None = None,
@@ -644,6 +659,7 @@ class Given(Part):
                 "storey_height": storey_height,
                 "damping": damping,
                 "damper": damper,
+                "soil_spring": soil_spring,
                 "elevation": elevation,
                 "position": position,
                 "motion": motion,

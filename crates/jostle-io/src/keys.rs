@@ -90,6 +90,8 @@ pub(crate) enum Section {
     Joint,
     RigidEnds,
     FibreSteel,
+    /// Strains at which fibres fail.
+    FibreLimits,
     /// Springs and dashpots under any building.
     ShearBase,
     /// Further ones under the columns of a frame.
@@ -144,6 +146,8 @@ pub(crate) enum Section {
     /// How the faces of a gap crush.
     Crush,
     Link,
+    /// Soil beside floors of a building.
+    SoilSpring,
     /// A link inside one building.
     Damper,
     /// What links and dampers share.
@@ -674,6 +678,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Building, "storey_height", PerStorey(D::Length), "Storey height; required for frames, 3 m by default for shear buildings.").usual("a storey height", 1.5, 30.0).possible(0.01, 1000.0),
     default(S::Building, "elevation", Quantity(D::Length), "0", "Height of its base above a datum that all buildings share. Floors and columns of neighbours face each other by their heights above the datum, which heights of contacts and links are; heights in a building are those above its base.").usual("an elevation", 1e-3, 200.0).possible(0.0, 2000.0).signed(),
     default(S::Building, "damping", Kind::Table(S::Damping), "5 % in lateral modes 1 and 3", "Viscous damping, such as `{ ratio = 0.05, modes = [1, 3] }` or `{ alpha = 0.5, beta = \"1 ms\" }`. With hinges 3 % or less is usual: they dissipate as well."),
+    optional(S::Building, "soil_spring", Tables(&[S::SoilSpring]), "Soil beside floors below ground, of buildings in one plane that stand on a fixed base; links between these floors and the base, which follow the dampers in results."),
     optional(S::Building, "damper", Tables(&[S::Damper, S::LinkLaw]), "Dampers and other links between two of its floors; a short form of link. They follow the links in results."),
     optional(S::Building, "position", Quantity(D::Length), "Place along the row, for apparent_velocity and coherency of [motion]; buildings with a plan have that of the centre of their plan.").usual("a position along the row", 1e-3, 1e5).signed(),
     optional(S::Building, "motion", Kind::TableOf(&[S::OwnMotion, S::Motion]), "The ground under this building, if it differs: arrival, a motion of its own, or a scale of the common one. A motion without an amplitude or a scaling of its own has the factor of the common one."),
@@ -777,6 +782,10 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Infill, "backbone", TextOrTable(S::InfillBackbone), "Curve of first loading with strength or force: `\"bertoldi\"` (usual), or `{ rule = \"panagiotakos-fardis\", softening = 0.05, residual = 0.1 }`."),
     optional(S::Infill, "opening", NumberOrTable(S::InfillOpening), "Share of the length that openings take: 1 − 1.5 share of stiffness and strength stay (Dawe and Seah, 1989); or length and area (Decanini and others, 2014).").usual("a share of openings", 0.01, 1.0),
     optional(S::Infill, "hinge", Kind::Table(S::LinkHinge), "Cracking of each strut: rule pinched and corners; without it struts stay elastic."),
+    optional(S::Infill, "offset", Quantity(D::Length), "Distance of the ends of struts from the joints, along the columns: what lies between bears the shear of the strut. At most a quarter of the storey; in plane frames.").usual("an offset of a strut", 0.02, 2.0),
+    default(S::Infill, "struts", Count, "1", "Struts of each diagonal: 1, or 3, of which one runs from joint to joint, and two end on a column at offset from a joint."),
+    optional(S::Infill, "central_share", Quantity(D::Dimensionless), "struts = 3: share of stiffness and strength of the strut between the joints; the other two halve the rest.").usual("a share of a strut", 0.05, 1.0),
+    default(S::Infill, "damage_drifts", Quantities(D::Dimensionless), "[0.0018, 0.0046, 0.0105, 0.0188]", "Drifts at which the damage states 1 to 4 begin (Sassun and others, 2015).").usual("a drift", 2e-4, 0.1),
     optional(S::Infill, "out_of_plane", Kind::Table(S::InfillOutOfPlane), "What the panel bears across its plane, compared with its inertia force by the accelerations of the floors; it does not change the motion."),
     optional(S::InfillOutOfPlane, "rule", Choice(ARCHINGS), "Arching between the floors of panels without openings up to 25 times as high as thick: `asce41`, 0.7 compression λ₂ thickness/height with λ₂ of FEMA 356, table 7-11; `en1996`, compression (thickness/height)² (EN 1996-1-1, 6.3.2)."),
     optional(S::InfillOutOfPlane, "compression", Quantity(D::Modulus), "Compressive strength of the masonry along its height; that of strength if it has one.").usual("a strength of masonry", 1e5, 5e7),
@@ -1050,6 +1059,10 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::FrameBase, "rotational_hinge", Kind::Table(S::BaseRocking), "Yielding of the rotational spring; without this table it is elastic."),
     default(S::FrameBase, "rotational_damping", Quantity(D::RotationalDamping), "0", "Dashpot parallel to the rotational spring.").usual("a rotational dashpot coefficient", 100.0, 1e11),
 
+    default(S::FibreLimits, "spalling", Quantity(D::Dimensionless), "crushing strain of the unconfined concrete", "Strain of unconfined concrete in compression at which it spalls.").usual("a strain", 1e-3, 2e-2),
+    default(S::FibreLimits, "crushing", Quantity(D::Dimensionless), "0.004 + 1.4 ρ_s f_y ε_su/f_cc", "Strain of the concrete within ties in compression at which it is crushed.").usual("a strain", 2e-3, 0.2),
+    optional(S::FibreLimits, "buckling", Quantity(D::Dimensionless), "Strain of bars in tension from which they buckle when the load turns back. No rule computes it: without it buckling of bars is not judged.").usual("a strain", 2e-3, 0.2),
+    default(S::FibreLimits, "fracture", Quantity(D::Dimensionless), "rupture strain of the steel", "Strain of bars in tension at which they break.").usual("a strain", 5e-3, 0.5),
     required(S::FibreSteel, "rule", Choice(FIBRE_STEELS), "Loops of the bars."),
     default(S::FibreSteel, "R0", Quantity(D::Dimensionless), "20", "menegotto-pinto: exponent of the first curve, 1 or more; smaller ones bend earlier.").usual("an exponent", 5.0, 30.0),
     default(S::FibreSteel, "cR1", Quantity(D::Dimensionless), "0.925", "menegotto-pinto: share of the exponent that plastic deformation takes.").usual("a share of an exponent", 0.5, 0.97),
@@ -1092,6 +1105,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Hinges, "ultimate_strain", Quantity(D::Dimensionless), "on the straight line through its stress at the crushing strain", "Strain at which concrete has fallen to its residual strength.").usual("a strain", 2e-3, 0.3),
     default(S::Hinges, "hardening", Quantity(D::Dimensionless), "that of the steel", "Modulus of bars after yield over that before.").usual("a ratio of stiffnesses", 1e-4, 0.2),
     default(S::Hinges, "steel", TextOrTable(S::FibreSteel), "\"bilinear\"", "Loops of the bars: straight lines with one corner, or `\"menegotto-pinto\"`, which bend smoothly; its numbers as a table."),
+    optional(S::Hinges, "limits", Kind::Table(S::FibreLimits), "Strains that are judged, instead of those that follow from the sections."),
     default(S::Hinges, "beam_rule", Choice(RULES), "\"peak-oriented\"", "Rule of the hinges of beams beside fibres in columns; from = \"section\" computes their moments."),
 
     optional(S::Hinge, "cracking", Quantity(D::Moment), "Cracking moment.").usual("a cracking moment", 1e3, 1e9),
@@ -1120,6 +1134,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::SpaceHinges, "ultimate_strain", Quantity(D::Dimensionless), "on the straight line through its stress at the crushing strain", "Strain at which concrete has fallen to its residual strength.").usual("a strain", 2e-3, 0.3),
     default(S::SpaceHinges, "hardening", Quantity(D::Dimensionless), "that of the steel", "Modulus of bars after yield over that before.").usual("a ratio of stiffnesses", 1e-4, 0.2),
     default(S::SpaceHinges, "steel", TextOrTable(S::FibreSteel), "\"bilinear\"", "Loops of the bars: straight lines with one corner, or `\"menegotto-pinto\"`, which bend smoothly; its numbers as a table."),
+    optional(S::SpaceHinges, "limits", Kind::Table(S::FibreLimits), "Strains that are judged, instead of those that follow from the sections."),
     default(S::SpaceHinges, "beam_rule", Choice(RULES), "\"peak-oriented\"", "Rule of the hinges of beams beside fibres in columns."),
     optional(S::ColumnHinge, "cracking", Quantity(D::Moment), "Cracking moment.").usual("a cracking moment", 1e3, 1e9),
     optional(S::ColumnHinge, "yield", Quantity(D::Moment), "Yield moment.").usual("a yield moment", 1e3, 1e9),
@@ -1204,6 +1219,13 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Link, "floors", FloorPairs, "\"common\"", "Points that are joined, as for gaps. Inside one building: pairs of its floors, such as [[0, 1], [1, 2]]; 0 is its base.").any("heights are compared with those of the floors"),
     default(S::Link, "level_tolerance", Quantity(D::Length), "\"1 mm\"", "Floors whose heights differ by no more than this can be joined.").usual("a tolerance of levels", 1e-5, 1.0).possible(0.0, 20.0),
     optional(S::LinkLaw, "at", Kind::PlanPoints, "For buildings with a plan: both ends, between which the force acts; of a link on the site, of a damper from the origin of the plan, the lower floor of a pair first.").usual("a length in plan", 1e-3, 5e3).possible(0.0, 1e5).signed(),
+    required(S::SoilSpring, "floors", Kind::FromTo, "The floor that soil holds, counted from 1 above the base; or the first and the last."),
+    required(S::SoilSpring, "stiffness", Quantity(D::Stiffness), "Force per displacement of one floor; with gapping that of the soil on one side, which acts alone.").usual("a stiffness of soil", 1e5, 1e11),
+    optional(S::SoilSpring, "strength", Quantity(D::Force), "Greatest force of the soil on one side of one floor, such as its passive resistance; without it and hinge it stays elastic.").usual("a strength of soil", 1e3, 1e9),
+    default(S::SoilSpring, "post_yield", Quantity(D::Dimensionless), "0", "Stiffness after strength over that before.").usual("a ratio of stiffnesses", 1e-4, 1.0),
+    optional(S::SoilSpring, "hinge", Kind::Table(S::LinkHinge), "Corners of the curve instead of strength, such as those of a p–y curve times the area of the floor; with gapping by the rule pinched."),
+    default(S::SoilSpring, "gapping", Flag, "false", "Whether soil on either side bears compression alone and leaves a gap where it has yielded."),
+    optional(S::SoilSpring, "dashpot", Quantity(D::Damping), "Dashpot beside the springs of one floor, which acts at all times, also across a gap.").usual("a dashpot of soil", 1e3, 1e10),
     required(S::Damper, "floors", FloorPairs, "The two floors that it joins, such as [0, 1], or a list of such pairs; 0 is the mat of an isolated building, otherwise the base.").any("heights are compared with those of the floors"),
 
     default(S::LinkLaw, "law", Choice(LINK_LAWS), "\"linear\"", "linear, spring and dashpot side by side; viscous, F = c v^α against the motion, with a spring in series if stiffness is given; maxwell, spring and dashpot in series; friction, a slider; yielding, a hysteresis rule; cable, tension only; stopper, compression only. All but linear need solver = \"riccati\"."),

@@ -168,6 +168,11 @@ const TABLES: &[(Section, &str, &str)] = &[
         "By Menegotto and Pinto (1973) with the exponents of Filippou, Popov and Bertero (1983): see [the rules](hysteresis.md#menegotto-pinto).",
     ),
     (
+        Section::FibreLimits,
+        "`hinges.limits` with fibres",
+        "Results say when fibres first pass them; they have no part in the motion.",
+    ),
+    (
         Section::RigidEnds,
         "`rigid_ends` of a frame",
         "The same lengths at all joints. As a number it is a share of half depths: beams are rigid over half the deeper column at the joint, columns over half the deeper beam. Forces and hinges of members are those where they begin to bend.",
@@ -267,6 +272,11 @@ const TABLES: &[(Section, &str, &str)] = &[
         Section::Damper,
         "`[[building.damper]]`",
         "A short form of `[[link]]` inside one building.",
+    ),
+    (
+        Section::SoilSpring,
+        "`[[building.soil_spring]]`",
+        "See [Basements](how-to/basements.md).",
     ),
     (
         Section::LinkLaw,

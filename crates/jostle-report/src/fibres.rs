@@ -1,9 +1,10 @@
 //! Ends of columns that are made of fibres: what they bore, and how far they stretched.
 
+use jostle::FibreLimit;
 use jostle::results::summary::FibreSummary;
 use maud::{Markup, html};
 
-use crate::{Page, format, message};
+use crate::{Page, fibre_paths, format, message};
 
 /// Most rows of the table.
 const MOST_ROWS: usize = 200;
@@ -19,10 +20,15 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
         return None;
     }
     let all: Vec<&FibreSummary> = own.iter().flat_map(|(_, all)| *all).collect();
+    let paths = fibre_paths::plots(page);
     Some(html! {
         section #fibres {
             h2 { (message::columns_that_follow_their_axial_force()) }
             @for (name, all) in &own { p { (sentence(name, all)) } }
+            @if !paths.is_empty() {
+                div.static-plots { @for path in &paths { (path.figure()) } }
+                p.quiet { (message::paths_of_ends(paths.len())) }
+            }
             (table(&all))
         }
     })
@@ -30,12 +36,51 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
 
 fn sentence(name: &str, all: &[FibreSummary]) -> String {
     let count = |has: fn(&FibreSummary) -> bool| all.iter().filter(|own| has(own)).count();
-    message::ends_that_yielded_and_crushed(
+    let mut text = message::ends_that_yielded_and_crushed(
         name,
         count(|own| own.yielded_s.is_some()),
         count(|own| own.crushed_s.is_some()),
         all.len(),
-    )
+    );
+    let limits = FibreLimit::ALL.into_iter().filter_map(|limit| {
+        let judged = all.iter().flat_map(|own| &own.limits);
+        let judged: Vec<_> = judged.filter(|own| own.limit == limit).collect();
+        let passed = judged.iter().filter(|own| own.passed_s.is_some()).count();
+        let what = match limit {
+            FibreLimit::Spalling => message::spalling_of_cover(),
+            FibreLimit::Crushing => message::crushing_of_cores(),
+            FibreLimit::Buckling => message::buckling_of_bars(),
+            FibreLimit::Fracture => message::fracture_of_bars(),
+        };
+        (!judged.is_empty()).then(|| message::ends_that_passed(what, passed, judged.len()))
+    });
+    let limits: Vec<String> = limits.collect();
+    if !limits.is_empty() {
+        text.push(' ');
+        text += &message::strains_judged(limits.join(", "));
+    }
+    text
+}
+
+/// Which strains it passed, and when.
+fn passed(own: &FibreSummary) -> String {
+    let passed = own.limits.iter().filter_map(|own| {
+        let name = match own.limit {
+            FibreLimit::Spalling => message::spalling_name(),
+            FibreLimit::Crushing => message::crushing_name(),
+            FibreLimit::Buckling => message::buckling_name(),
+            FibreLimit::Fracture => message::fracture_name(),
+        };
+        Some(message::limit_passed_at(
+            name,
+            format::instant(own.passed_s?),
+        ))
+    });
+    let passed: Vec<String> = passed.collect();
+    match passed.is_empty() {
+        true => format::NOTHING.to_owned(),
+        false => passed.join(", "),
+    }
 }
 
 fn table(all: &[&FibreSummary]) -> Markup {
@@ -54,6 +99,7 @@ fn table(all: &[&FibreSummary]) -> Markup {
         (message::yielded(), "s"),
         (message::strain_of_concrete(), "‰"),
         (message::past_its_strength(), "s"),
+        (message::limits_passed(), "s"),
         (message::dissipated(), format::ENERGY.name()),
     ]);
     html! {
@@ -120,6 +166,7 @@ fn cells(own: &FibreSummary, in_space: bool) -> Vec<String> {
         instant(own.yielded_s),
         strain(own.concrete_strain),
         instant(own.crushed_s),
+        passed(own),
         format::significant(format::ENERGY.of(own.dissipated_j), 3),
     ]);
     cells

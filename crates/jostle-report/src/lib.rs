@@ -21,6 +21,7 @@ mod encode;
 mod envelope;
 mod face_pressure;
 mod facts;
+mod fibre_paths;
 mod fibres;
 mod floor_spectra;
 mod format;
@@ -33,6 +34,7 @@ pub mod message;
 mod method;
 mod motion_page;
 mod page;
+mod panels;
 mod payload;
 mod plan_motion;
 mod pushover;
@@ -111,7 +113,7 @@ pub struct Page<'a> {
 }
 
 /// A reinforced section and the members of a building that have it.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct ReinforcedSection<'a> {
     /// Index of the building.
     pub building: usize,
@@ -119,15 +121,18 @@ pub struct ReinforcedSection<'a> {
     pub member: Member,
     /// The section.
     pub section: &'a jostle_section::Section,
+    /// Names of its members within the building.
+    pub members: Vec<&'a str>,
     /// Lowest and highest storey or floor, from 1.
     pub floors: [usize; 2],
     /// Least and greatest axial compression \[N\].
     pub compression: [f64; 2],
 }
 
-impl ReinforcedSection<'_> {
-    /// Adds a member.
-    pub fn add(&mut self, floor: usize, compression: f64) {
+impl<'a> ReinforcedSection<'a> {
+    /// Adds a member of a storey or a floor, from 1, with its axial compression \[N\].
+    pub fn add(&mut self, name: &'a str, floor: usize, compression: f64) {
+        self.members.push(name);
         self.floors = [self.floors[0].min(floor), self.floors[1].max(floor)];
         let [low, high] = self.compression;
         self.compression = [low.min(compression), high.max(compression)];

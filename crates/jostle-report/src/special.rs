@@ -317,10 +317,11 @@ mod tests {
             building: 0,
             member: Member::Column,
             section: &column,
+            members: vec!["column.1.1"],
             floors: [1, 1],
             compression: [9e5; 2],
         };
-        known.add(5, 1e5);
+        known.add("column.1.5", 5, 1e5);
         let text = section(&known).replace('\u{a0}', " ");
         assert_eq!(
             text,

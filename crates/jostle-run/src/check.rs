@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 use std::fmt::Write;
 
 use jostle::eigen::Mode;
-use jostle::hysteresis::Side;
+use jostle::hysteresis::{HysteresisRule, Side};
 use jostle::judgement::Stated;
 use jostle::model::{Damping, Structure, Sway, Tiers};
 use jostle::system::BuildingSystem;
@@ -573,13 +573,18 @@ fn parameters(link: &jostle::Link) -> String {
         }
         LinkLaw::Yielding(hysteresis) => {
             let backbone = hysteresis.backbone();
-            let yielding = backbone.side(Side::Positive).yielding;
             stiffness = backbone.initial();
-            own.push(format!(
-                "yield at {}, {}",
-                FORCE.text(yielding.force, 1),
-                hysteresis.rule().name()
-            ));
+            own.push(match hysteresis.rule() {
+                HysteresisRule::Stop { .. } => "force on one side alone".to_owned(),
+                rule => {
+                    let one_sided = match backbone.open_side() {
+                        Some(_) => ", on one side alone",
+                        None => "",
+                    };
+                    let yielding = FORCE.text(backbone.yield_force(), 1);
+                    format!("yield at {yielding}, {}{one_sided}", rule.name())
+                }
+            });
         }
         LinkLaw::Cable { slack } => own.push(format!("a slack of {}", LENGTH.text(slack, 1))),
         LinkLaw::Stopper { gap } => own.push(format!("a gap of {}", LENGTH.text(gap, 1))),

@@ -5,6 +5,8 @@ use std::fmt::Write;
 use jostle::results::summary::{BuildingSummary, PartSummary};
 use jostle_io::shown::{ENERGY, FORCE, MOMENT};
 
+use crate::numbers::counted;
+
 /// The greatest forces of braces, struts, walls and coupling beams of every building.
 pub(crate) fn write_parts(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::Result {
     for (kind, noun) in [("brace", "Braces"), ("infill", "Infill struts")] {
@@ -32,6 +34,9 @@ pub(crate) fn write_parts(text: &mut String, buildings: &[BuildingSummary]) -> s
                 worst.name,
                 buckled(&own().collect::<Vec<_>>())
             )?;
+            if kind == "infill" {
+                write_damage(text, building)?;
+            }
             let across = own().filter_map(|own| Some((own.out_of_plane_ratio?, &own.name)));
             if let Some((ratio, name)) = across.max_by(|a, b| a.0.total_cmp(&b.0)) {
                 writeln!(
@@ -46,6 +51,31 @@ pub(crate) fn write_parts(text: &mut String, buildings: &[BuildingSummary]) -> s
         .iter()
         .try_for_each(|building| write_walls(text, building))?;
     crate::footing_text::write(text, buildings)
+}
+
+/// How many infill panels reach which damage state, and where the drift is greatest.
+fn write_damage(text: &mut String, building: &BuildingSummary) -> std::fmt::Result {
+    let panels = building.damaged_panels();
+    let Some(worst) = panels.iter().max_by(|a, b| a.drift.total_cmp(&b.drift)) else {
+        return Ok(());
+    };
+    let counts = (1..=4).rev().filter_map(|state| {
+        let own = panels.iter().filter(|own| own.state == state).count();
+        (own > 0).then(|| format!("state {state} in {own}"))
+    });
+    let counts: Vec<String> = counts.collect();
+    let counts = match counts.is_empty() {
+        true => "none in any".to_owned(),
+        false => counts.join(", "),
+    };
+    writeln!(
+        text,
+        "Damage of infill panels of {} by drift: {counts} of {}; up to {:.2} % in {}",
+        building.name,
+        counted(panels.len(), "panel"),
+        100.0 * worst.drift,
+        worst.name
+    )
 }
 
 /// Which braces buckle, if any does.

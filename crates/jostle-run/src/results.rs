@@ -80,11 +80,12 @@ fn reinforced(input: &Input) -> Vec<ReinforcedSection<'_>> {
                 && *known.section == member.section
         });
         match alike {
-            Some(known) => known.add(member.floor, member.compression),
+            Some(known) => known.add(&member.name, member.floor, member.compression),
             None => sections.push(ReinforcedSection {
                 building: member.building,
                 member: member.member,
                 section: &member.section,
+                members: vec![&member.name],
                 floors: [member.floor; 2],
                 compression: [member.compression; 2],
             }),

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use jostle::FibreLimit;
 use jostle::results::summary::{BuildingSummary, FibreSummary};
 use jostle_io::shown::FORCE;
 
@@ -30,6 +31,55 @@ pub(crate) fn write_sections(text: &mut String, buildings: &[BuildingSummary]) -
             FORCE.number(-worst.axial_max_n, 0),
             FORCE.text(-worst.axial_min_n, 0),
         )?;
+        write_limits(text, all)?;
     }
     Ok(())
+}
+
+/// Which strains that are judged were passed, where first, and how near the nearest of the others came.
+fn write_limits(text: &mut String, all: &[FibreSummary]) -> std::fmt::Result {
+    for limit in FibreLimit::ALL {
+        let judged = || {
+            let own = all
+                .iter()
+                .flat_map(|own| own.limits.iter().map(move |limit| (own, limit)));
+            own.filter(|(_, own)| own.limit == limit)
+        };
+        let Some((worst, nearest)) = judged().max_by(|a, b| a.1.ratio().total_cmp(&b.1.ratio()))
+        else {
+            continue;
+        };
+        let what = in_words(limit);
+        let passed = judged().filter_map(|(own, limit)| Some((limit.passed_s?, own)));
+        let first = passed.clone().min_by(|a, b| a.0.total_cmp(&b.0));
+        let ends = counted(judged().count(), "end");
+        match first {
+            Some((at, own)) => writeln!(
+                text,
+                "  {what} at {} of {ends}, first at {at:.3} s in {}; strain up to {:.2} times its limit of {:.2} ‰, in {}",
+                passed.count(),
+                own.name,
+                nearest.ratio(),
+                1e3 * nearest.strain_limit,
+                worst.name,
+            )?,
+            None => writeln!(
+                text,
+                "  {what} at none of {ends}; strain up to {:.2} times its limit of {:.2} ‰, in {}",
+                nearest.ratio(),
+                1e3 * nearest.strain_limit,
+                worst.name,
+            )?,
+        }
+    }
+    Ok(())
+}
+
+fn in_words(limit: FibreLimit) -> &'static str {
+    match limit {
+        FibreLimit::Spalling => "cover spalls",
+        FibreLimit::Crushing => "core is crushed",
+        FibreLimit::Buckling => "bars stretch to buckle",
+        FibreLimit::Fracture => "bars break",
+    }
 }

@@ -1,11 +1,12 @@
 //! The fibres of an end of a column that follows its axial force.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use jostle::Fibre;
 use jostle::hysteresis::{
     Backbone, ConcreteFall, Corners, Hysteresis, HysteresisRule, MenegottoPinto, SpringFault,
 };
+use jostle::{Fibre, FibreLimit, FibreMaterial};
 
 use crate::law::{self, ConcreteLaw};
 use crate::section::Section;
@@ -117,11 +118,19 @@ impl Section {
                     Some(core) => (core, confined),
                     None => (&plain, 0.0),
                 };
-                for (law, width) in [(core, confined), (&plain, width - confined)] {
+                let parts = [
+                    (core, confined, FibreMaterial::Core),
+                    (&plain, width - confined, FibreMaterial::Cover),
+                ];
+                for (law, width, material) in parts {
                     if width > 1e-9 * self.width {
                         let spring = options.concrete(law, width * layer)?;
                         let at = [from_top - 0.5 * self.depth, across];
-                        fibres.push(Fibre { at, spring });
+                        fibres.push(Fibre {
+                            at,
+                            spring,
+                            material,
+                        });
                     }
                 }
             }
@@ -142,9 +151,23 @@ impl Section {
             fibres.push(Fibre {
                 at: [depth - 0.5 * self.depth, across],
                 spring,
+                material: FibreMaterial::Bar,
             });
         }
         Ok(fibres.into())
+    }
+
+    /// Strains at which its own materials fail: the cover at the crushing strain of unconfined concrete, the core within ties at that
+    /// of confined concrete ([`crate::law::confined`]), bars at their rupture strain. No rule is known here for bars that buckle.
+    #[must_use]
+    pub fn strain_limits(&self) -> BTreeMap<FibreLimit, f64> {
+        let cover = ConcreteLaw::unconfined(&self.concrete).crushing_strain;
+        let core = law::confined(self).map(|law| (FibreLimit::Crushing, law.crushing_strain));
+        let others = [
+            (FibreLimit::Spalling, cover),
+            (FibreLimit::Fracture, self.steel.rupture_strain),
+        ];
+        others.into_iter().chain(core).collect()
     }
 
     /// Depths below the top of bars, their places across from the axis, and their areas: each by itself, or all of a row on the axis.

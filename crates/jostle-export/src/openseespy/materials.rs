@@ -94,8 +94,8 @@ impl Materials {
             HysteresisRule::PeakOriented => {
                 Ok(self.hysteretic(backbone, [1.0, 1.0, 0.0, 0.0, 0.0]))
             }
-            HysteresisRule::Pinched(_) if backbone.is_without_tension() => {
-                Err("pinched in compression alone")
+            HysteresisRule::Pinched(_) if backbone.open_side().is_some() => {
+                Err("pinched on one side alone")
             }
             HysteresisRule::Pinched(pinching) => {
                 // OpenSees relates dissipated energy to the area of the whole backbone.

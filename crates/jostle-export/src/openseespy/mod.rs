@@ -144,7 +144,7 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
         };
         let crushed = |own: &jostle::Diagonal| {
             let law = own.hysteresis.as_ref();
-            law.is_some_and(|law| law.backbone().is_without_tension())
+            law.is_some_and(|law| law.backbone().open_side().is_some())
         };
         if diagonals.iter().any(crushed) {
             refuse(

@@ -1,6 +1,6 @@
 //! `[[building.brace]]`: diagonals of the bays of a frame or of a grid.
 
-use jostle::{Diagonal, DiagonalKind, DiagonalPlace, GridLine, PlanAxis, Rise};
+use jostle::{Diagonal, DiagonalKind, DiagonalPlace, GridLine, PlanAxis, Rise, StrutLine};
 
 use super::buckling::{self, Strut};
 use super::hinges::read_spring;
@@ -248,6 +248,7 @@ pub(super) fn places(
                     storey,
                     bay,
                     rise,
+                    strut: StrutLine::Central,
                 };
                 if !names_all && !(bays.has_joints)(place) {
                     continue;
@@ -257,7 +258,9 @@ pub(super) fn places(
                     place,
                     stiffness: stiffness(place, length)?,
                     hysteresis: None,
+                    offsets: [0.0; 2],
                     across: None,
+                    damage: None,
                 });
             }
         }

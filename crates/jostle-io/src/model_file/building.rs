@@ -12,6 +12,7 @@ use super::places::is_by_place;
 use super::reinforced::{self, ReinforcedInPlan, ReinforcedMember};
 use super::{
     codes, frame, given, given_in_plan, hinges, isolation, joint, plan, shear, shear_failure, soil,
+    soil_spring,
 };
 use crate::files::Files;
 use crate::keys::{BUILDING_KINDS, Section};
@@ -71,6 +72,7 @@ pub(super) fn read_all(
             at.push(place);
             of_codes.push(read_codes(reader, entry));
             dampers.extend(damper::read_all(reader, entry, i));
+            dampers.extend(soil_spring::read_all(reader, entry, i));
             building
         })
         .collect::<Vec<_>>();

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use jostle::hysteresis::MenegottoPinto;
-use jostle::{ColumnFibres, Frame, FramePlace};
+use jostle::{ColumnFibres, FibreLimit, Frame, FramePlace};
 use jostle_section::formula::Member;
 use jostle_section::{FibreOptions, Section};
 
@@ -22,7 +22,7 @@ const MOST_IN_SPACE: usize = 100;
 const USUAL_IN_SPACE: usize = 12;
 
 /// Keys that belong to fibres alone.
-pub(super) const KEYS: [&str; 9] = [
+pub(super) const KEYS: [&str; 10] = [
     "length",
     "fibres",
     "ends",
@@ -31,6 +31,7 @@ pub(super) const KEYS: [&str; 9] = [
     "ultimate_strain",
     "hardening",
     "steel",
+    "limits",
     "beam_rule",
 ];
 
@@ -62,6 +63,8 @@ pub(super) struct AskedFibres {
     ultimate_strain: Option<f64>,
     hardening: Option<f64>,
     loops: Option<MenegottoPinto>,
+    /// Strains that replace those of the section.
+    limits: BTreeMap<FibreLimit, f64>,
 }
 
 /// Into how many parts a section is cut.
@@ -109,6 +112,10 @@ impl AskedFibres {
         let residual = number("residual", below_one, "be at least 0 and less than 1");
         let ultimate_strain = number("ultimate_strain", |v| v > 0.0, "be greater than 0");
         let hardening = number("hardening", below_one, "be at least 0 and less than 1");
+        let limits = match reader.get(view, "limits") {
+            Some(field) => read_limits(reader, &field),
+            None => Some(BTreeMap::new()),
+        };
         let loops = match reader.get(view, "steel") {
             Some(field) => read_loops(reader, &field),
             None => Some(None),
@@ -122,6 +129,7 @@ impl AskedFibres {
             ultimate_strain: ultimate_strain?,
             hardening: hardening?,
             loops: loops?,
+            limits: limits?,
         })
     }
 
@@ -172,12 +180,27 @@ impl AskedFibres {
             let first = faults.into_iter().next();
             first.map_or_else(String::new, |fault| fault.problem)
         })?;
+        let mut limits = section.strain_limits();
+        limits.extend(&self.limits);
         Ok(ColumnFibres {
             length,
             at_ends: [true, !self.only_base],
             fibres,
+            limits,
         })
     }
+}
+
+/// Strains that are judged; `None` after a fault.
+fn read_limits(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<BTreeMap<FibreLimit, f64>> {
+    let view = reader.open(field, &[KeySection::FibreLimits])?;
+    let mut limits = BTreeMap::new();
+    for limit in FibreLimit::ALL {
+        if let Some(field) = reader.get(&view, limit.name()) {
+            limits.insert(limit, reader.positive(&field, Dimension::Dimensionless)?);
+        }
+    }
+    Some(limits)
 }
 
 /// How the loops of bars bend: a word, or a table with its numbers; `None` after a fault.

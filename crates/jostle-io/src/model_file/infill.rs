@@ -9,6 +9,7 @@ use jostle_section::masonry::{
 use super::brace::{Bays, add, places, tables};
 use super::hinges::read_spring;
 use super::out_of_plane;
+use super::panel_struts::PanelStruts;
 use crate::keys::{PANEL_CURVES, PANEL_STRENGTHS, STRUT_WIDTHS, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
@@ -65,6 +66,7 @@ fn read(reader: &mut Reader<'_>, entry: &Field<'_>, bays: Bays<'_>) -> Option<Ve
     });
     refuse_without_strength(reader, &view, strength.is_some());
     let across = out_of_plane::read(reader, &view);
+    let parallel = PanelStruts::read(reader, &view);
     let left = left?;
     let hinge = reader.get(&view, "hinge");
     let panel = |wall: &Wall, place: DiagonalPlace| {
@@ -91,7 +93,7 @@ fn read(reader: &mut Reader<'_>, entry: &Field<'_>, bays: Bays<'_>) -> Option<Ve
         }
         (None, stiffness) => Some(left * stiffness??),
     };
-    let kind = DiagonalKind::Infill;
+    let (kind, parallel) = (DiagonalKind::Infill, parallel?);
     let mut struts = places(reader, &view, kind, &Rise::BOTH, bays, &stiffness_of)?;
     for strut in &mut struts {
         if let Some(across) = &across {
@@ -136,6 +138,10 @@ fn read(reader: &mut Reader<'_>, entry: &Field<'_>, bays: Bays<'_>) -> Option<Ve
             strut.hysteresis = Hysteresis::without_tension(strut.stiffness).ok();
         }
     }
+    let size = |place: DiagonalPlace| [bays.width(place), bays.heights[place.storey - 1]];
+    let struts = struts.into_iter();
+    let struts = struts.flat_map(|own| parallel.of_panel(own, size(own.place)));
+    let struts = struts.collect();
     (reader.count_faults() == noted).then_some(struts)
 }
 

@@ -60,6 +60,7 @@ hinges = { rule = "pinched", pinching = {}, damage = {}, column = { positive = {
 kind = "shear"
 codes = { importance = 1 }
 damper = [{ floors = [0, 1], law = "friction" }]
+soil_spring = [{ floors = 1, hinge = { rule = "pinched" } }]
 base = { mass = 1, across = { horizontal_stiffness = 1 } }
 isolation = { kind = "triple-friction-pendulum", stop = {} }
 hinges = { rule = "normal" }
@@ -132,7 +133,7 @@ column = { width = 1, depth = 1, bars = { top = "4 d20" } }
 beam = { EI = 1 }
 axial = "flexible"
 floor_load = 1
-hinges = { rule = "fibre", length = 1, steel = { rule = "bilinear" }, beam_rule = "takeda", beam = { yield = 1 } }
+hinges = { rule = "fibre", length = 1, steel = { rule = "bilinear" }, limits = { spalling = 0.004 }, beam_rule = "takeda", beam = { yield = 1 } }
 "#,
     r#"
 [[building]]

@@ -373,3 +373,84 @@ fn panels_bear_pressure_across_their_plane() {
         assert!(text.contains(part), "{more}: {text}");
     }
 }
+
+const PANEL: &str = "[[building.infill]]\nbay = 1\nstoreys = 2\nmodulus = \"4 GPa\"\nthickness = \"200 mm\"\nwidth = \"1 m\"\nforce = \"150 kN\"\n";
+
+/// Three struts together have the stiffness and the strength of one, and stand where they are said to.
+#[test]
+fn panels_have_struts_off_the_joints() {
+    let one = diagonals(PANEL);
+    let off = diagonals(&format!("{PANEL}offset = \"300 mm\"\n"));
+    assert_eq!((one.len(), off.len()), (2, 2));
+    for (one, off) in one.iter().zip(&off) {
+        assert_eq!((one.offsets, off.offsets), ([0.0; 2], [0.3; 2]));
+        assert_eq!(
+            (one.stiffness, one.hysteresis),
+            (off.stiffness, off.hysteresis)
+        );
+    }
+    let three = diagonals(&format!(
+        "{PANEL}struts = 3\ncentral_share = 0.5\noffset = \"300 mm\"\n"
+    ));
+    let offsets: Vec<_> = three.iter().map(|own| own.offsets).collect();
+    let each = [[0.0, 0.0], [0.3, 0.0], [0.0, 0.3]];
+    assert_eq!(offsets, [each, each].concat());
+    let shares = [0.5, 0.25, 0.25];
+    for (own, share) in three.iter().zip(shares.iter().cycle()) {
+        let [law, whole] = [own, &one[0]].map(|own| own.hysteresis.expect("it cracks"));
+        assert!((own.stiffness / one[0].stiffness - share).abs() < 1e-12);
+        for shortening in [1e-4, 2e-3, 3e-2] {
+            let [part, all] = [law, whole].map(|law| law.backbone().force_at(-shortening));
+            assert!((part / all - share).abs() < 1e-12, "{part} {all}");
+        }
+    }
+    let names: Vec<_> = three.iter().map(|own| own.place.to_string()).collect();
+    assert_eq!(
+        names[..3],
+        ["infill.2.1.up", "infill.2.1.up.foot", "infill.2.1.up.head"]
+    );
+}
+
+/// The drift of a bay of 4 by 3 m is the shortening of its diagonal of 5 m times 5/12.
+#[test]
+fn panels_are_damaged_by_drift() {
+    let usual = diagonals(PANEL)[0].damage.expect("judged");
+    assert_eq!(usual.drifts, [0.0018, 0.0046, 0.0105, 0.0188]);
+    assert!((usual.drift_per_shortening - 5.0 / 12.0).abs() < 1e-15);
+    let own = diagonals(&format!(
+        "{PANEL}damage_drifts = [0.001, 0.002, 0.003, 0.004]\n"
+    ));
+    assert_eq!(
+        own[1].damage.expect("judged").drifts,
+        [0.001, 0.002, 0.003, 0.004]
+    );
+    for (more, wanted) in [
+        (
+            "damage_drifts = [0.002, 0.001, 0.003, 0.004]",
+            "must be four drifts that rise",
+        ),
+        (
+            "damage_drifts = [0.001, 0.002]",
+            "must be four drifts that rise",
+        ),
+        (
+            "offset = \"0.8 m\"",
+            "offset: infill.2.1.up meets column 1 0.8 m from the joint; give 0 to a quarter of the storey, 0.75 m",
+        ),
+        ("offset = \"-0.1 m\"", "offset: must not be negative"),
+        ("struts = 2", "struts: must be 1 or 3"),
+        ("struts = 3\noffset = 0.3", "central_share: is missing"),
+        ("struts = 3\ncentral_share = 0.5", "offset: is missing"),
+        (
+            "central_share = 0.5",
+            "central_share: has no meaning for one strut",
+        ),
+        (
+            "struts = 3\noffset = 0.3\ncentral_share = 1",
+            "must be greater than 0 and less than 1",
+        ),
+    ] {
+        let text = refusal(&format!("{FRAME}{PANEL}{more}\n"));
+        assert!(text.contains(wanted), "{wanted} in {text}");
+    }
+}

@@ -1,7 +1,7 @@
 //! Hinges and reinforcement in model files.
 
 use jostle::hysteresis::{HysteresisRule, Pinching, Side};
-use jostle::{FrameHinges, Hinges};
+use jostle::{FibreLimit, FrameHinges, Hinges};
 use jostle_io::Input;
 use jostle_testkit::files;
 
@@ -680,4 +680,56 @@ fn bars_of_fibres_bend_smoothly() {
         let text = files::refusal(&of_fibres(FLEXIBLE, more));
         assert!(text.contains(part), "{more}: {text}");
     }
+}
+
+/// Strains are those of the materials: GB 50010 for the cover of C30, 7.5 % for HRB400, and of the core what ties give by hand; those
+/// that are stated replace them.
+#[test]
+fn strains_are_judged_by_the_section() {
+    let limits = |column: &str, more: &str| {
+        let building =
+            format!("{FLEXIBLE}\nhinges = {{ rule = \"fibre\", length = \"0.4 m\"{more} }}");
+        let column = format!(", steel = \"HRB400\", bars = \"12 d20\", cover = \"35 mm\"{column}");
+        hinges_of(&frame(&column, "", &building)).fibres[&[0, 0]]
+            .limits
+            .clone()
+    };
+    let plain = limits("", "");
+    let names: Vec<FibreLimit> = plain.keys().copied().collect();
+    assert_eq!(names, [FibreLimit::Spalling, FibreLimit::Fracture]);
+    assert_eq!(plain[&FibreLimit::Fracture], 0.075);
+    assert!(
+        (0.003..0.005).contains(&plain[&FibreLimit::Spalling]),
+        "{plain:?}"
+    );
+    let tied = limits(", ties = \"4 d10 @ 100 mm\"", "");
+    // 0.004 + 1.4 ρs fy εsu / fcc, with fcc between 1.1 and 1.6 times 20.1 MPa; the core is 500 − 2 (35 − 5) mm wide.
+    let ratio = 2.0 * 4.0 * 78.54e-6 / (0.1 * 0.44);
+    let of = |gain: f64| 0.004 + 1.4 * ratio * 400e6 * 0.075 / (gain * 20.1e6);
+    let crushing = tied[&FibreLimit::Crushing];
+    assert!(of(1.6) < crushing && crushing < of(1.1), "{crushing}");
+    let stated = limits(
+        ", ties = \"4 d10 @ 100 mm\"",
+        ", limits = { spalling = 0.005, crushing = 0.02, buckling = 0.04, fracture = 0.09 }",
+    );
+    assert_eq!(
+        stated.values().copied().collect::<Vec<_>>(),
+        [0.005, 0.02, 0.04, 0.09]
+    );
+    let text = files::refusal(&of_fibres(
+        FLEXIBLE,
+        ", length = 0.4, limits = { crushing = 0.02 }",
+    ));
+    assert!(
+        text.contains("limits.crushing: needs a core within ties"),
+        "{text}"
+    );
+    let text = files::refusal(&of_fibres(
+        FLEXIBLE,
+        ", length = 0.4, limits = { fracture = -1 }",
+    ));
+    assert!(
+        text.contains("limits.fracture: must be greater than zero"),
+        "{text}"
+    );
 }

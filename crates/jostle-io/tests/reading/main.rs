@@ -31,6 +31,7 @@ mod scan;
 mod shear_failure;
 mod shipped_files;
 mod soil;
+mod soil_springs;
 mod space_fibres;
 mod space_frames;
 mod study_files;

@@ -1114,6 +1114,34 @@ messages! {
     strain_of_bars = "bars stretched";
     strain_of_concrete = "concrete compressed";
     past_its_strength = "past strength";
+    limits_passed = "strains passed";
+    limit_passed_at(limit, at) = "{limit} {at}";
+    spalling_name = "spalling";
+    crushing_name = "crushing";
+    buckling_name = "buckling";
+    fracture_name = "fracture";
+    ends_that_passed(what, count, total) = "{what} at {count} of {total} ends";
+    strains_judged(list) = "Strains judged: {list}.";
+    spalling_of_cover = "spalling of the cover";
+    crushing_of_cores = "crushing of the core";
+    buckling_of_bars = "buckling of bars";
+    fracture_of_bars = "fracture of bars";
+    path_over_interaction(name) = "{name}: axial compression against moment";
+    moment_axis(unit) = "moment [{unit}]";
+    compression_axis(unit) = "compression [{unit}]";
+    path_of_the_run = "this run";
+    interaction_of_the_section = "capacity";
+    paths_of_ends(count) = "Axial compression and moment of the {count} ends whose strains came nearest to a limit. The dashed curve is the capacity of the section without confinement and hardening, at the crushing strain of plain concrete and at 1 % in the bars: confined columns go beyond it.";
+
+    // panels
+    infill_panels = "Infill panels";
+    damage_by_drift = "Damage state by the greatest drift of the bay: how much its diagonal shortens, over the cosine of its slope and the storey height.";
+    panels_of_states(name, counts, total) = "{name}: {counts} of {total} panels.";
+    state_in(state, count) = "state {state} in {count}";
+    no_state_in_any = "no damage state reached in any";
+    panel = "panel";
+    damage_state = "damage state";
+    across_its_plane = "across its plane";
 
     // shear_failures
     columns_that_fail_in_shear = "Columns that fail in shear";

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use crate::numbers::counted;
 use jostle::hysteresis::{Hysteresis, HysteresisRule, Side};
 use jostle::statics::STANDARD_GRAVITY;
-use jostle::{Diagonal, DiagonalKind, Frame, Section, SpaceFrame};
+use jostle::{Diagonal, DiagonalKind, Frame, Section, SpaceFrame, StrutLine};
 use jostle_io::shown::{
     FORCE, HEIGHT, LARGE_FORCE, LARGE_RIGIDITY, LARGE_STIFFNESS, LENGTH, Shown,
 };
@@ -172,12 +172,13 @@ pub(super) fn space_walls(frame: &SpaceFrame) -> String {
 
 /// Braces and infill panels, as far as there are any.
 pub(super) fn diagonals(diagonals: &[Diagonal]) -> String {
+    let is_side = |own: &Diagonal| own.place.strut != StrutLine::Central;
     let count = |kind| {
-        let all = diagonals.iter();
+        let all = diagonals.iter().filter(|own| !is_side(own));
         all.filter(|own| own.place.kind == kind).count()
     };
     let mut text = String::new();
-    // A panel is two struts.
+    // A panel is two struts, or three times two.
     let [braces, panels] = [count(DiagonalKind::Brace), count(DiagonalKind::Infill) / 2];
     for (count, noun) in [(braces, "brace"), (panels, "infill panel")] {
         if count > 0 {
@@ -224,6 +225,21 @@ pub(super) fn diagonals(diagonals: &[Diagonal]) -> String {
             between(&cracking, &|own| FORCE.of(pressed(own).cracking.force)),
             between(&cracking, &|own| FORCE.of(pressed(own).yielding.force)),
         );
+    }
+    let mut panels = diagonals
+        .iter()
+        .filter(|own| own.place.kind == DiagonalKind::Infill);
+    if panels.clone().any(is_side) {
+        text += ", three struts each way";
+    }
+    let offsets = panels.clone().map(|own| own.offsets[0].max(own.offsets[1]));
+    let offset = offsets.fold(0.0, f64::max);
+    if offset > 0.0 {
+        text += &format!(", off the joints by up to {}", HEIGHT.text(offset, 2));
+    }
+    if let Some(damage) = panels.find_map(|own| own.damage) {
+        let drifts = damage.drifts.map(|drift| format!("{:.2}", 100.0 * drift));
+        text += &format!(", damaged at drifts of {} %", drifts.join(" / "));
     }
     let panels = diagonals.iter().filter_map(|own| own.across);
     let accelerations = panels.map(|own| own.strength / own.surface_mass / STANDARD_GRAVITY);

@@ -75,8 +75,14 @@ fn fibres<'a>(
                     _ => ([sums[0], sums[1] + force], layers),
                 }
             });
+    let limits = first.limits.iter();
+    let limits = limits.map(|(limit, strain)| format!("{} {:.2} ‰", limit.name(), 1e3 * strain));
+    let limits = match limits.collect::<Vec<_>>() {
+        none if none.is_empty() => String::new(),
+        some => format!("; strains judged: {}", some.join(", ")),
+    };
     format!(
-        "fibres at {} of columns; {first_of}: {} over {}, {} of concrete and {} of bars",
+        "fibres at {} of columns; {first_of}: {} over {}, {} of concrete and {} of bars{limits}",
         counted(count, "end"),
         counted(layers, "concrete fibre"),
         HEIGHT.text(first.length, 3),

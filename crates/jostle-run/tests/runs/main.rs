@@ -7,6 +7,7 @@ mod gap_directions;
 mod given;
 mod indentation;
 mod isolation_bounds;
+mod judged_members;
 mod long_histories;
 mod member_capacity;
 mod registry;

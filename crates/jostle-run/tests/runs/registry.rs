@@ -234,7 +234,7 @@ floor_mass = "60 t"
 axial = "flexible"
 elastic_modulus = "30 GPa"
 gravity = true
-hinges = { rule = "fibre", length = "0.3 m", fibres = 8, ends = "base" }
+hinges = { rule = "fibre", length = "0.3 m", fibres = 8, ends = "base", limits = { spalling = 1e-4 } }
 "#;
 
 /// The same of a space frame.
@@ -380,7 +380,10 @@ fn every_number_of_the_summary_is_in_the_registry_and_the_other_way_round() {
             // The same objects have the numbers of the plane along as well.
             let same_key = all.iter().filter(|other| other.key == owner.key);
             compare(&fibred_in_space, &same_key.collect::<Vec<_>>());
-        } else if matches!(owner.key, "buildings[].parts[]" | "buildings[].sections[]") {
+        } else if matches!(
+            owner.key,
+            "buildings[].parts[]" | "buildings[].sections[]" | "buildings[].sections[].limits[]"
+        ) {
             compare_together(&parts, owner);
         } else if owner.title == "Forces of members at the worst instant"
             || owner.title.ends_with("of a member against its capacity")

@@ -1,7 +1,7 @@
 //! Faults of ends of columns that are made of fibres.
 
 use super::Faults;
-use crate::model::{Building, ColumnFibres};
+use crate::model::{Building, ColumnFibres, FibreMaterial};
 
 /// Whether the weight of a building presses its fibres.
 pub(super) fn check_weight(faults: &mut Faults, path: &str, building: &Building) {
@@ -15,6 +15,20 @@ pub(super) fn check_weight(faults: &mut Faults, path: &str, building: &Building)
 /// The fibres of one column.
 pub(super) fn check_fibres(faults: &mut Faults, path: &str, own: &ColumnFibres, in_space: bool) {
     faults.positive(own.length, format!("{path}.length"), "m");
+    for (limit, strain) in &own.limits {
+        let limit_path = format!("{path}.limits.{}", limit.name());
+        faults.positive(*strain, &limit_path, "");
+        let judged = limit.material();
+        let stands = own.fibres.iter().any(|fibre| fibre.material == judged);
+        faults.require(stands, &limit_path, || match judged {
+            FibreMaterial::Core => {
+                "needs a core within ties: add ties = \"d8 @ 100 mm\" to column, or leave it out"
+                    .into()
+            }
+            FibreMaterial::Cover => "needs concrete that no ties confine".into(),
+            FibreMaterial::Bar => "needs bars".into(),
+        });
+    }
     let finite = own.fibres.iter().flat_map(|fibre| fibre.at);
     let finite = finite.into_iter().all(f64::is_finite);
     faults.require(finite, path, || "must stand at finite distances".into());

@@ -1,7 +1,7 @@
 //! Columns and beams of a frame that do not stand together.
 
 use super::Faults;
-use crate::model::{DiagonalPlace, Frame};
+use crate::model::{Diagonal, DiagonalPlace, Frame};
 
 /// Members and joints that a frame lacks, as faults at `path`. Lengths of lists are right.
 pub(super) fn check_places(faults: &mut Faults, path: &str, frame: &Frame) {
@@ -78,6 +78,32 @@ pub(super) fn check_places(faults: &mut Faults, path: &str, frame: &Frame) {
             floor + 1
         ));
     }
+}
+
+/// What is wrong with where the ends of a diagonal, whose place is sound, meet the columns.
+pub(super) fn fault_of_offsets(frame: &Frame, own: &Diagonal) -> Option<String> {
+    let storey = own.place.storey - 1;
+    let height = frame.storey_heights[storey];
+    let [lower, upper] = own.place.lines();
+    let ends = [(lower, 0), (upper, 1)].map(|(line, end)| {
+        let rigid = frame.rigid_ends_of_column([storey, line])[end];
+        (own.offsets[end], rigid, line + 1)
+    });
+    ends.into_iter().find_map(|(offset, rigid, line)| {
+        if !(0.0..=0.25 * height).contains(&offset) {
+            return Some(format!(
+                "{} meets column {line} {offset} m from the joint; give 0 to a quarter of the storey, {} m",
+                own.place,
+                0.25 * height
+            ));
+        }
+        (offset > 0.0 && offset <= rigid).then(|| {
+            format!(
+                "{} meets column {line} {offset} m from the joint, where it is rigid over {rigid} m; give a greater offset, or shorter rigid_ends",
+                own.place
+            )
+        })
+    })
 }
 
 /// What is wrong with the place of a diagonal: it is not in the frame, or ends where there is no joint.

@@ -18,8 +18,8 @@ use members::check_members;
 use neighbours::check_neighbours;
 
 use crate::model::{
-    Base, Building, Damping, Diagonal, DiagonalPlace, Frame, FrameHinges, Hinges, Model,
-    ModelFault, Shear, ShearSpring, Structure, Sway, WALL,
+    Base, Building, Damping, Diagonal, Frame, FrameHinges, Hinges, Model, ModelFault, Shear,
+    ShearSpring, Structure, Sway, WALL,
 };
 
 /// Collects faults under the path of the part being checked.
@@ -450,8 +450,9 @@ fn check_members_of(faults: &mut Faults, path: &str, frame: &Frame) {
             format!("must lie between 1 and 64, found {segments}")
         });
     }
-    check_diagonals(faults, path, &frame.diagonals, |place| {
-        frame_places::fault_of_diagonal(frame, place)
+    check_diagonals(faults, path, &frame.diagonals, |own| {
+        frame_places::fault_of_diagonal(frame, own.place)
+            .or_else(|| frame_places::fault_of_offsets(frame, own))
     });
     for (name, stiffness, unit) in [
         ("rotational", frame.joint.rotational_stiffness, "N.m/rad"),
@@ -464,23 +465,36 @@ fn check_members_of(faults: &mut Faults, path: &str, frame: &Frame) {
     }
 }
 
-/// Braces and struts. `fault_of`: what is wrong with a place.
+/// Braces and struts. `fault_of`: what is wrong with where one stands.
 fn check_diagonals(
     faults: &mut Faults,
     path: &str,
     diagonals: &[Diagonal],
-    fault_of: impl Fn(DiagonalPlace) -> Option<String>,
+    fault_of: impl Fn(&Diagonal) -> Option<String>,
 ) {
     for (index, own) in diagonals.iter().enumerate() {
         let (place, field) = (own.place, format!("{path}.{}", own.place.kind.name()));
-        if let Some(fault) = fault_of(place) {
-            faults.add(field.as_str(), fault);
+        if let Some(fault) = fault_of(own) {
+            let field = match own.offsets == [0.0; 2] {
+                true => field.clone(),
+                false => format!("{field}.offset"),
+            };
+            faults.add(field, fault);
         }
         let before = &diagonals[..index];
         let is_first = before.iter().all(|other| other.place != place);
         faults.require(is_first, field.as_str(), || {
             format!("there are two of {place}; give one with the stiffness of both")
         });
+        if let Some(damage) = own.damage {
+            let rises = damage.drifts.windows(2).all(|pair| pair[0] < pair[1]);
+            let sound = rises && damage.drifts[0] > 0.0 && damage.drifts[3].is_finite();
+            let drifts = format!("{field}.damage_drifts");
+            faults.require(sound, drifts.as_str(), || {
+                format!("must be greater than 0 and rise, found {:?}", damage.drifts)
+            });
+            faults.positive(damage.drift_per_shortening, drifts, "1/m");
+        }
         if let Some(across) = own.across {
             faults.positive(
                 across.strength,

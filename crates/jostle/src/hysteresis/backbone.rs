@@ -292,10 +292,12 @@ impl Backbone {
         self
     }
 
-    /// Whether it bears compression alone.
+    /// The side on which it has no force, if there is one.
     #[must_use]
-    pub fn is_without_tension(&self) -> bool {
-        self.sides[Side::Positive.index()].yielding.force == 0.0
+    #[inline]
+    pub fn open_side(&self) -> Option<Side> {
+        let mut sides = Side::BOTH.into_iter();
+        sides.find(|side| self.side(*side).yielding.force == 0.0)
     }
 
     /// Whether the force falls after yield.
@@ -384,6 +386,25 @@ impl Backbone {
     pub fn force_at(&self, deformation: f64) -> f64 {
         let side = Side::from_change(deformation);
         side.sign() * self.side(side).force_at(deformation.abs())
+    }
+
+    /// The same deformations under forces times a factor > 0 \[–\].
+    #[must_use]
+    pub(super) fn times(&self, factor: f64) -> Self {
+        let corner = |own: Corner| Corner {
+            force: factor * own.force,
+            ..own
+        };
+        Self {
+            initial: factor * self.initial,
+            sides: self.sides.map(|own| BackboneSide {
+                cracking: corner(own.cracking),
+                yielding: corner(own.yielding),
+                post_cracking: factor * own.post_cracking,
+                post_yield: factor * own.post_yield,
+                residual: factor * own.residual,
+            }),
+        }
     }
 
     /// The curve with exchanged sides: the same spring seen from its other end.

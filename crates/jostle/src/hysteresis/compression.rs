@@ -56,6 +56,15 @@ impl Hysteresis {
         }
     }
 
+    /// The same strut of a share of the area, > 0: forces and stiffnesses times it, deformations as they are \[–\].
+    #[must_use]
+    pub fn of_share(self, share: f64) -> Self {
+        Self {
+            backbone: self.backbone.times(share),
+            ..self
+        }
+    }
+
     /// Ground of this stiffness \[N/m\] under a part of a foundation, with a strength \[N\] and the ratio of the stiffness after it
     /// to the initial one, 0…1 \[–\]; `None` is elastic. It has no force where the foundation stands higher than the ground as
     /// the greatest force has left it: F = min(k (d − p), F_y + ηk (d − F_y/k)) over the sinking *d*, with the settlement *p*

@@ -120,12 +120,13 @@ enum Next {
     Close,
 }
 
-/// Where a strut that bears compression alone has lost its force, if it has none; without a curve for tension, it has none beyond.
+/// Where a spring that bears one side alone has lost its force, if it has none; it has none beyond.
 #[inline]
 pub(super) fn open_from(backbone: &Backbone, memory: &HysteresisMemory) -> Option<Corner> {
-    if !backbone.is_without_tension() || memory.force != 0.0 {
+    if memory.force != 0.0 {
         return None;
     }
+    backbone.open_side()?;
     match memory.branch {
         Branch::Virgin => Some(Corner::default()),
         Branch::Reloading if memory.start.force == 0.0 => Some(memory.start),
@@ -230,13 +231,13 @@ fn turn_back(
 #[inline(always)] // a line then stays in registers
 fn ahead(backbone: &Backbone, memory: &HysteresisMemory, towards: Side) -> Line {
     let sign = towards.sign();
-    if let Some(zero) = open_from(backbone, memory)
-        && (towards == Side::Positive || memory.deformation > zero.deformation)
+    if let Some((zero, open)) = open_from(backbone, memory).zip(backbone.open_side())
+        && (towards == open || open.sign() * (memory.deformation - zero.deformation) > 0.0)
     {
         return Line {
             through: zero,
             slope: 0.0,
-            end: (towards == Side::Negative).then_some((zero, Next::Close)),
+            end: (towards != open).then_some((zero, Next::Close)),
         };
     }
     let curve = backbone.side(towards);
@@ -245,8 +246,8 @@ fn ahead(backbone: &Backbone, memory: &HysteresisMemory, towards: Side) -> Line 
         force: sign * corner.force,
     };
     match memory.branch {
-        // A strut that bears compression alone opens at zero.
-        Branch::Virgin if towards == Side::Positive && backbone.is_without_tension() => Line {
+        // What bears one side alone opens at zero.
+        Branch::Virgin if backbone.open_side() == Some(towards) => Line {
             through: Corner::default(),
             slope: backbone.initial(),
             end: Some((Corner::default(), Next::Open)),
@@ -334,11 +335,8 @@ fn enter(
             (memory.deformation, memory.force) = (here.deformation, 0.0);
         }
         Next::Reload => {
-            // Without tension it stays where it is until it is pressed again.
-            let towards = match backbone.is_without_tension() {
-                true => Side::Negative,
-                false => towards,
-            };
+            // What bears one side alone stays where it is until it is pressed again.
+            let towards = backbone.open_side().map_or(towards, Side::opposite);
             memory.branch = Branch::Reloading;
             memory.side = towards;
             (memory.deformation, memory.force) = (here.deformation, 0.0);

@@ -357,7 +357,7 @@ impl Hysteresis {
     pub fn initial_tangent(&self) -> f64 {
         match self.rule {
             HysteresisRule::Stop { clearance: 0.0, .. } => 0.5 * self.backbone.initial(),
-            HysteresisRule::Pinched(_) if self.backbone.is_without_tension() => {
+            HysteresisRule::Pinched(_) if self.backbone.open_side().is_some() => {
                 0.5 * self.backbone.initial()
             }
             HysteresisRule::Stop { .. }

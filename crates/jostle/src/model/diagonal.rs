@@ -6,15 +6,17 @@ use crate::hysteresis::Hysteresis;
 /// A brace, or a strut of an infill panel, between two joints of a frame at opposite corners of a bay of a storey.
 ///
 /// ```
-/// use jostle::{Diagonal, DiagonalKind, DiagonalPlace, Rise};
+/// use jostle::{Diagonal, DiagonalKind, DiagonalPlace, Rise, StrutLine};
 ///
 /// // A steel rod of 2000 mm² across a bay of 6 m and a storey of 3.5 m.
 /// let length = 6.0_f64.hypot(3.5);
 /// let rod = Diagonal {
-///     place: DiagonalPlace { kind: DiagonalKind::Brace, line: None, storey: 1, bay: 1, rise: Rise::Right },
+///     place: DiagonalPlace { kind: DiagonalKind::Brace, line: None, storey: 1, bay: 1, rise: Rise::Right, strut: StrutLine::Central },
 ///     stiffness: 210e9 * 2000e-6 / length,
 ///     hysteresis: None, // it stays elastic
+///     offsets: [0.0; 2], // from joint to joint
 ///     across: None,
+///     damage: None,
 /// };
 /// assert_eq!(rod.place.to_string(), "brace.1.1.up");
 /// ```
@@ -26,8 +28,39 @@ pub struct Diagonal {
     pub stiffness: f64,
     /// Its force if it yields, positive in tension; its initial stiffness then takes the place of `stiffness`.
     pub hysteresis: Option<Hysteresis>,
+    /// How far its lower end lies above the joint there, and its upper end below the other joint, along the columns: both ≥ 0, at most a
+    /// quarter of the storey, and zero in a space frame \[m\].
+    pub offsets: [f64; 2],
     /// What the panel of a strut bears across its plane, if that is compared; it has no part in the motion.
     pub across: Option<PanelAcross>,
+    /// How the panel of a strut is damaged, if that is judged; it has no part in the motion either.
+    pub damage: Option<PanelDamage>,
+}
+
+/// Damage of an infill panel by the drift of its bay: how much its diagonal shortens, over the cosine of its slope and the storey height.
+///
+/// ```
+/// // A panel 3 m high and 4 m long, whose diagonal of 5 m shortens by 16 mm: a drift of 0.67 %.
+/// let panel = jostle::PanelDamage { drifts: [0.0018, 0.0046, 0.0105, 0.0188], drift_per_shortening: 5.0 / (4.0 * 3.0) };
+/// assert_eq!(panel.state(panel.drift_per_shortening * 16e-3), 2);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PanelDamage {
+    /// Drifts at which the damage states 1 to 4 begin, > 0 and rising \[–\].
+    pub drifts: [f64; 4],
+    /// Drift over the shortening of the diagonal, > 0 \[1/m\].
+    pub drift_per_shortening: f64,
+}
+
+impl PanelDamage {
+    /// Drifts of four damage states of solid clay masonry by Sassun and others (2015).
+    pub const SASSUN: [f64; 4] = [0.0018, 0.0046, 0.0105, 0.0188];
+
+    /// Damage state under a drift, 0 to 4.
+    #[must_use]
+    pub fn state(&self, drift: f64) -> usize {
+        self.drifts.iter().filter(|own| drift >= **own).count()
+    }
 }
 
 /// What an infill panel bears across its plane.
@@ -66,6 +99,20 @@ pub struct DiagonalPlace {
     pub bay: usize,
     /// Which way it rises.
     pub rise: Rise,
+    /// Which of the parallel struts of a panel it is.
+    pub strut: StrutLine,
+}
+
+/// Parallel struts of a panel, by where they end.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum StrutLine {
+    /// From corner to corner; braces, and panels of one strut.
+    #[default]
+    Central,
+    /// It meets the column at its lower end above the joint, and the joint at its upper end.
+    Foot,
+    /// It meets the joint at its lower end, and the column at its upper end below the joint.
+    Head,
 }
 
 /// A line of the grid of a space frame, with the bays between the lines that cross it.
@@ -153,7 +200,12 @@ impl GridLine {
 /// count from 1.
 impl std::fmt::Display for DiagonalPlace {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let (kind, rise) = (self.kind.name(), self.rise.name());
+        let kind = self.kind.name();
+        let rise = match self.strut {
+            StrutLine::Central => self.rise.name().to_owned(),
+            StrutLine::Foot => format!("{}.foot", self.rise.name()),
+            StrutLine::Head => format!("{}.head", self.rise.name()),
+        };
         let Some(line) = self.line else {
             return write!(formatter, "{kind}.{}.{}.{rise}", self.storey, self.bay);
         };

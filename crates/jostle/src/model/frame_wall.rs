@@ -1,6 +1,6 @@
 //! Walls of plane frames, and the beams that couple them.
 
-use super::{Frame, FramePlace, Section};
+use super::{Diagonal, Frame, FramePlace, Section};
 use crate::hysteresis::Hysteresis;
 
 /// A wall of a plane frame: it takes the place of a column line over some storeys, and beams meet its faces instead of its axis.
@@ -143,6 +143,24 @@ impl Frame {
     pub fn clear_height(&self, [storey, line]: FramePlace) -> f64 {
         let ends = self.rigid_ends_of_column([storey, line]);
         self.storey_heights[storey] - ends[0] - ends[1]
+    }
+
+    /// Heights above its lower joint at which struts meet the column in a storey at a line, both counted from 0 \[m\].
+    pub(crate) fn ends_of_struts(
+        &self,
+        [storey, line]: FramePlace,
+    ) -> impl Iterator<Item = f64> + '_ {
+        let height = self.storey_heights[storey];
+        let own = move |own: &&Diagonal| own.place.storey == storey + 1;
+        let ends = self.diagonals.iter().filter(own).flat_map(move |own| {
+            let [lower, upper] = own.place.lines();
+            let [above, below] = own.offsets;
+            [(lower, above), (upper, height - below)]
+        });
+        let inside = move |(at, above): (usize, f64)| {
+            (at == line && above > 0.0 && above < height).then_some(above)
+        };
+        ends.filter_map(inside)
     }
 
     /// Length over which the beam at a floor in a bay, both counted from 0, bends: between walls or the rigid zones of joints \[m\].

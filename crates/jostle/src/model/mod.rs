@@ -37,8 +37,10 @@ pub use capacity::{
     AcrossCapacity, CapacityLine, MemberCapacity, RotationLimits, RotationMeasure, RuleCapacity,
     ShearCapacity,
 };
-pub use diagonal::{Diagonal, DiagonalKind, DiagonalPlace, GridLine, PanelAcross, Rise};
-pub use fibres::{ColumnFibres, Fibre};
+pub use diagonal::{
+    Diagonal, DiagonalKind, DiagonalPlace, GridLine, PanelAcross, PanelDamage, Rise, StrutLine,
+};
+pub use fibres::{ColumnFibres, Fibre, FibreLimit, FibreMaterial};
 pub(crate) use floor_matrices::displacement_in_words;
 pub use floor_matrices::{FloorMatrices, GivenFloor, GivenInPlan};
 pub use frame_members::FramePlace;

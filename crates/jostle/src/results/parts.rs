@@ -24,9 +24,13 @@ pub(super) fn parts_of(index: usize, building: &BuildingSystem, run: &Run) -> Ve
     let part = |force: &DiagonalForce| {
         let own = &diagonals[force.diagonal];
         let [most, least] = outcome.members[index][force.form];
-        let place = SpringPlace::of_diagonal(own);
-        let mut places = building.discretization.spring_places.iter();
-        let spring = places.position(|known| *known == place);
+        let spring = building.discretization.spring_of_diagonal(own);
+        let damage = own.damage.zip(spring).map(|(damage, spring)| {
+            let owner = Owner::Spring(building.spring_offset + spring);
+            let changed = outcome.peaks.owned_by(owner).of(Kind::Stroke);
+            let drift = -changed.least.value * damage.drift_per_shortening;
+            (drift, damage.state(drift))
+        });
         let buckled_s = spring.and_then(|spring| {
             let global = building.spring_offset + spring;
             let law = &building.equations.springs[spring].hysteresis;
@@ -59,6 +63,8 @@ pub(super) fn parts_of(index: usize, building: &BuildingSystem, run: &Run) -> Ve
             out_of_plane_ratio: own
                 .across
                 .map(|panel| panel.ratio(acceleration_across(index, building, own, run))),
+            drift: damage.map(|(drift, _)| drift),
+            damage_state: damage.map(|(_, state)| state),
             ..PartSummary::default()
         }
     };

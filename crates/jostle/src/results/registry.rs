@@ -13,8 +13,8 @@ use super::summary::{
     ForcesSummary, FoundationAcross, FoundationSummary, GapSummary, HingeSummary, ImpactSummary,
     IsolationInPlan, IsolationSummary, JointRatio, JointSummary, LinkFloorSummary, LinkSummary,
     MemberComparison, MotionSummary, PartSummary, PromiseSummary, RatioPlace, RatioSummary,
-    SectionSummary, ShearFailure, ShearFailureSummary, SpringSummary, StageSummary, StruckSummary,
-    Summary, WallSummary, WorkSummary,
+    SectionSummary, ShearFailure, ShearFailureSummary, SpringSummary, StageSummary,
+    StrainLimitSummary, StruckSummary, Summary, WallSummary, WorkSummary,
 };
 use crate::quantity::{Places, Quantity};
 
@@ -107,6 +107,7 @@ const OWNERS: &[Row] = &[
     ("Braces, struts, walls, coupling beams and foundations that lift off", "buildings[].parts[]", None, "", &[entries!(PartSummary::QUANTITIES)]),
     ("Ends of columns made of fibres", "buildings[].sections[]", None, "", &[entries!(FibreSummary::QUANTITIES)]),
     ("Ends of columns of space frames made of fibres", "buildings[].sections[]", None, "", &[entries!(FibreAcrossSummary::QUANTITIES)]),
+    ("Strains of fibres that are judged", "buildings[].sections[].limits[]", None, "", &[entries!(StrainLimitSummary::QUANTITIES)]),
     ("Sections of columns and beams", "buildings[].members[].ends[]", None, "", &[entries!(SectionSummary::QUANTITIES)]),
     ("Sections of space frames", "buildings[].members[].ends[]", None, "", &[entries!(AcrossSummary::QUANTITIES)]),
     ("Columns and beams with contact and without", "buildings[].members[].compared", None, "", &[entries!(MemberComparison::QUANTITIES)]),

@@ -1,9 +1,9 @@
 //! Peaks of ends of columns that are made of fibres.
 
 use super::summarise::springs_of;
-use super::summary::{FibreAcrossSummary, FibreSummary, SpringSummary};
+use super::summary::{FibreAcrossSummary, FibreSummary, SpringSummary, StrainLimitSummary};
 use crate::history::{Kind, Owner};
-use crate::hysteresis::HysteresisRule;
+use crate::hysteresis::{HysteresisRule, Side};
 use crate::stepping::Outcome;
 use crate::structure::FibreSection;
 use crate::system::{BuildingSystem, Direction};
@@ -46,6 +46,26 @@ pub(super) fn sections_of(
             }
         });
         let strains = Strains::of(building, section, fibres);
+        let limits = section.limits.iter().map(|(limit, strain_limit)| {
+            let judged = section.fibres.iter().zip(fibres);
+            let judged = judged.filter(|(own, _)| own.material == limit.material());
+            let strains = judged.map(|(_, own)| match limit.side() {
+                Side::Positive => own.deformation_max,
+                Side::Negative => own.deformation_min,
+            });
+            let own = outcome.peaks.owned_by(Owner::Section {
+                building: index,
+                section: number,
+            });
+            let passed = own.of(Kind::Passed(*limit)).greatest;
+            StrainLimitSummary {
+                limit: *limit,
+                strain_limit: *strain_limit,
+                strain: strains.fold(0.0, f64::max) / section.length,
+                passed_s: (passed.value > 0.0).then_some(passed.at),
+            }
+        });
+        let limits = limits.collect();
         FibreSummary {
             name: format!("{}.{section}", building.name),
             axial_max_n: axial[0],
@@ -62,6 +82,7 @@ pub(super) fn sections_of(
             crushed_share: strains.crushed_share,
             steel_strain: strains.steel,
             yielded_s: strains.yielded_s,
+            limits,
             dissipated_j: fibres.iter().map(|own| own.dissipated_j).sum(),
         }
     })

@@ -1,6 +1,8 @@
 //! Ends of columns that are made of fibres: springs side by side between a joint and the end of a column.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
+use std::sync::Arc;
 
 use super::discretization::Discretization;
 use super::element::{THETA, Y, over_nodes};
@@ -8,7 +10,7 @@ use super::member_forces::MemberPlace;
 use super::spring_place::{MemberEnd, SpringPlace};
 use super::stick_model::{Hinge, StickModel, YieldingElement};
 use crate::linear::Row;
-use crate::model::{ColumnFibres, PlanPoint, ProportionalDamping};
+use crate::model::{ColumnFibres, Fibre, FibreLimit, ProportionalDamping};
 
 /// An end of a column that is made of fibres.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,8 +21,10 @@ pub struct FibreSection {
     pub end: MemberEnd,
     /// Length over which the fibres share a deformation \[m\].
     pub length: f64,
-    /// Distances of every fibre from the axis, to the right and across \[m\].
-    pub at: Vec<PlanPoint>,
+    /// Its fibres.
+    pub fibres: Arc<[Fibre]>,
+    /// Strains that are judged \[–\].
+    pub limits: BTreeMap<FibreLimit, f64>,
     /// Its fibres among [`StickModel::yielding`]; see [`Discretization::springs_of_section`].
     pub elements: Range<usize>,
     /// Elongation of its axis over displacements of nodes.
@@ -33,7 +37,7 @@ pub struct FibreSection {
 impl FibreSection {
     /// Places of its fibres.
     pub(super) fn places(&self) -> impl Iterator<Item = SpringPlace> + '_ {
-        (0..self.at.len()).map(|fibre| SpringPlace::Fibre {
+        (0..self.fibres.len()).map(|fibre| SpringPlace::Fibre {
             member: self.member,
             end: self.end,
             fibre: fibre + 1,
@@ -104,7 +108,8 @@ impl StickModel {
             member,
             end,
             length: own.length,
-            at: own.fibres.iter().map(|fibre| fibre.at).collect(),
+            fibres: own.fibres.clone(),
+            limits: own.limits.clone(),
             elements: first..self.yielding.len(),
             elongation,
             rotations,

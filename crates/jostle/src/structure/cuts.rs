@@ -5,6 +5,11 @@ pub(super) fn equal_cuts(segments: usize) -> Vec<f64> {
     (1..segments).map(|k| k as f64 / segments as f64).collect()
 }
 
+/// Adds a division point at a fraction of the length, if it lies inside the line; the others stay.
+pub(super) fn cut_exactly(cuts: &mut Vec<f64>, share: f64) {
+    cut_at(cuts, share, 1e-9);
+}
+
 /// Adds a division point at a fraction of the length, by moving a point that is near enough, if the fraction lies
 /// inside the line.
 pub(super) fn cut_at(cuts: &mut Vec<f64>, share: f64, reach: f64) {

@@ -1,12 +1,16 @@
 //! Braces and struts between joints of a frame: axial force alone, at any angle.
 
+use std::collections::BTreeMap;
+
 use super::discretization::Discretization;
 use super::element::{Element, Part, X, Y, over_nodes};
 use super::spring_place::SpringPlace;
 use super::stick_model::{StickModel, YieldingElement};
 use crate::hysteresis::Hysteresis;
 use crate::linear::Row;
-use crate::model::{Diagonal, DiagonalPlace, PanelAcross, PlanAxis, ProportionalDamping};
+use crate::model::{
+    Diagonal, DiagonalPlace, FramePlace, PanelAcross, PanelDamage, PlanAxis, ProportionalDamping,
+};
 
 /// A brace or a strut of a frame, as it stands in the stick model.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +31,10 @@ pub struct FrameDiagonal {
     pub spring: Option<Hysteresis>,
     /// What its panel bears across its plane, if that is compared.
     pub across: Option<PanelAcross>,
+    /// How much longer the line between the joints of its bay becomes, over displacements of nodes.
+    pub between_joints: Row,
+    /// How its panel is damaged, if that is judged.
+    pub damage: Option<PanelDamage>,
 }
 
 impl FrameDiagonal {
@@ -37,10 +45,12 @@ impl FrameDiagonal {
             place: own.place,
             ends,
             direction: [1.0, 0.0],
-            elongation,
             stiffness: own.stiffness,
             spring: own.hysteresis,
             across: own.across,
+            between_joints: elongation.clone(),
+            damage: own.damage,
+            elongation,
         }
     }
 
@@ -56,8 +66,13 @@ impl FrameDiagonal {
 
 impl Discretization {
     /// Adds the diagonals of a frame whose `joints` are nodes already, where there are any: feet first, then floor by floor, each by
-    /// column line.
-    pub(super) fn add_diagonals(&mut self, diagonals: &[Diagonal], joints: &[Vec<Option<usize>>]) {
+    /// column line. `columns`: nodes between the ends of columns, by storey and line.
+    pub(super) fn add_diagonals(
+        &mut self,
+        diagonals: &[Diagonal],
+        joints: &[Vec<Option<usize>>],
+        columns: &BTreeMap<FramePlace, Vec<usize>>,
+    ) {
         for own in diagonals {
             let [lower, upper] = own.place.lines();
             let storey = own.place.storey;
@@ -65,10 +80,31 @@ impl Discretization {
             let (Some(from), Some(to)) = (joints[storey - 1][lower], joints[storey][upper]) else {
                 continue;
             };
-            let ends = [from, to];
-            let elongation = elongation(&self.stick_model, ends);
-            self.add_diagonal(FrameDiagonal::new(own, ends, elongation));
+            let sticks = &self.stick_model;
+            let on_column = |joint: usize, line: usize, above: f64| {
+                let height = sticks.nodes[joint].y + above;
+                let nodes = columns.get(&[storey - 1, line]).into_iter().flatten();
+                let off = |node: &&usize| (sticks.nodes[**node].y - height).abs();
+                nodes.min_by(|a, b| off(a).total_cmp(&off(b))).copied()
+            };
+            let ends = [(from, lower, own.offsets[0]), (to, upper, -own.offsets[1])];
+            let ends = ends.map(|(joint, line, above)| match above == 0.0 {
+                true => joint,
+                false => on_column(joint, line, above).unwrap_or(joint),
+            });
+            let between_joints = elongation(sticks, [from, to]);
+            let elongation = elongation(sticks, ends);
+            self.add_diagonal(FrameDiagonal {
+                between_joints,
+                ..FrameDiagonal::new(own, ends, elongation)
+            });
         }
+    }
+
+    /// The spring of a diagonal among those of the building; `None` if it has none.
+    pub(crate) fn spring_of_diagonal(&self, own: &FrameDiagonal) -> Option<usize> {
+        let place = SpringPlace::of_diagonal(own);
+        self.spring_places.iter().position(|known| *known == place)
     }
 
     /// Adds a diagonal and its spring.

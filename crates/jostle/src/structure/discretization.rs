@@ -1,9 +1,10 @@
 //! From a building as described to lumped masses and massless elements.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::column_ends::FibreSection;
-use super::cuts::{cut_at, equal_cuts};
+use super::cuts::{cut_at, cut_exactly, equal_cuts};
 use super::diagonals::FrameDiagonal;
 use super::element::{Element, Part, Place, THETA, X, Y, index_of};
 use super::frame_walls::InFrame;
@@ -465,6 +466,7 @@ pub(super) fn discretize_frame(
         ..Discretization::default()
     };
     let mut all_joints = vec![below.clone()];
+    let mut on_columns = BTreeMap::new();
     // Hinges come before springs, in the order of the stick model.
     let feet = (1..=lines.len()).filter(|line| frame.has_joint(0, line - 1));
     let at_the_base = |motion| {
@@ -563,6 +565,10 @@ pub(super) fn discretize_frame(
                     0.25 / frame.column_segments as f64,
                 );
             }
+            // Struts end exactly where they are said to.
+            for above in frame.ends_of_struts([storey, line]) {
+                cut_exactly(&mut cuts, (above - rigid[0]) / clear_height);
+            }
             let first = stick_model.members.len();
             let interior = stick_model.add_line(
                 ends[0],
@@ -573,6 +579,7 @@ pub(super) fn discretize_frame(
                 frame.axial.columns_flexible,
             );
             let elements = [first, stick_model.members.len() - 1];
+            on_columns.insert([storey, line], interior.clone());
             for (at, joint) in [from, to].into_iter().enumerate() {
                 if rigid[at] > 0.0 {
                     let between = rigid[at] * column.line_mass;
@@ -678,7 +685,7 @@ pub(super) fn discretize_frame(
     discretization.walls = walls.map(|own| InFrame::alone(*own)).collect();
     let beams = frame.coupling_beams.iter();
     discretization.coupling_beams = beams.map(|own| InFrame::alone(*own)).collect();
-    discretization.add_diagonals(&frame.diagonals, &all_joints);
+    discretization.add_diagonals(&frame.diagonals, &all_joints, &on_columns);
     if let (Some(stiffness), true) = (base.vertical_stiffness, base.uplift) {
         discretization.let_feet_lift(&all_joints[0], stiffness);
     }

@@ -24,6 +24,20 @@ pub(crate) struct Subgrade {
 }
 
 impl Discretization {
+    /// The node on which the building stands, if it can move: that of its foundation, its mat, or the last of its feet on springs. Ends of
+    /// columns beyond hinges stand at the same height, but come after the first floor.
+    pub(crate) fn base_node(&self) -> Option<usize> {
+        let StickModel {
+            nodes, foundation, ..
+        } = &self.stick_model;
+        if let Some(foundation) = foundation {
+            return Some(foundation.node);
+        }
+        let feet = nodes.iter().take_while(|node| node.y == 0.0).count();
+        let mut feet = nodes[..feet].iter();
+        feet.rposition(|node| node.support != Support::Fixed)
+    }
+
     /// Puts the feet of the building, which are fixed so far, on a rigid foundation on springs and dashpots: its middle lies
     /// below the middle of the building. Storeys of a shear building deform by w_i = u_i − u_f + h_i θ (theory, Eq. B22).
     pub(crate) fn put_on_foundation(&mut self, foundation: &Foundation, under: &Subgrade) {

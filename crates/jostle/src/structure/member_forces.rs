@@ -266,13 +266,11 @@ impl AssembledBuilding {
         let Discretization {
             stick_model,
             diagonals,
-            spring_places,
             ..
         } = &self.discretization;
         let own = &diagonals[diagonal];
-        let place = SpringPlace::of_diagonal(own);
         let mut form = LinearForm::default();
-        match spring_places.iter().position(|known| *known == place) {
+        match self.discretization.spring_of_diagonal(own) {
             Some(spring) if own.spring.is_some() => form.springs = Row::single(spring),
             _ => {
                 let elongation = stick_model.carried_row(&own.elongation);
@@ -298,9 +296,11 @@ impl MemberForces {
         for section in &discretization.sections {
             let springs = discretization.springs_of_section(section);
             let mut sum = |share: &dyn Fn([f64; 2]) -> f64| {
-                let fibres = springs.clone().zip(&section.at);
+                let fibres = springs.clone().zip(section.fibres.iter());
                 self.index_of(LinearForm {
-                    springs: fibres.map(|(spring, at)| (spring, share(*at))).collect(),
+                    springs: fibres
+                        .map(|(spring, own)| (spring, share(own.at)))
+                        .collect(),
                     ..LinearForm::default()
                 })
             };

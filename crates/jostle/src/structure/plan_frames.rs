@@ -72,6 +72,7 @@ pub(super) fn add_frames(
             ends: own.ends.map(|end| first_node + end),
             direction,
             elongation: own.elongation.moved_up(index_of((first_node, X))),
+            between_joints: own.between_joints.moved_up(index_of((first_node, X))),
             ..own
         });
         discretization.diagonals.extend(diagonals);

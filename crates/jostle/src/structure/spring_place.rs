@@ -3,7 +3,7 @@
 use super::diagonals::FrameDiagonal;
 use super::member_forces::MemberPlace;
 use crate::hysteresis::{ForceRow, Side};
-use crate::model::{DiagonalKind, DiagonalPlace, PlanAxis, Rise, SpacePlace};
+use crate::model::{DiagonalKind, DiagonalPlace, PlanAxis, Rise, SpacePlace, StrutLine};
 
 /// Which end of a member a hinge is at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -372,7 +372,12 @@ fn in_words(place: DiagonalPlace) -> String {
             Rise::Right => "right",
             Rise::Left => "left",
         };
-        return format!("{kind}, storey {storey}, bay {bay}, rising to the {towards}");
+        let off = match place.strut {
+            StrutLine::Central => "",
+            StrutLine::Foot => ", off the joint at its foot",
+            StrutLine::Head => ", off the joint at its head",
+        };
+        return format!("{kind}, storey {storey}, bay {bay}, rising to the {towards}{off}");
     };
     let [x, y] = line.crossing(bay - 1).map(|own| own + 1);
     let along = line.along.name();

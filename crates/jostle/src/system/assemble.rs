@@ -16,7 +16,7 @@ use crate::model::{
     Base, Building, Damping, FloorPairs, Foundation, HalfSpace, LEVEL_TOLERANCE, Level, Link,
     LinkLaw, LumpedFloor, MassDamping, Model, ModelFault, PlanPoint, Structure,
 };
-use crate::structure::{Discretization, InnerLink, LinkEnd, Support};
+use crate::structure::{Discretization, InnerLink, LinkEnd};
 
 impl System {
     /// Assembles a model.
@@ -598,9 +598,7 @@ fn ports_inside(system: &System, link: &Link) -> Vec<Result<PortPair, String>> {
                 let mut face = own.discretization.right_face.iter().copied();
                 face.find(|&node| (nodes[node].y - height).abs() <= 2.0 * SAME)
             }
-            None => nodes
-                .iter()
-                .rposition(|node| node.y == 0.0 && node.support != Support::Fixed),
+            None => own.discretization.base_node(),
         };
         let port = |node| {
             let port = system.port(building, node);

@@ -4,10 +4,10 @@ use std::ops::ControlFlow;
 
 use jostle::hysteresis::{Backbone, ConcreteFall, Corners, Hysteresis, HysteresisRule};
 use jostle::{
-    Building, ColumnFibres, Damping, Fibre, FloorPairs, Gap, Gravity, GroundMotion, Isolation,
-    Isolator, LawKind, Level, Link, LinkLaw, Model, Plan, Pounding, Settings, Solver, SpaceFrame,
-    SpaceMember, SpacePlace, SpaceSection, SpeedFriction, Stop, Structure, System, Tier, Tiers,
-    Wall, simulate,
+    Building, ColumnFibres, Damping, Fibre, FibreLimit, FibreMaterial, FloorPairs, Gap, Gravity,
+    GroundMotion, Isolation, Isolator, LawKind, Level, Link, LinkLaw, Model, Plan, Pounding,
+    Settings, Solver, SpaceFrame, SpaceMember, SpacePlace, SpaceSection, SpeedFriction, Stop,
+    Structure, System, Tier, Tiers, Wall, simulate,
 };
 use jostle_testkit::models::{CONCRETE, equal_storeys};
 
@@ -147,14 +147,20 @@ fn fibres_in_space_allocate_nothing_either() {
     let parts = parts.map(|at| Fibre {
         at,
         spring: concrete,
+        material: FibreMaterial::Cover,
     });
     let corners = [-0.16, 0.16];
     let bars = corners.iter().flat_map(|x| corners.map(|y| [*x, y]));
-    let bars = bars.map(|at| Fibre { at, spring: bar });
+    let bars = bars.map(|at| Fibre {
+        at,
+        spring: bar,
+        material: FibreMaterial::Bar,
+    });
     let own = ColumnFibres {
         length,
         at_ends: [true, true],
         fibres: parts.chain(bars).collect(),
+        limits: [(FibreLimit::Spalling, 1e-3), (FibreLimit::Fracture, 0.05)].into(),
     };
     let column = SpaceSection::rectangle([0.4, 0.4], 30e9, 0.2, false).expect("a section");
     let beam = SpaceSection::beam([0.3, 0.5], 30e9, 0.2, false).expect("a section");

@@ -35,8 +35,8 @@ pub use links::{LinkFloorSummary, LinkSummary};
 pub use members::{
     AcrossSummary, ForcesSummary, MemberComparison, MemberSummary, SectionSummary, StruckSummary,
 };
-pub use parts::PartSummary;
-pub use sections::{FibreAcrossSummary, FibreSummary};
+pub use parts::{PanelDamageSummary, PartSummary};
+pub use sections::{FibreAcrossSummary, FibreSummary, StrainLimitSummary};
 pub use shear_failure::{ShearFailure, ShearFailureSummary};
 
 use serde::Serialize;

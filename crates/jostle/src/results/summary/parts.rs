@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::building::BuildingSummary;
 use crate::quantity::{Quantity, Unit};
 
 /// A brace, a strut of an infill panel, a wall, a coupling beam, or the ground under a foundation, which bears compression alone.
@@ -45,6 +46,12 @@ pub struct PartSummary {
     /// below and above, over that strength. Absent in others \[–\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub out_of_plane_ratio: Option<f64>,
+    /// Of a strut of a panel whose damage is judged: greatest drift of its bay that shortens it, ≥ 0. Absent in others \[–\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub drift: Option<f64>,
+    /// Damage state of the panel by that drift, 0 to 4.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub damage_state: Option<usize>,
     /// Of a footing: share of the run in which a contact spring bears nothing, the greatest of all springs, 0…1 \[–\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lifted_share: Option<f64>,
@@ -54,6 +61,50 @@ pub struct PartSummary {
     /// Of a footing: settlement of the ground at the end of the run, the greatest of all springs, ≥ 0 \[m\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub settlement_m: Option<f64>,
+}
+
+/// Damage of an infill panel: the worst of its struts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PanelDamageSummary {
+    /// Name without the way in which struts rise, such as `Old.infill.2.1`.
+    pub name: String,
+    /// Greatest drift of its bay, either way \[–\].
+    pub drift: f64,
+    /// Damage state, 0 to 4.
+    pub state: usize,
+}
+
+impl BuildingSummary {
+    /// Infill panels whose damage is judged, in the order of their struts.
+    #[must_use]
+    pub fn damaged_panels(&self) -> Vec<PanelDamageSummary> {
+        let mut panels: Vec<PanelDamageSummary> = Vec::new();
+        for own in &self.parts {
+            let Some((drift, state)) = own.drift.zip(own.damage_state) else {
+                continue;
+            };
+            let panel = [".foot", ".head"]
+                .iter()
+                .find_map(|end| own.name.strip_suffix(end));
+            let panel = panel.unwrap_or(&own.name);
+            let name = [".up", ".down"]
+                .iter()
+                .find_map(|way| panel.strip_suffix(way));
+            let name = name.unwrap_or(panel);
+            match panels.last_mut().filter(|known| known.name == name) {
+                Some(known) => {
+                    known.drift = known.drift.max(drift);
+                    known.state = known.state.max(state);
+                }
+                None => panels.push(PanelDamageSummary {
+                    name: name.to_owned(),
+                    drift,
+                    state,
+                }),
+            }
+        }
+        panels
+    }
 }
 
 #[rustfmt::skip]
@@ -71,6 +122,8 @@ impl PartSummary {
         Quantity::<Self>::real("dissipated_j", Unit::J, "energy dissipated", |p| p.dissipated_j),
         Quantity::<Self>::optional("buckled_s", Unit::S, "when a brace first buckled; absent if it does not", |p| p.buckled_s),
         Quantity::<Self>::optional("out_of_plane_ratio", Unit::NONE, "of a panel: greatest inertia force across its plane, by the accelerations of the floors below and above, over what it bears", |p| p.out_of_plane_ratio),
+        Quantity::<Self>::optional("drift", Unit::NONE, "of a strut of a panel: greatest drift of its bay that shortens it, the shortening of the diagonal over the cosine of its slope and the storey height", |p| p.drift),
+        Quantity::<Self>::optional("damage_state", Unit::NONE, "of a panel: damage state by that drift, 0 to 4", |p| p.damage_state.map(|own| own as f64)),
         Quantity::<Self>::optional("lifted_share", Unit::NONE, "of a footing: share of the run in which a contact spring bears nothing, the greatest of all", |p| p.lifted_share),
         Quantity::<Self>::optional("pressure_max_pa", Unit::PA, "of a foundation: greatest force of a contact spring over the area of its strip", |p| p.pressure_max_pa),
         Quantity::<Self>::optional("settlement_m", Unit::M, "of a footing: settlement of the ground at the end of the run, the greatest of all contact springs", |p| p.settlement_m),

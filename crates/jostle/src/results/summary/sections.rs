@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use crate::model::FibreLimit;
 use crate::quantity::{Quantity, Unit};
 
 /// An end of a column that is made of fibres. Forces are positive in tension, moments and rotations where they stretch the right side
@@ -43,8 +44,52 @@ pub struct FibreSummary {
     /// When bars first yielded \[s\]; absent if they did not.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub yielded_s: Option<f64>,
+    /// Strains that are judged; empty without any.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub limits: Vec<StrainLimitSummary>,
     /// Energy dissipated \[J\].
     pub dissipated_j: f64,
+}
+
+/// A strain at which something happens to the section, and whether its fibres passed it.
+#[derive(Clone, Debug, Serialize, PartialEq)]
+pub struct StrainLimitSummary {
+    /// What happens: `spalling` of the cover, `crushing` of the confined core, `buckling` or `fracture` of bars.
+    pub limit: FibreLimit,
+    /// The strain: of concrete in compression, of bars in tension, > 0 \[–\].
+    pub strain_limit: f64,
+    /// Greatest strain of these fibres, ≥ 0 \[–\].
+    pub strain: f64,
+    /// When they first passed it \[s\]; absent if they did not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub passed_s: Option<f64>,
+}
+
+impl StrainLimitSummary {
+    /// Greatest strain over its limit \[–\].
+    #[must_use]
+    pub fn ratio(&self) -> f64 {
+        self.strain / self.strain_limit
+    }
+}
+
+impl FibreSummary {
+    /// The greatest strain over its limit; `None` where nothing is judged \[–\].
+    #[must_use]
+    pub fn worst_ratio(&self) -> Option<f64> {
+        let ratios = self.limits.iter().map(StrainLimitSummary::ratio);
+        ratios.reduce(f64::max)
+    }
+}
+
+#[rustfmt::skip]
+impl StrainLimitSummary {
+    /// Its numbers.
+    pub const QUANTITIES: &[Quantity<Self>] = &[
+        Quantity::<Self>::real("strain_limit", Unit::NONE, "strain that is judged: of concrete in compression, of bars in tension", |s| s.strain_limit),
+        Quantity::<Self>::real("strain", Unit::NONE, "greatest strain of these fibres", |s| s.strain),
+        Quantity::<Self>::optional("passed_s", Unit::S, "when they first passed it; absent if they did not", |s| s.passed_s),
+    ];
 }
 
 /// Moments and rotations of an end of a column of a space frame in the plane across, positive where they stretch the side further

@@ -1,7 +1,7 @@
 //! What direct runs follow: a number over displacements, and what of it is reported.
 
 use crate::history::{Column, Kind, Owner};
-use crate::hysteresis::HysteresisRule;
+use crate::hysteresis::{HysteresisRule, Side};
 use crate::linear::Row;
 use crate::model::PlanFoundationSprings;
 use crate::stepping::floor_peaks::floor_of;
@@ -35,6 +35,16 @@ pub(crate) enum Statistic {
     Dashpots([f64; 3], [Row; 2]),
     /// Time for which a spring has no force at ends of steps.
     Lifted(usize),
+    /// 1 from the first end of a step at which any of some springs is deformed so far.
+    Passed(DeformationLimit),
+}
+
+/// A deformation of springs of a system, ≥ 0 to a side \[rad or m\].
+#[derive(Clone, Debug)]
+pub(crate) struct DeformationLimit {
+    pub(super) springs: Vec<usize>,
+    pub(super) side: Side,
+    pub(super) deformation: f64,
 }
 
 /// The drift ratio of a vertical line: the difference of two displacements over a height \[m\], and a rotation.
@@ -61,6 +71,7 @@ pub(super) fn watches(system: &System, rises: bool) -> Vec<Watch> {
         of_foundation(index, building, &mut all);
         of_foundation_in_plan(index, building, &mut all);
         of_sections(index, building, &mut all);
+        of_panels(building, &mut all);
         of_footings(building, &mut all);
         if rises {
             all.extend(building.vertical_points().map(|(floor, dof)| {
@@ -213,6 +224,21 @@ fn of_footings(building: &BuildingSystem, all: &mut Vec<Watch>) {
     }));
 }
 
+/// Bays of infill panels whose damage is judged: how much their diagonals change their length.
+fn of_panels(building: &BuildingSystem, all: &mut Vec<Watch>) {
+    let own = &building.discretization;
+    for diagonal in own.diagonals.iter().filter(|own| own.damage.is_some()) {
+        let Some(spring) = own.spring_of_diagonal(diagonal) else {
+            continue;
+        };
+        let row = own.stick_model.carried_row(&diagonal.between_joints);
+        let row = building.equations.row(&row).moved_up(building.offset);
+        let owner = Owner::Spring(building.spring_offset + spring);
+        let column = Column::along(owner, Kind::Stroke);
+        all.push(Watch::new(column, Statistic::Extremes(row)));
+    }
+}
+
 /// Ends of columns that are made of fibres.
 fn of_sections(index: usize, building: &BuildingSystem, all: &mut Vec<Watch>) {
     let Discretization {
@@ -232,6 +258,20 @@ fn of_sections(index: usize, building: &BuildingSystem, all: &mut Vec<Watch>) {
             let row = building.equations.row(&stick_model.carried_row(row));
             let row = row.moved_up(building.offset);
             all.push(Watch::new(column, Statistic::Extremes(row)));
+        }
+        let springs = building.discretization.springs_of_section(own);
+        for (limit, strain) in &own.limits {
+            let fibres = springs.clone().zip(own.fibres.iter());
+            let judged = fibres.filter(|(_, fibre)| fibre.material == limit.material());
+            let limit_of_springs = DeformationLimit {
+                springs: judged
+                    .map(|(spring, _)| building.spring_offset + spring)
+                    .collect(),
+                side: limit.side(),
+                deformation: strain * own.length,
+            };
+            let column = Column::along(owner, Kind::Passed(*limit));
+            all.push(Watch::new(column, Statistic::Passed(limit_of_springs)));
         }
     }
 }

@@ -1,8 +1,8 @@
 //! Watches over a step: one loop for each statistic.
 
 use super::Places;
-use super::watch::{Drift, Statistic, Watch};
-use crate::history::Peak;
+use super::watch::{DeformationLimit, Drift, Statistic, Watch};
+use crate::history::{Extreme, Peak};
 use crate::linear::Row;
 use crate::state::State;
 use crate::stepping::extremes::{greatest_in_step, take_extremes};
@@ -26,6 +26,7 @@ pub(super) struct Watches {
     dashpots: Vec<Followed<([f64; 3], [Row; 2])>>,
     /// Springs.
     lifted: Vec<Followed<usize>>,
+    passed: Vec<Followed<DeformationLimit>>,
 }
 
 /// A number with the place of its peak.
@@ -54,6 +55,7 @@ impl Watches {
                     follow(&mut all.dashpots, (matrix, rows), place);
                 }
                 Statistic::Lifted(spring) => follow(&mut all.lifted, spring, place),
+                Statistic::Passed(limit) => follow(&mut all.passed, limit, place),
             }
         }
         all
@@ -145,6 +147,15 @@ impl Watches {
                 peaks[own.place].greatest.value += step;
             }
         }
+        for own in &self.passed {
+            let peak = &mut peaks[own.place].greatest;
+            if peak.value == 0.0 && own.number.is_passed(state) {
+                *peak = Extreme {
+                    value: 1.0,
+                    at: state.time,
+                };
+            }
+        }
     }
 
     /// Ends a run: lengths were followed as squares.
@@ -155,6 +166,14 @@ impl Watches {
             let greatest = &mut peaks[place].greatest.value;
             *greatest = greatest.max(0.0).sqrt();
         }
+    }
+}
+
+impl DeformationLimit {
+    #[inline]
+    fn is_passed(&self, state: &State) -> bool {
+        let mut springs = self.springs.iter();
+        springs.any(|spring| state.springs[*spring].greatest(self.side) >= self.deformation)
     }
 }
 

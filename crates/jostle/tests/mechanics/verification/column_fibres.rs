@@ -1,12 +1,13 @@
 //! Ends of columns made of fibres: elastic ones as springs of a base, other solvers, mirrored and split models; and loads of floors.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use jostle::hysteresis::{Backbone, ConcreteFall, Corners, Hysteresis, HysteresisRule, Stage};
 use jostle::statics::{STANDARD_GRAVITY, compressions};
 use jostle::{
-    Base, Building, ColumnFibres, Damping, Fibre, Frame, FrameHinges, Gravity, Hinges, Model,
-    Outcome, Plan, Solver, System,
+    Base, Building, ColumnFibres, Damping, Fibre, FibreLimit, FibreMaterial, Frame, FrameHinges,
+    Gravity, Hinges, Model, Outcome, Plan, Run, Solver, Summary, System,
 };
 use jostle_testkit::compare::close;
 use jostle_testkit::motions::fading;
@@ -25,6 +26,7 @@ fn fibres(leans: bool) -> ColumnFibres {
     let layers = (0..12).map(|number| Fibre {
         at: [(f64::from(number) + 0.5) * layer - 0.5 * depth, 0.0],
         spring: concrete,
+        material: FibreMaterial::Cover,
     });
     let bars = |at: f64, area: f64| {
         let corners = Corners::bilinear(420e6 * area, 0.01);
@@ -33,6 +35,7 @@ fn fibres(leans: bool) -> ColumnFibres {
         Fibre {
             at: [at, 0.0],
             spring: spring.expect("sound"),
+            material: FibreMaterial::Bar,
         }
     };
     let more = if leans { 1.4e-3 } else { 1e-3 };
@@ -41,6 +44,7 @@ fn fibres(leans: bool) -> ColumnFibres {
         length,
         at_ends: [true, true],
         fibres: layers.chain(bars).collect(),
+        limits: BTreeMap::new(),
     }
 }
 
@@ -226,8 +230,10 @@ fn elastic_fibres_at_the_feet_are_springs_of_a_base() {
             .map(|at| Fibre {
                 at: [*at, 0.0],
                 spring,
+                material: FibreMaterial::Bar,
             })
             .collect(),
+        limits: BTreeMap::new(),
     };
     let mut on_fibres = model(frame(1, &[5.0]), &own);
     on_fibres.buildings[0].damping = Damping::Rayleigh {
@@ -288,4 +294,75 @@ fn loads_of_floors_weigh_and_do_not_sway() {
         mode.period()
     };
     assert_eq!(period(loaded).to_bits(), period(light).to_bits());
+}
+
+/// Limits are passed where histories of the fibres first are as far: those below the greatest strain, and none beyond it.
+#[test]
+fn strains_are_judged_when_fibres_reach_them() {
+    let own = fibres(true);
+    let judged = |limits: [f64; 3]| {
+        let names = [
+            FibreLimit::Spalling,
+            FibreLimit::Buckling,
+            FibreLimit::Fracture,
+        ];
+        let own = ColumnFibres {
+            limits: names.into_iter().zip(limits).collect(),
+            ..own.clone()
+        };
+        let model = model(two_storeys(), &own);
+        let (system, outcome) = shaken(&model, 1.0);
+        let motion = fading("along", 9.0, [1.8, 3.0], 150);
+        let mut summary = Summary::new(&Run {
+            model: &model,
+            motion: &motion,
+            system: &system,
+            plan: &steps(1e-3, 1),
+            outcome: &outcome,
+            without_contact: None,
+            wall: 0.0,
+        });
+        (summary.buildings.remove(0).sections, outcome)
+    };
+    let (sections, outcome) = judged([0.0015, 0.001, 0.9]);
+    let springs = outcome.spring_history.as_ref().expect("recorded");
+    let history = outcome.history.as_ref().expect("recorded");
+    let times = history.column(jostle::Column::TIME).expect("recorded");
+    let count = own.fibres.len();
+    let mut passed = 0;
+    for (number, section) in sections.iter().enumerate() {
+        for limit in &section.limits {
+            let (material, sign) = match limit.limit {
+                FibreLimit::Spalling => (FibreMaterial::Cover, -1.0),
+                _ => (FibreMaterial::Bar, 1.0),
+            };
+            let fibres = own.fibres.iter().enumerate();
+            let fibres = fibres.filter(|(_, fibre)| fibre.material == material);
+            let rows = fibres.map(|(fibre, _)| {
+                let own = springs.of_spring(number * count + fibre);
+                own.map(|[moved, _]| sign * f64::from(moved) / 0.35)
+                    .collect()
+            });
+            let rows: Vec<Vec<f64>> = rows.collect();
+            let strain = |row: usize| rows.iter().map(|own| own[row]).fold(0.0, f64::max);
+            let first = (0..times.len()).find(|row| strain(*row) >= limit.strain_limit);
+            let greatest = (0..times.len()).map(strain).fold(0.0, f64::max);
+            close(limit.strain, greatest, greatest, 2e-3, "greatest strain");
+            assert_eq!(limit.passed_s.is_some(), first.is_some());
+            if let Some((at, row)) = limit.passed_s.zip(first) {
+                assert!(at <= times[row] && at > times[row.saturating_sub(1)]);
+                passed += 1;
+            }
+        }
+    }
+    assert!(passed > 4, "{passed}");
+    // A thousandth below and above the greatest strains, nothing else moves.
+    let limits = &sections[0].limits;
+    for (share, reached) in [(0.999, true), (1.001, false)] {
+        let [cover, bars] = [0, 1].map(|own: usize| share * limits[own].strain);
+        let (again, same) = judged([cover, bars, bars]);
+        assert_eq!(same.state, outcome.state);
+        let all = again[0].limits.iter();
+        assert!(all.clone().all(|own| own.passed_s.is_some() == reached));
+    }
 }

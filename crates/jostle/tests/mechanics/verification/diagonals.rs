@@ -10,7 +10,8 @@ use jostle::structure::{SpringPlace, solve_once};
 use jostle::{
     Base, Building, Damping, Diagonal, DiagonalKind, DiagonalPlace, Foundation, Frame, FrameHinges,
     HalfSpace, Isolation, Isolator, MemberRequest, Model, Outcome, PanelAcross, PlanFrame,
-    RiccatiSweep, Rise, Section, Soil, SoilCoupling, Solver, Structure, System, Tier, Tiers,
+    RiccatiSweep, Rise, Section, Soil, SoilCoupling, Solver, Structure, StrutLine, System, Tier,
+    Tiers,
 };
 use jostle_testkit::compare::close;
 use jostle_testkit::models::{concrete, rectangle};
@@ -26,6 +27,7 @@ fn diagonal(kind: DiagonalKind, storey: usize, bay: usize, rise: Rise) -> Diagon
         storey,
         bay,
         rise,
+        strut: StrutLine::Central,
     };
     let stiffness = 4e7;
     let hysteresis = match kind {
@@ -40,7 +42,9 @@ fn diagonal(kind: DiagonalKind, storey: usize, bay: usize, rise: Rise) -> Diagon
         place,
         stiffness,
         hysteresis: Some(hysteresis),
+        offsets: [0.0; 2],
         across: None,
+        damage: None,
     }
 }
 

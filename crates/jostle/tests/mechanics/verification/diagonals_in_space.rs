@@ -10,7 +10,8 @@ use jostle::{
     Analysis, Axial, Base, Bearing, Building, Damping, Diagonal, DiagonalKind, DiagonalPlace,
     Frame, FrameHinges, Gravity, GridLine, GroundMotion, MemberRequest, Model, Outcome,
     PanelAcross, PlanAxis, PlanFrame, PlanPoint, RiccatiSweep, Rise, Section, Solver, SpaceFrame,
-    SpaceMember, SpacePlace, SpaceSection, Structure, Summary, System, Tier, TierStorey, Tiers,
+    SpaceMember, SpacePlace, SpaceSection, Structure, StrutLine, Summary, System, Tier, TierStorey,
+    Tiers,
 };
 use jostle_testkit::compare::close;
 use jostle_testkit::motions::fading;
@@ -63,12 +64,15 @@ impl Law {
             storey,
             bay,
             rise,
+            strut: StrutLine::Central,
         };
         Diagonal {
             place,
             stiffness: STIFFNESS,
             hysteresis: self.hysteresis(),
+            offsets: [0.0; 2],
             across: None,
+            damage: None,
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Ends of columns made of fibres in space: an integration of its own, the plane as a limit, turned buildings, other solvers.
 
+use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use jostle::history::{Kind, Owner, PeaksOf};
@@ -9,9 +10,9 @@ use jostle::hysteresis::{
 use jostle::statics::STANDARD_GRAVITY;
 use jostle::system::Direction;
 use jostle::{
-    Axial, Bearing, Building, Column, ColumnFibres, Damping, Fibre, Frame, FrameHinges, Gravity,
-    GroundMotion, Hinges, Model, Outcome, Plan, PlanPoint, Section, Solver, SpaceFrame,
-    SpaceMember, SpacePlace, SpaceSection, Structure, System, Tier, Tiers,
+    Axial, Bearing, Building, Column, ColumnFibres, Damping, Fibre, FibreMaterial, Frame,
+    FrameHinges, Gravity, GroundMotion, Hinges, Model, Outcome, Plan, PlanPoint, Section, Solver,
+    SpaceFrame, SpaceMember, SpacePlace, SpaceSection, Structure, System, Tier, Tiers,
 };
 use jostle_testkit::compare::close;
 use jostle_testkit::motions::fading;
@@ -38,6 +39,7 @@ fn fibres(counts: [usize; 2], leans: bool) -> ColumnFibres {
             fibres.push(Fibre {
                 at: [middle(0, x), middle(1, y)],
                 spring: concrete,
+                material: FibreMaterial::Cover,
             });
         }
     }
@@ -51,6 +53,7 @@ fn fibres(counts: [usize; 2], leans: bool) -> ColumnFibres {
             fibres.push(Fibre {
                 at: [x, y],
                 spring: spring.expect("sound"),
+                material: FibreMaterial::Bar,
             });
         }
     }
@@ -58,6 +61,7 @@ fn fibres(counts: [usize; 2], leans: bool) -> ColumnFibres {
         length: LENGTH,
         at_ends: [true, false],
         fibres: fibres.into(),
+        limits: BTreeMap::new(),
     }
 }
 
@@ -457,6 +461,7 @@ fn in_one_plane_it_is_a_plane_frame_of_layers() {
         let row = Fibre {
             at: [fibre.at[0], 0.0],
             spring: spring.expect("sound"),
+            material: fibre.material,
         };
         if rows
             .iter()
