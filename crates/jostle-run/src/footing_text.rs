@@ -12,7 +12,7 @@ pub(crate) fn write(text: &mut String, buildings: &[BuildingSummary]) -> std::fm
             continue;
         };
         let pressure = own.pressure_max_pa.map_or_else(String::new, |pressure| {
-            format!(", {}", PRESSURE.text(pressure, 0))
+            format!(", {} over its strip", PRESSURE.text(pressure, 0))
         });
         let settled = own.settlement_m.filter(|settled| *settled > 0.0);
         let settled = settled.map_or_else(String::new, |settled| {

@@ -642,9 +642,14 @@ fn write_gap(
     }
     write_friction(text, gap)?;
     if let Some(closing) = gap.closing_without_contact_m {
+        // Narrower gaps elsewhere can throw a building against this one.
+        let thrown = match gap.impact_count > 0 && closing < gap.width_m {
+            true => "; impacts at other gaps make it close by more",
+            false => "",
+        };
         writeln!(
             text,
-            "  Gap needed under this motion: {} (from a run without contact).",
+            "  Gap needed under this motion: {} (from a run without contact{thrown}).",
             LENGTH.text(closing, 1)
         )?;
     }

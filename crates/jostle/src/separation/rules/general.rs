@@ -31,12 +31,22 @@ impl Table<'_> {
             let widest =
                 self.widest(|place| double_difference(place.peaks[0], place.peaks[1], rho));
             let width = widest.map_or(0.0, |(width, _)| width);
+            let sides = self.neighbours.sides.iter().flatten();
+            let yielding = sides.filter(|side| side.yields);
+            let yielding: Vec<&str> = yielding.map(|side| &*side.name).collect();
+            let inputs = match yielding.is_empty() {
+                true => Vec::new(),
+                false => vec![format!(
+                    "periods before yielding, also of {}: equal ones make it small",
+                    yielding.join(" and ")
+                )],
+            };
             self.add(
                 "DDC",
                 None,
                 "double difference, Jeng, Kasai and Maison (1992)",
                 width,
-                Vec::new(),
+                inputs,
             );
         }
     }
