@@ -22,7 +22,7 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
     });
     let rows: Vec<_> = rows.collect();
     let columns = [
-        (message::drift(), "%"),
+        (message::drift(), ""),
         (message::damage_state(), ""),
         (message::greatest_compression(), format::FORCE.name()),
         (message::dissipated(), format::ENERGY.name()),
