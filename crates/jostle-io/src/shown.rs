@@ -230,6 +230,14 @@ impl Shown {
         format!("{:.*}", self.decimals(decimals), self.of(si))
     }
 
+    /// An SI number rounded up, as codes do with required widths: to a whole unit, or to hundredths outside of SI.
+    #[must_use]
+    pub fn rounded_up(self, si: f64) -> String {
+        let decimals = self.decimals(0);
+        let steps = if decimals == 0 { 1.0 } else { 100.0 };
+        format!("{:.decimals$}", (self.of(si) * steps - 1e-6).ceil() / steps)
+    }
+
     /// What the user stated: as it is in SI units, with enough decimals in others.
     #[must_use]
     pub fn stated(self, si: f64) -> String {

@@ -36,6 +36,7 @@ mod page;
 mod payload;
 mod plan_motion;
 mod pushover;
+mod rules;
 mod section;
 mod selection;
 mod shear_failures;
@@ -63,13 +64,14 @@ pub use document::render_document;
 pub use method::render_method;
 pub use motion_page::{MotionPage, render_motion};
 pub use pushover::{Demand, render_pushover};
+pub use rules::{required_width, rows_of_rules, rule_name};
 pub use section::render_sections;
 pub use selection::{CheckedStructure, SelectionPage, render_selection, selection_sections};
 pub use site_drawing::site_svg;
 pub use site_places::SitePlace;
 pub use study_page::{
     Axis, Bar, Bars, Cell, Chart, HeatMap, Level, Petal, Rose, Section, Series, Stroke, StudyPage,
-    SuitePage, SuiteRow, render_study, render_suite,
+    SuitePage, SuiteRow, render_study, render_suite, with_unit,
 };
 pub use verdict::verdict;
 pub use viewer::{Frame, Viewer, frame};

@@ -1,6 +1,6 @@
 //! Force over gap as a page and a table.
 
-use jostle_report::{Axis, Chart, Section, Series, Stroke, StudyPage, render_study};
+use jostle_report::{Axis, Chart, Section, Series, Stroke, StudyPage, render_study, rows_of_rules};
 
 use std::path::Path;
 
@@ -211,12 +211,13 @@ fn sections_of(pair: &[String; 2], gaps: &[&CriticalGap]) -> Vec<Section> {
             message::impacts(),
             message::greatest_force_kn(),
         ];
-        let rows = gap.rules.iter().map(|rule| {
+        let rows = rows_of_rules(&gap.rules, |rule| (&rule.rule, rule.gap_m));
+        let rows = rows.into_iter().map(|(name, rule)| {
             let worse = rule.worse_outcome();
             let ratio = rule.ratio_of_both_signs.or(rule.ratio);
             vec![
-                rule.rule.clone(),
-                mm(rule.gap_m),
+                name,
+                LENGTH.rounded_up(rule.gap_m),
                 ratio.map_or("–".into(), |ratio| format!("{ratio:.2}")),
                 worse.map_or("–".into(), |own| own.impact_count.to_string()),
                 worse.map_or("–".into(), |own| kn(own.peak_force_n)),

@@ -17,11 +17,12 @@ use jostle_io::shown::{
     ACCELERATION, ENERGY, FORCE, GROUND_ACCELERATION, IMPULSE, LENGTH, MASS, MOMENT, Shown,
     by_model,
 };
+use jostle_report::rows_of_rules;
 
 use crate::checks_text::write_findings;
 use crate::floor_spectra::low_pass;
 use crate::floor_spectra_text::write_floor_spectra;
-use crate::numbers::{counted, counted_grouped, grouped, kn, mm, rounded_up};
+use crate::numbers::{counted, counted_grouped, grouped, kn, mm};
 use crate::parts_text::write_parts;
 use crate::sections_text::write_sections;
 use crate::style::{BOLD, DIM, LOUD, styled};
@@ -806,18 +807,21 @@ fn write_codes(
     } else {
         ""
     };
-    let short = |rule: &&&Requirement| computed.is_some_and(|computed| rule.width < computed);
-    let short: Vec<&str> = rules.iter().filter(short).map(|rule| &*rule.name).collect();
+    let rows = rows_of_rules(&rules, |rule| (&rule.name, rule.width));
+    let short = rows
+        .iter()
+        .filter(|(_, rule)| computed.is_some_and(|computed| rule.width < computed));
+    let short: Vec<&str> = short.map(|(name, _)| &**name).collect();
     if let (Some(computed), false) = (computed, short.is_empty()) {
-        let codes = short.join(", ");
+        let codes = short.join("; ");
         let computed = LENGTH.text(computed, 1);
         writeln!(
             text,
             "  The minimum by {codes} is less than the {computed} computed."
         )?;
     }
-    let widths = rules.iter();
-    let widths = widths.map(|rule| format!("{} {}", rule.name, rounded_up(rule.width)));
+    let widths = rows.iter();
+    let widths = widths.map(|(name, rule)| format!("{name}: {}", LENGTH.rounded_up(rule.width)));
     let widths: Vec<String> = widths.collect();
     if !widths.is_empty() {
         write_list(
@@ -844,7 +848,7 @@ fn write_list(text: &mut String, heading: &str, items: &[String]) -> std::fmt::R
     for (index, item) in items.iter().enumerate() {
         let item = match index + 1 == items.len() {
             true => format!("{item}."),
-            false => format!("{item}, "),
+            false => format!("{item}; "),
         };
         if line.trim_end() != heading.trim_end()
             && line.chars().count() + item.chars().count() > WIDTH

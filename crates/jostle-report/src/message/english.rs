@@ -1175,6 +1175,8 @@ messages! {
     // jostle-study: results
     over_factor(name) = "Over {name}";
     one_line_for_each(name) = "One line for each {name}.";
+    lines_shown(name, shown, all) = "One line for each {name}; {shown} of {all} shown, with the first, the last and the one of the greatest value.";
+    combinations_shown(shown, all) = "{shown} of {all} combinations shown, from the first to the last.";
     each_curve = "each";
     demand_over_intensity_file = "demand over intensity, curve by curve, with fractiles";
     incremental_dynamic_analysis = "Incremental dynamic analysis";
@@ -1205,11 +1207,15 @@ messages! {
     greatest_force_of_cases(force) = "; the greatest force is {force} {kN}";
     design_word = "design";
     needed_gap = "needed";
+    gap_needed_at(name, levels, gaps, of_all) = "Gap needed at {name} {levels}: {gaps} {mm}{of_all}.";
+    the_greatest_of_combinations(count) = ", the greatest of {count} combinations";
+    more_than(width) = "> {width}";
     required_gap = "Gaps of rules";
     smallest_gap_and_rules = "Smallest gap of this study without impact, and rules";
-    needed_gap_and_rules = "Needed: the smallest gap of this study without an impact and without one at any wider gap. The true value lies between it and the next smaller gap of the study. ABS, SRSS and DDC come from the peak displacements at the highest floors that face each other, with the widest gap: the greatest of all records and draws, where none of them closes it.";
+    needed_gap_and_rules = "Needed: the smallest gap of this study without an impact and without one at any wider gap. The true value lies between it and the next smaller gap of the study. ABS, SRSS and DDC come from the peak displacements where the buildings can touch, with the widest gap: the greatest of all records and draws, where none of them closes it.";
     gb50011_of_intensity(intensity) = "GB 50011, intensity {intensity}";
-    gb50011_of_intensities(least, most) = "GB 50011, intensities 7 to 9: {least} to {most} {mm}";
+    gb50011_of_every_intensity = "GB 50011, every intensity";
+    gb50011_of_intensities(least, most) = "GB 50011, intensities 6 to 9: {least} to {most} {mm}";
     share_of_the_variance = "share of the variance";
     how_much_factors_matter = "how much every factor matters";
     sensitivity_of_results = "Sensitivity";
