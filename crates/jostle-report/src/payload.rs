@@ -79,7 +79,7 @@ struct Payload<'a> {
     bearing: Option<BearingData>,
 }
 
-/// Building, kind (`c`, `b`, `s`), level, line, end, when it cracked and yielded \[s\], and its greatest ductility \[–\].
+/// Building, kind (`c`, `b`, `s`; `d` with the lines of both ends), level, line, end, when it cracked and yielded \[s\], and its greatest ductility \[–\].
 type HingeData = (
     usize,
     char,

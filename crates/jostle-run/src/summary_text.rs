@@ -3,6 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
+use jostle::Building;
 use jostle::linear::sort_by;
 use jostle::results::contact_sensitivity::ContactSensitivity;
 use jostle::results::gradient::Gradient;
@@ -17,7 +18,7 @@ use jostle_io::shown::{
     ACCELERATION, ENERGY, FORCE, GROUND_ACCELERATION, IMPULSE, LENGTH, MASS, MOMENT, Shown,
     by_model,
 };
-use jostle_report::rows_of_rules;
+use jostle_report::{damage, rows_of_rules};
 
 use crate::checks_text::write_findings;
 use crate::floor_spectra::low_pass;
@@ -76,7 +77,7 @@ fn write_all(
     write_in_plan(text, &summary.buildings)?;
     write_isolation(text, summary)?;
     write_foundations(text, summary)?;
-    write_hinges(text, &summary.buildings)?;
+    write_damage(text, &input.model.buildings, &summary.buildings)?;
     write_shear_failures(text, &summary.buildings)?;
     write_parts(text, &summary.buildings)?;
     write_sections(text, &summary.buildings)?;
@@ -393,25 +394,17 @@ fn write_isolation(text: &mut String, summary: &Summary) -> std::fmt::Result {
     Ok(())
 }
 
-fn write_hinges(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::Result {
+fn write_damage(
+    text: &mut String,
+    models: &[Building],
+    buildings: &[BuildingSummary],
+) -> std::fmt::Result {
     let mut between = "\n";
-    for building in buildings
-        .iter()
-        .filter(|building| building.hinges.total > 0)
-    {
-        let hinges = &building.hinges;
-        let first = hinges.first_yield_s.map_or_else(String::new, |first| {
-            format!(
-                ", first at {first:.3} s, with a ductility up to {:.1}",
-                hinges.ductility
-            )
-        });
-        writeln!(
-            text,
-            "{between}{}: {} of {} hinges yielded{first}; {} cracked",
-            building.name, hinges.yielded, hinges.total, hinges.cracked
-        )?;
-        between = "";
+    for (index, building) in buildings.iter().enumerate() {
+        for one in damage(models.get(index), building) {
+            writeln!(text, "{between}{}: {}", building.name, one.sentence())?;
+            between = "";
+        }
     }
     Ok(())
 }
@@ -943,10 +936,10 @@ mod tests {
             building("C", uncracked),
         ];
         let mut text = String::new();
-        let _ = write_hinges(&mut text, &buildings);
+        let _ = write_damage(&mut text, &[], &buildings);
         assert_eq!(
             text,
-            "\nA: 7 of 50 hinges yielded, first at 2.134 s, with a ductility up to 2.4; 40 cracked\n\
+            "\nA: 7 of 50 hinges yielded, first at 2.134 s; 40 cracked; ductility 2.4\n\
              C: 0 of 4 hinges yielded; 0 cracked\n"
         );
     }

@@ -51,6 +51,14 @@ messages! {
     classes_interval = "90 % interval [g]";
     classes_note = "note";
 
+    // damage
+    hinges_yielded_word = "hinges yielded";
+    braces_buckled = "braces buckled";
+    braces_yielded = "braces yielded";
+    struts_cracked = "infill struts cracked";
+    crushed_of_struts(count) = "{count} crushed";
+    damage_first_at(instant) = ", first at {instant} s";
+
     // collisions
     time_ms = "time [ms]";
     indentation_mm = "indentation [{mm}]";
@@ -156,8 +164,8 @@ messages! {
     damping_of_that_mode = "damping of that mode";
     on_rigid_ground(damping_ratio, damping_ratio_fixed) = "{damping_ratio} %, on rigid ground {damping_ratio_fixed} %";
     springs_and_dashpots = "springs and dashpots of the soil";
-    hinges = "hinges";
-    cracked_yielded(cracked, yielded) = "{cracked} cracked, {yielded} yielded";
+    hinges_word = "hinges";
+    damage_word = "damage";
     lateral_mode = "lateral mode";
     period_s = "period [s]";
     spans = "spans";
@@ -348,9 +356,7 @@ messages! {
     cracking_and_yielding_title = "Cracking and yielding";
     hinges_with_the_largest_ductility = "Hinges with the largest ductility or dissipated energy. Dashed: the curve of first loading. The dot is the instant of the cursor; the strong line leads to it from the left end of the charts above.";
     residual_displacement_of_the_roof(residual) = "Residual displacement of the roof: {residual}.";
-    yields_at_of_places_first(name, yielded, total, instant, cracked, ductility, dissipated, residual) = "{name}: {yielded} of {total} hinges yielded, first at {instant}; {cracked} cracked. Greatest ductility {ductility}; {dissipated} dissipated. {residual}";
-    neither_cracks_nor_yields(name, total) = "{name}: none of {total} hinges cracked or yielded.";
-    cracks_at_of_places(name, cracked, total, residual) = "{name}: {cracked} of {total} hinges cracked, none yielded. {residual}";
+    damage_of_building(name, damage, dissipated, residual) = "{name}: {damage}. {dissipated} dissipated. {residual}";
     cracked = "cracked";
     yielded = "yielded";
     ductility = "ductility";
@@ -515,12 +521,12 @@ messages! {
     worst_struck_column = "Worst struck column";
     times_its_capacity(ratio) = "{ratio} × capacity";
     struck_up_to(times, force) = "struck {times} ×, up to {force}";
-    hinges_yielded = "Hinges yielded";
     peak_ground_acceleration = "Peak ground acceleration";
     under_the_motion(name, peak, percent, imbalance) = "Under {name}, peak {peak} ({percent} % g). Energy imbalance {imbalance}.";
     roof_of(name) = "Roof of {name}";
-    hinges_yielded_of(name) = "Hinges yielded, {name}";
+    damage_of(what, name) = "{what}, {name}";
     one_of_all(one, all) = "{one} of {all}";
+    count_cracked(cracked) = "{cracked} cracked";
     cracked_ductility(cracked, ductility) = "{cracked} cracked; ductility {ductility}";
     accuracy = "Accuracy:";
     assumptions_and_limits = "Assumptions and limits of this result";
