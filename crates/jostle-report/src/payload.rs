@@ -524,7 +524,7 @@ fn gaps(page: &Page, walls: &[SceneWall]) -> Vec<GapData> {
                     index += 1;
                     ContactData {
                         index: index - 1,
-                        label: place(contact),
+                        label: place(summary, contact),
                         floors: contact.floors,
                         height: contact.height_m,
                         width: contact.width_m,

@@ -228,16 +228,19 @@ fn impacts(summary: &Summary) -> Vec<Tile> {
     if count == 0 {
         return vec![tile(message::impacts_title(), message::none(), "")];
     }
-    let contacts = summary.gaps.iter().flat_map(|gap| &gap.contacts);
-    let hardest = contacts.max_by(|a, b| a.peak_force_n.total_cmp(&b.peak_force_n));
-    let force = hardest.map_or(0.0, |contact| contact.peak_force_n);
+    let contacts = summary.gaps.iter().flat_map(|gap| {
+        let own = gap.contacts.iter();
+        own.map(move |contact| (gap, contact))
+    });
+    let hardest = contacts.max_by(|a, b| a.1.peak_force_n.total_cmp(&b.1.peak_force_n));
+    let force = hardest.map_or(0.0, |(_, contact)| contact.peak_force_n);
     let first = summary.gaps.iter().filter_map(|gap| gap.first_impact_s);
     let first = first.min_by(f64::total_cmp);
     let mut tiles = vec![
         tile(
             message::peak_force_title(),
             format::force(force),
-            hardest.map_or_else(String::new, place),
+            hardest.map_or_else(String::new, |(gap, contact)| place(gap, contact)),
         ),
         tile(
             message::impacts_title(),

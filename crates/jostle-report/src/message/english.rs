@@ -915,6 +915,8 @@ messages! {
     the_smallest_distance_between(head, left, right, distance) = "{head}the smallest distance between {left} and {right} is {distance}.";
     no_contact = "No contact.";
     mats = "mats";
+    wall_member(of, line, storey) = "{of}.wall, line {line}, storey {storey}";
+    floor_against_column(floor, of, other, height) = "floor {floor} of {of} against a column of {other}, {height}";
     floors_and(left, right) = "floors {left} and {right}";
     height_m(height) = "height {height}\u{a0}{m}";
     once = "once";
