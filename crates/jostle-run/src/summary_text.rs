@@ -248,22 +248,22 @@ fn write_changes(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::
     const HEADING: &str = "effect of pounding (with ÷ without)";
     let width = buildings
         .iter()
-        .map(|building| building.name.chars().count() + "  worst".len())
+        .map(|building| building.name.chars().count() + "  least affected".len())
         .fold(HEADING.chars().count(), usize::max);
     let mut rows = String::new();
     for building in buildings {
         let [Some(drift), Some(shear), Some(acceleration)] = changes(building) else {
             continue;
         };
-        let name = width - "  worst".len();
-        for (side, label) in [(0, "worst"), (1, "best")] {
+        let name = width - "  least affected".len();
+        for (side, label) in [(0, "most affected"), (1, "least affected")] {
             let cell = |extremes: &Extremes, place: &str| {
                 let (ratio, at) = extremes[side];
                 format!("{ratio:.2} ({place} {at})")
             };
             writeln!(
                 rows,
-                "{:name$}  {label:5}  {:>17}  {:>17}  {:>17}",
+                "{:name$}  {label:14}  {:>17}  {:>17}  {:>17}",
                 if side == 0 { &*building.name } else { "" },
                 cell(&drift, "storey"),
                 cell(&shear, "storey"),

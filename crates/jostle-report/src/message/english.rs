@@ -928,14 +928,15 @@ messages! {
     one_row_per_width = "one row per width";
     the_greatest_force_kn_comes(peak_force, width) = " The greatest force, {peak_force} {kN}, comes at a gap of {width} {mm}.";
     under_with_cm_s_do(motion, pga, pair, gap, strongest) = "Under {motion} with {pga} {cm/s²}, {pair} do not touch from {gap} {mm} on.{strongest}";
+    one_record_is_no_design_value = "One record gives no design value: codes require 3, 7 or 11 records.";
     gaps_of_rules = "gaps of rules";
     did_not_meet_the_tolerance(unmet) = " {unmet} did not meet the tolerance (column met).";
     point = "point";
-    greatest_contact_force_and_number(warning) = "Greatest contact force and number of impacts over the width of the gap, all other gaps out of reach. Dots: the gaps of rules that are narrower than needed. Where neighbouring points jump, a slightly different gap leads to other impacts.{warning}";
+    greatest_contact_force_and_number(warning) = "Greatest contact force and number of impacts over the width of the gap, all other gaps out of reach. Dots: rules that require less than needed. Where neighbouring points jump, a slightly different gap leads to other impacts.{warning}";
     greatest_contact_force = "greatest contact force";
-    gap_mm = "gap {mm}";
+    gap_mm = "gap [{mm}]";
     smallest = "÷ smallest";
-    greatest_force_kn = "greatest force {kN}";
+    greatest_force_kn = "greatest force [{kN}]";
     rules_under(motion) = "Rules under {motion}";
     smallest_gap_without_pounding_mm(gap) = "Smallest gap without pounding: {gap} {mm}. Sources: jostle gap --json.";
 
@@ -1143,23 +1144,26 @@ messages! {
     minimised = "minimised";
     trials_word = "trials";
     seed_word = "seed";
-    kept_word = "kept";
+    kept_word = "condition";
     records_fact = "records";
     best_trial_and_trade_offs = "the best trial and the trade-offs";
     one_row_per_trial = "one row per trial";
     finished_trials_to_go_on_from = "finished trials, from which the same command goes on";
-    misses_a_condition = "misses a condition";
-    keeps_all = "keeps all";
+    misses_a_condition = "violates a condition";
+    keeps_all = "meets all conditions";
     least_of_front = "least";
     trade_off_against(objective, left) = "Trade-off: {objective} against {left}";
-    line_joins_unbeaten_trials(condition) = "The line joins trials that no other beats in both. Kept: {condition}.";
+    line_joins_unbeaten_trials(condition) = "The line joins trials that no other beats in both. Condition: {condition}.";
     course_of_the_search = "Course of the search";
-    least_objective_so_far = "The least objective among the trials so far that keep all conditions.";
+    least_objective_so_far = "The least objective among the trials so far that meet all conditions.";
     trial_axis = "trial";
     objective_over_varied_keys = "Objective over the varied keys";
     best_trials = "The best trials";
 
     // jostle-study: suite
+    suite_of_no_gap(records) = "{records} records, no gap.";
+    suite_pounds(pounding, records) = "The buildings pound under {pounding} of {records} records.";
+    greatest_of(name) = "{name}, greatest";
     peak_displacement_over_height = "Peak displacement";
     peak_storey_drift_over_height = "Peak storey drift";
     peak_drift_of_corners_over_height = "Peak storey drift of corners";

@@ -151,7 +151,7 @@ pub(super) fn figure(chart: &Chart) -> Markup {
                 @if !chart.title.is_empty() { span.chart-title { (chart.title) } }
                 span.legend {
                     @for series in named.iter().take(LEGEND) {
-                        span.key style=(colour(series.colour)) { span.swatch.dashed[series.stroke == Stroke::Dashed] {} (series.name) }
+                        span.key style=(colour(series.colour)) { span.swatch.dashed[series.stroke == Stroke::Dashed].dots[series.stroke == Stroke::Dots] {} (series.name) }
                     }
                     @if named.len() > LEGEND { span.key { (message::and_more(named.len() - LEGEND)) } }
                 }
@@ -187,6 +187,10 @@ pub(super) fn figure(chart: &Chart) -> Markup {
                             }
                         }
                     }
+                }
+                @for series in chart.series.iter().filter(|own| own.stroke == Stroke::Dots && own.points.len() == 1) {
+                    @let [x, y] = series.points[0];
+                    text.study-level-name x=(format!("{:.1}", px(x) + 6.0)) y=(format!("{:.1}", py(y) - 4.0)) { (series.name) }
                 }
                 // Above the lines, which would cross them.
                 @for level in &chart.levels {
