@@ -10,6 +10,12 @@ const results = [
 const metresPer = { mm: 1e-3, cm: 1e-2, m: 1, in: 0.0254, ft: 0.3048, "": 1 };
 /** The width of a gap in the unit of the page. */
 const gapWidth = (metres) => fixed(metres * unitOf("mm").factor, Math.max(1, unitOf("mm").least));
+/** A width that a rule requires, rounded up: whole millimetres, or hundredths of an inch. */
+function requiredWidth(metres) {
+  const { factor, least } = unitOf("mm");
+  const steps = least > 0 ? 100 : 1;
+  return fixed(Math.ceil(metres * factor * steps - 1e-6) / steps, least > 0 ? 2 : 0);
+}
 const curvePoints = 120;
 const pointsPerRecord = 60;
 
@@ -306,8 +312,9 @@ function drawMarks(image, px) {
     const place = places.findLastIndex((one) => one <= mark.x);
     const letter = String.fromCharCode(97 + (place % 26));
     const line = svg("g", { class: mark.needed ? "needed" : "" }, group);
-    svg("title", {}, line).textContent = say("mark_of_a_rule", { name: mark.name, width: gapWidth(mark.width), source: mark.source });
-    html("li", mark.needed ? "needed" : "", `${letter} ${mark.name}: ${gapWidth(mark.width)} ${unitOf("mm").name}`, list);
+    const shown = mark.needed ? gapWidth(mark.width) : requiredWidth(mark.width);
+    svg("title", {}, line).textContent = say("mark_of_a_rule", { name: mark.name, width: shown, source: mark.source });
+    html("li", mark.needed ? "needed" : "", `${letter} ${mark.name}: ${shown} ${unitOf("mm").name}`, list);
     svg("line", { x1: x, x2: x, y1: picture.top - 4, y2: picture.height - picture.bottom }, line);
     if (ends.some((end) => end.letter === letter)) continue;
     let row = 0;

@@ -150,7 +150,12 @@ impl Results<'_> {
         };
         self.said.push(message::gap_needed_at(
             &axis.name,
-            join(&|at| intensity(levels[at])),
+            format!(
+                "{} {}",
+                join(&|at| jostle_report::with_unit(size * levels[at], "")),
+                axis.unit
+            )
+            .trim_end(),
             join(&|at| width(most[at])),
             match groups.len() {
                 1 => String::new(),
@@ -269,9 +274,9 @@ impl Rules {
 fn levels_of(rules: &[Requirement], size: f64, reach: f64) -> Vec<Level> {
     if let [first, .., last] = rules
         && last.width > first.width
-        && rules
-            .windows(2)
-            .any(|pair| size * (pair[1].width - pair[0].width) < LEAST_APART * reach)
+        && rules.windows(2).any(|pair| {
+            size * (pair[1].width - pair[0].width) < LEAST_APART * reach.max(size * last.width)
+        })
     {
         return vec![Level {
             name: message::gb50011_of_intensities(
