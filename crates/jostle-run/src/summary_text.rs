@@ -900,8 +900,8 @@ mod tests {
             text,
             "\n\
              effect of pounding (with ÷ without)       storey drift       storey shear       acceleration\n\
-             A                             worst    1.50 (storey 2)    1.20 (storey 2)     4.50 (floor 2)\n\
-             \x20                             best     0.50 (storey 1)    0.80 (storey 1)     0.50 (floor 1)\n\n"
+             A                    most affected     1.50 (storey 2)    1.20 (storey 2)     4.50 (floor 2)\n\
+             \x20                    least affected    0.50 (storey 1)    0.80 (storey 1)     0.50 (floor 1)\n\n"
         );
         let mut text = String::new();
         let _ = write_changes(&mut text, &[]);

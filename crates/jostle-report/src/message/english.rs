@@ -929,12 +929,11 @@ messages! {
     the_greatest_force_kn_comes(peak_force, width) = " The greatest force, {peak_force} {kN}, comes at a gap of {width} {mm}.";
     under_with_cm_s_do(motion, pga, pair, gap, strongest) = "Under {motion} with {pga} {cm/s²}, {pair} do not touch from {gap} {mm} on.{strongest}";
     one_record_is_no_design_value = "One record gives no design value: codes require 3, 7 or 11 records.";
-    gaps_of_rules = "gaps of rules";
     did_not_meet_the_tolerance(unmet) = " {unmet} did not meet the tolerance (column met).";
     point = "point";
     greatest_contact_force_and_number(warning) = "Greatest contact force and number of impacts over the width of the gap, all other gaps out of reach. Dots: rules that require less than needed. Where neighbouring points jump, a slightly different gap leads to other impacts.{warning}";
     greatest_contact_force = "greatest contact force";
-    gap_mm = "gap [{mm}]";
+    gap_mm = "required gap [{mm}]";
     smallest = "÷ smallest";
     greatest_force_kn = "greatest force [{kN}]";
     rules_under(motion) = "Rules under {motion}";

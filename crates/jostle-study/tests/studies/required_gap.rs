@@ -5,7 +5,7 @@ use std::path::Path;
 use jostle_io::shown::LENGTH;
 use jostle_io::{Format, StudyFile};
 use jostle_run::{GapSettings, critical_gaps};
-use jostle_study::{RunSettings, Study, run};
+use jostle_study::{RunSettings, Study, finish, run};
 use jostle_testkit::files::sound;
 
 /// A frame whose upper storeys stand 4 m behind its podium: its roof is the highest floor, but cannot touch.
@@ -70,6 +70,7 @@ fn rules_of_a_study_are_those_of_the_gap() {
         &|_| {},
     );
     assert!(done.unwrap_or_else(|error| panic!("{error}")).complete);
+    finish(&study, &out, false).unwrap_or_else(|error| panic!("{error}"));
     let page = std::fs::read_to_string(out.join("report.html")).expect("the page");
 
     let input = sound(SET_BACK);
