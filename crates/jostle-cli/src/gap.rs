@@ -13,7 +13,8 @@ use crate::failure::Failure;
 use crate::progress::Bar;
 use crate::stop::stop_on_interrupt;
 use crate::terminal;
-use jostle_run::{RuleGap, counted, earlier_gap_curves, rounded_up, write_gap_curves};
+use jostle_report::{required_width, rows_of_rules};
+use jostle_run::{RuleGap, counted, earlier_gap_curves, write_gap_curves};
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct GapArgs {
@@ -274,11 +275,11 @@ pub(crate) fn describe(title: &str, found: &[CriticalGap]) -> String {
             None => "no impact even if they touch at rest".to_owned(),
         };
         let reversed = gap.reversed_gap_m.map_or_else(String::new, |reversed| {
-            format!(", {} with the motion reversed", whole_millimetres(reversed))
+            format!(", {} with the motion reversed", required_width(reversed))
         });
         text += &format!(
             "  smallest gap without pounding {}{reversed}  ({bracket}; {}, closest at {})\n",
-            jostle_run::styled(jostle_run::BOLD, &whole_millimetres(gap.gap_m)),
+            jostle_run::styled(jostle_run::BOLD, &required_width(gap.gap_m)),
             counted(gap.runs, "run"),
             HEIGHT.text(gap.height_m, 2)
         );
@@ -291,18 +292,16 @@ pub(crate) fn describe(title: &str, found: &[CriticalGap]) -> String {
                 100.0 * gap.damping[1]
             );
         }
-        text +=
-            "  rule             gap    ÷ smallest   outcome with this gap, worse of both signs\n";
-        for rule in &gap.rules {
+        text += "  rule                       gap    ÷ smallest   outcome with this gap, worse of both signs\n";
+        for (name, rule) in rows_of_rules(&gap.rules, |rule| (&rule.rule, rule.gap_m)) {
             let ratio = rule
                 .ratio_of_both_signs
                 .or(rule.ratio)
                 .map_or("–".to_owned(), |ratio| format!("{ratio:.2}"));
             let led = outcome(rule);
             text += &format!(
-                "  {:<14} {:>9}   {ratio:>7}   {led}\n",
-                rule.rule,
-                whole_millimetres(rule.gap_m)
+                "  {name:<24} {:>9}   {ratio:>7}   {led}\n",
+                required_width(rule.gap_m)
             );
         }
         text += &inputs(gap);
@@ -315,8 +314,8 @@ pub(crate) fn describe(title: &str, found: &[CriticalGap]) -> String {
                 "\n{} over {}, the greater of both signs: greatest {}, mean {}, standard deviation {}\n",
                 pair.join(" – "),
                 counted(records, "record"),
-                whole_millimetres(most),
-                whole_millimetres(mean),
+                required_width(most),
+                required_width(mean),
                 millimetres(deviation)
             );
         }
@@ -357,11 +356,6 @@ fn outcome(rule: &RuleGap) -> String {
 /// Records below which no code takes a result \[–\].
 const FEW_RECORDS: usize = 3;
 
-/// A width to build: whole millimetres or hundredths of an inch, rounded up.
-fn whole_millimetres(metres: f64) -> String {
-    format!("{} {}", rounded_up(metres), LENGTH.name())
-}
-
 /// Inputs of codes, distances from property lines, and rules without a value.
 fn inputs(gap: &CriticalGap) -> String {
     let mut text = String::new();
@@ -369,7 +363,9 @@ fn inputs(gap: &CriticalGap) -> String {
     for rule in &gap.rules {
         let stated = (rule.code.unwrap_or_default(), &rule.inputs[..]);
         if !rule.inputs.is_empty() && shown != Some(stated) {
-            text += &format!("  {}: {}\n", rule.rule, rule.inputs.join("; "));
+            // All intensities of GB 50011 share their inputs.
+            let name = rule.rule.split(", ").next().unwrap_or_default();
+            text += &format!("  {name}: {}\n", rule.inputs.join("; "));
             shown = Some(stated);
         }
         if let Some([left, right]) = rule.setbacks_m {

@@ -7,6 +7,8 @@
 use std::cell::Cell;
 use std::sync::OnceLock;
 
+use jostle::statics::STANDARD_GRAVITY;
+
 use crate::unit::{FOOT, INCH, POUND, POUND_FORCE};
 
 /// A system of units for what is shown.
@@ -110,9 +112,9 @@ pub const SPEED: Shown = shown(("m/s", 1.0), ("in/s", INCH), 1);
 /// A spectral speed \[m/s\].
 pub const SMALL_SPEED: Shown = shown(("mm/s", 1e-3), ("in/s", INCH), 2);
 /// An acceleration \[m/s²\].
-pub const ACCELERATION: Shown = shown(("m/s²", 1.0), ("in/s²", INCH), 1);
+pub const ACCELERATION: Shown = shown(("m/s²", 1.0), ("g", STANDARD_GRAVITY), 3);
 /// A peak of the ground \[m/s²\].
-pub const GROUND_ACCELERATION: Shown = shown(("cm/s²", 1e-2), ("in/s²", INCH), 1);
+pub const GROUND_ACCELERATION: Shown = shown(("cm/s²", 1e-2), ("g", STANDARD_GRAVITY), 3);
 /// The speed of the ground \[m/s\].
 pub const GROUND_SPEED: Shown = shown(("cm/s", 1e-2), ("in/s", INCH), 1);
 /// The displacement of the ground \[m\].
@@ -230,6 +232,14 @@ impl Shown {
         format!("{:.*}", self.decimals(decimals), self.of(si))
     }
 
+    /// An SI number rounded up, as codes do with required widths: to a whole unit, or to hundredths outside of SI.
+    #[must_use]
+    pub fn rounded_up(self, si: f64) -> String {
+        let decimals = self.decimals(0);
+        let steps = if decimals == 0 { 1.0 } else { 100.0 };
+        format!("{:.decimals$}", (self.of(si) * steps - 1e-6).ceil() / steps)
+    }
+
     /// What the user stated: as it is in SI units, with enough decimals in others.
     #[must_use]
     pub fn stated(self, si: f64) -> String {
@@ -332,7 +342,7 @@ mod tests {
                 // A mass is shown as its weight.
                 let weight = name != own.si.0 && matches!(own.si.0, "t" | "kg/m");
                 let expected = if weight {
-                    read.factor / jostle::statics::STANDARD_GRAVITY
+                    read.factor / STANDARD_GRAVITY
                 } else {
                     read.factor
                 };
@@ -380,7 +390,7 @@ mod tests {
                 (PRESSURE, 47_880.258_98, "1.00 ksf"),
                 (MASS, 1e5, "220 kip"),
                 (SPEED, 1.0, "39.4 in/s"),
-                (GROUND_ACCELERATION, 9.806_65, "386.1 in/s²"),
+                (GROUND_ACCELERATION, 9.806_65, "1.000 g"),
             ] {
                 assert_eq!(own.text(si, 0), text);
             }

@@ -10,6 +10,12 @@ const results = [
 const metresPer = { mm: 1e-3, cm: 1e-2, m: 1, in: 0.0254, ft: 0.3048, "": 1 };
 /** The width of a gap in the unit of the page. */
 const gapWidth = (metres) => fixed(metres * unitOf("mm").factor, Math.max(1, unitOf("mm").least));
+/** A width that a rule requires, rounded up: whole millimetres, or hundredths of an inch. */
+function requiredWidth(metres) {
+  const { factor, least } = unitOf("mm");
+  const steps = least > 0 ? 100 : 1;
+  return fixed(Math.ceil(metres * factor * steps - 1e-6) / steps, least > 0 ? 2 : 0);
+}
 const curvePoints = 120;
 const pointsPerRecord = 60;
 
@@ -264,7 +270,7 @@ function drawCurve() {
     lines.forEach((line, i) => svg("path", { class: "line thin", style: `--c:${colours(i)}`, d: path(line, valueOf) }, drawing));
     if (stats.length > 1) svg("path", { class: "line mean", d: path(stats.map((s) => ({ x: s.x, y: [s.mean] })), (p) => p.y[0]) }, drawing);
   } else if (lines.length) svg("path", { class: "line curve-line", style: "--c:var(--c0)", d: path(lines[0], valueOf) }, drawing);
-  drawMarks(image, px, width);
+  drawMarks(image, px);
   const focused = document.activeElement === picture.handle;
   drawCursor(image);
   host.replaceChildren(image);
@@ -287,8 +293,10 @@ function knownMarks() {
   return width > 0 ? [{ name: say("no_pounding"), source: say("greatest_closing_without_contact"), width, needed: true }] : [];
 }
 
-/** The smallest gap without pounding, and rules, as marks with their names above each other. */
-function drawMarks(image, px, width) {
+/** The smallest gap without pounding, and rules, as lines with letters; their names stand below the curve. */
+function drawMarks(image, px) {
+  const list = byId("curve-marks");
+  list.replaceChildren();
   const perUnit = metresPer[curve.unit];
   if (!isWidth() || !perUnit) return;
   const seen = knownMarks()
@@ -297,19 +305,22 @@ function drawMarks(image, px, width) {
     .sort((a, b) => a.x - b.x);
   const ends = [];
   const group = svg("g", { class: "code-marks" }, image);
+  // Marks at one place share a letter.
+  const places = seen.filter((mark, i) => i === 0 || px(mark.x) - px(seen[i - 1].x) > 0.5).map(({ x }) => x);
   for (const mark of seen) {
     const x = px(mark.x);
+    const place = places.findLastIndex((one) => one <= mark.x);
+    const letter = String.fromCharCode(97 + (place % 26));
     const line = svg("g", { class: mark.needed ? "needed" : "" }, group);
-    svg("title", {}, line).textContent = say("mark_of_a_rule", { name: mark.name, width: gapWidth(mark.width), source: mark.source });
-    const length = 6.1 * mark.name.length;
-    const anchor = x + length > width - picture.right ? "end" : "start";
-    const start = anchor === "end" ? x - length : x;
-    let row = ends.findIndex((end) => end < start - 6);
-    if (row < 0) row = ends.length;
-    ends[row] = start + length;
-    const y = picture.top + 4 + 13 * row;
-    svg("line", { x1: x, x2: x, y1: y - 8, y2: picture.height - picture.bottom }, line);
-    svg("text", { x: anchor === "end" ? x - 3 : x + 3, y, "text-anchor": anchor }, line).textContent = mark.name;
+    const shown = mark.needed ? gapWidth(mark.width) : requiredWidth(mark.width);
+    svg("title", {}, line).textContent = say("mark_of_a_rule", { name: mark.name, width: shown, source: mark.source });
+    html("li", mark.needed ? "needed" : "", `${letter} ${mark.name}: ${shown} ${unitOf("mm").name}`, list);
+    svg("line", { x1: x, x2: x, y1: picture.top - 4, y2: picture.height - picture.bottom }, line);
+    if (ends.some((end) => end.letter === letter)) continue;
+    let row = 0;
+    while (ends.some((end) => end.row === row && x - end.x < 12)) row += 1;
+    ends.push({ letter, row, x });
+    svg("text", { x: x + 2, y: picture.top + 8 + 12 * row }, line).textContent = letter;
   }
 }
 

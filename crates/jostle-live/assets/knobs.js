@@ -9,7 +9,7 @@ const usual = [
 ];
 /** Those of buildings in space, stated or not. */
 const usualInSpace = /^(motion\.angle|gap\[\d+\]\.friction)$/;
-const isInSpace = () => knobs.some(({ path, value }) => /^building\[\d+\]\.plan/.test(path) && value !== null);
+const isInSpace = (all = knobs) => all.some(({ path, value }) => /^building\[\d+\]\.plan/.test(path) && value !== null);
 
 /** With the number that an absent key of space has, so that it has a slider as well. */
 function withStandard(knob) {
@@ -37,6 +37,9 @@ function sliderRange(knob) {
   return { low: x / 4, high: 3 * x };
 }
 
+/** Lists, which do not fit into one line. */
+const isLong = ({ value }) => value?.startsWith("[") && value.length > 16;
+
 /** A number with four digits, as short as it can be written. */
 const written = (x) => String(Number(x.toPrecision(4)));
 
@@ -53,7 +56,7 @@ const rows = new Map();
 /** One knob: a label, a slider where there is a number, a field, and its fault. */
 class KnobRow {
   constructor(knob) {
-    this.row = html("div", `knob${knob.kind === "text" ? " wide" : ""}`);
+    this.row = html("div", `knob${isLong(knob) ? " list" : knob.kind === "text" ? " wide" : ""}`);
     const id = `knob-${KnobRow.count++}`;
     const label = html("label", "knob-name", nameOfKnob(knob), this.row);
     label.htmlFor = id;
@@ -87,13 +90,14 @@ class KnobRow {
       this.standard = words.includes(standard) ? standard : "";
       field.addEventListener("change", () => change(this.knob.path, field.value));
     } else {
-      field = html("input");
-      field.type = "text";
+      field = html(isLong(knob) ? "textarea" : "input");
+      if (isLong(knob)) field.rows = Math.min(Math.ceil(knob.value.length / 34), 6);
+      else field.type = "text";
       field.spellcheck = false;
       field.autocomplete = "off";
       field.placeholder = (knob.default ?? "").replaceAll('"', "");
       if (knob.path === "motion.record") field.setAttribute("list", "record-names");
-      field.addEventListener("change", () => change(this.knob.path, field.value));
+      field.addEventListener("change", () => change(this.knob.path, field.value.replace(/\s+/g, " ")));
     }
     field.id = id;
     return field;
@@ -152,7 +156,7 @@ function showKnobs() {
   // Gaps and motion first: they are turned most.
   const rank = (knob) => (knob.path.startsWith("gap") ? 0 : knob.path.startsWith("motion") ? 1 : 2);
   wanted.sort((a, b) => rank(a) - rank(b));
-  const described = JSON.stringify(wanted.map((knob) => [knob.path, knob.group, knob.kind, knob.value === null, knob.number === null, knob.unit]));
+  const described = JSON.stringify(wanted.map((knob) => [knob.path, knob.group, knob.kind, knob.value === null, knob.number === null, knob.unit, isLong(knob)]));
   if (described !== shownKnobs) {
     const focused = document.activeElement?.closest?.(".knob") && [...rows].find(([, row]) => row.row.contains(document.activeElement));
     const onSlider = focused && document.activeElement === focused[1].slider;
@@ -182,7 +186,7 @@ function showKnobs() {
 
 /** Takes over the knobs of an answer. */
 function takeKnobs(taken) {
-  knobs = taken.map(withStandard);
+  knobs = isInSpace(taken) ? taken.map(withStandard) : taken;
   showKnobs();
   const editor = byId("text");
   if (document.activeElement !== editor) editor.value = state.text;

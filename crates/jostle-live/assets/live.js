@@ -103,6 +103,29 @@ function togglePin() {
   showComparison();
 }
 
+// --- Narrow screens --------------------------------------------------------------------------------------
+
+const narrow = matchMedia("(max-width: 860px)");
+/** What the results say stands before the controls on narrow screens, and in its place on others. */
+const firstResults = ["headline", "part-warnings", "part-tiles"].map(byId);
+const homes = firstResults.map((own) => {
+  const home = document.createComment("");
+  own.before(home);
+  return home;
+});
+const beforeControls = html("div", "first-results");
+function placeFirstResults() {
+  if (narrow.matches) {
+    document.querySelector(".columns-of-page").prepend(beforeControls);
+    beforeControls.append(...firstResults);
+  } else {
+    firstResults.forEach((own, i) => homes[i].after(own));
+    beforeControls.remove();
+  }
+}
+narrow.addEventListener("change", placeFirstResults);
+placeFirstResults();
+
 // --- Controls ------------------------------------------------------------------------------------------
 
 byId("undo").addEventListener("click", () => step(past, future));

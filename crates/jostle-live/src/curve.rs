@@ -266,8 +266,9 @@ pub(crate) fn marks(
             needed: true,
         });
         if found.len() == 1 {
-            marks.extend(gap.rules.iter().map(|rule| Mark {
-                name: rule.rule.clone(),
+            let rules = jostle_report::rows_of_rules(&gap.rules, |rule| (&rule.rule, rule.gap_m));
+            marks.extend(rules.into_iter().map(|(name, rule)| Mark {
+                name,
                 source: rule.source.clone(),
                 width: rule.gap_m,
                 needed: false,

@@ -179,6 +179,7 @@ fn curve() -> Markup {
                 button #save-study type="button" { (message::save_study()) }
             }
             figure.chart { figcaption #curve-caption {} div #curve-picture {} }
+            ul #curve-marks.curve-marks {}
             p #curve-note.quiet { (message::drag_the_line_or_use()) }
         }
     }

@@ -72,14 +72,19 @@ if (embedded) load(JSON.parse(embedded.textContent), null);
 /** Displacement history of a building at a height: of a floor, or between floors on a straight line. Floor 0 is its mat. */
 function displacementColumn(table, building, floor, height) {
   if (floor || floor === 0) return table.columns.get(`u:${building}:${floor}`);
-  const heights = page.buildings[building].heights;
-  const above = heights.findIndex((h) => h >= height - 1e-3);
+  const [base, ...floors] = levelsOf(page.buildings[building]);
+  const above = floors.findIndex((h) => h >= height - 1e-3);
   if (above < 0) return undefined;
-  const base = above > 0 ? heights[above - 1] : 0;
-  const part = (height - base) / (heights[above] - base);
+  const below = above > 0 ? floors[above - 1] : base;
+  const part = (height - below) / (floors[above] - below);
   const upper = table.columns.get(`u:${building}:${above + 1}`);
   const lower = table.columns.get(`u:${building}:${above}`);
   return upper?.map((u, i) => part * u + (1 - part) * (lower ? lower[i] : 0));
+}
+
+/** Heights of the base and the floors above the datum of elevations [m]. */
+function levelsOf(building) {
+  return [0, ...building.heights].map((height) => height + (building.elevation ?? 0));
 }
 
 /** The numbers of a list times a factor. */

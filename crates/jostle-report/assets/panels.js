@@ -61,7 +61,10 @@ function heightChart() {
     };
   });
   const roofs = new Map();
-  for (const { name, heights } of page.buildings) roofs.set(heights.at(-1), [...(roofs.get(heights.at(-1)) ?? []), name]);
+  for (const building of page.buildings) {
+    const roof = levelsOf(building).at(-1);
+    roofs.set(roof, [...(roofs.get(roof) ?? []), building.name]);
+  }
   const levels = [...roofs].map(([roof, names]) => ({ value: roof * height.factor, label: say("roof_of_names", { names: names.join(", ") }), quiet: true }));
   return { title: say("height_of_impacts"), unit: height.name, series: [], levels, dots };
 }

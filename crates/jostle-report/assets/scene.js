@@ -427,7 +427,7 @@ class Scene {
     };
     const mark = (hinge, [x, y]) => {
       const stage = stageAt(hinge, t);
-      const outline = markOutline(stage, x, y, hinge.kind === "s" ? 1.5 * size : size);
+      const outline = markOutline(stage, x, y, "sd".includes(hinge.kind) ? 1.5 * size : size);
       if (stage === 2) yielded[hinge.grade] += outline;
       else outlines[stage] += outline;
     };
@@ -441,6 +441,13 @@ class Scene {
         const [from, to] = [lines[line - 1], lines[line]].map((x) => this.px(x + f * sway[level]));
         const off = Math.min(2.4 * size, 0.3 * (to - from));
         mark(hinge, [end ? to - off : from + off, this.py(heights[level])]);
+      } else if (kind === "d") {
+        // Near the middle, so that the marks of two that cross are seen.
+        const [share, ends] = [0.42, [line, end]];
+        const along = ([low, high]) => low + share * (high - low);
+        const xs = ends.map((own, k) => this.px(lines[own - 1] + f * sway[level - 1 + k]));
+        const ys = ends.map((_, k) => this.py(heights[level - 1 + k]));
+        mark(hinge, [along(xs), along(ys)]);
       } else if (kind === "f") {
         // Below the ground line: rocking first, sliding beneath it.
         mark(hinge, [this.px(lines[line - 1] + f * sway[0]), this.py(heights[0]) + (end ? 4.6 : 2.2) * size]);
@@ -526,11 +533,6 @@ class Scene {
 
   /** How long a flash lingers [s]. */
   afterglow = 0.15;
-}
-
-/** Heights of the base and the floors above the datum of elevations [m]. */
-function levelsOf(building) {
-  return [0, ...building.heights].map((height) => height + (building.elevation ?? 0));
 }
 
 /** A length of the order of a gap without needless decimals. */

@@ -313,7 +313,7 @@ fn panel(
                 text x=(format!("{x:.1}")) y=(top + height + 15.0) text-anchor="middle" { (format::plain(milli, 3)) }
             }
             text x=(left + width) y=(PANEL[1] - 3.0) text-anchor="end" { (across.label()) }
-            text x=(left - 6.0) y=(PANEL[1] - 3.0) text-anchor="end" { (format::FORCE.name()) }
+            text x=(left - 6.0) y=(PANEL[1] - 3.0) text-anchor="end" { (format::FORCE.bracketed()) }
         }
         @if let Some(elastic) = elastic {
             path class="line dashed" style="--c:var(--ink-2)" d=(path(elastic, false)) {}

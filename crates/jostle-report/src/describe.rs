@@ -8,6 +8,7 @@ use jostle::motion::Wave;
 use jostle::results::summary::{BuildingSummary, FoundationSummary, GapSummary, LinkSummary};
 use maud::{Markup, html};
 
+use crate::damage::{self, Damage};
 use crate::facts::{Facts, by_place, grouped};
 use crate::message;
 use crate::{Page, backbones, format, special};
@@ -108,11 +109,10 @@ fn building(
         if let Some(own) = &summary.foundation {
             facts.extend(foundation(own));
         }
-        if summary.hinges.cracked + summary.hinges.yielded > 0 {
-            facts.push((
-                message::hinges(),
-                message::cracked_yielded(summary.hinges.cracked, summary.hinges.yielded),
-            ));
+        let all = damage::damage(Some(building), summary);
+        let all: Vec<String> = all.iter().map(Damage::sentence).collect();
+        if !all.is_empty() {
+            facts.push((message::damage_word(), all.join("; ")));
         }
     }
     if let Some(failures) = summary.and_then(|summary| summary.shear_failures.as_ref()) {

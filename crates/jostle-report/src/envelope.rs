@@ -132,7 +132,7 @@ pub(crate) fn without_contact(page: &Page) -> Option<Vec<Envelope>> {
     Some(envelopes)
 }
 
-/// One line of a small picture: (value, height) from the base up.
+/// One line of a small picture: (value, height above the datum of elevations) from the base up.
 struct Line {
     building: usize,
     dashed: bool,
@@ -143,12 +143,7 @@ struct Line {
 
 /// Section with the pictures; drift that is left only where something yielded.
 pub(crate) fn envelopes(page: &Page, run: &[Envelope], without: Option<&[Envelope]>) -> Markup {
-    let heights: Vec<Vec<f64>> = page
-        .model
-        .buildings
-        .iter()
-        .map(jostle::Building::floor_heights)
-        .collect();
+    let levels: Vec<Levels> = page.model.buildings.iter().map(Levels::new).collect();
     let mut displacement = Vec::new();
     let mut drift = Vec::new();
     let mut acceleration = Vec::new();
@@ -157,7 +152,7 @@ pub(crate) fn envelopes(page: &Page, run: &[Envelope], without: Option<&[Envelop
     let yields = page.summary.buildings.iter().any(|b| b.hinges.yielded > 0);
     let sets = without.map(|w| (w, true)).into_iter().chain([(run, false)]);
     for (set, dashed) in sets {
-        for (building, (envelope, heights)) in set.iter().zip(&heights).enumerate() {
+        for (building, (envelope, levels)) in set.iter().zip(&levels).enumerate() {
             let line = |points, meaning| Line {
                 building,
                 dashed,
@@ -171,35 +166,35 @@ pub(crate) fn envelopes(page: &Page, run: &[Envelope], without: Option<&[Envelop
             for (values, side, meaning) in both {
                 let base = envelope.mat.map_or(0.0, |mat| mat[side]);
                 displacement.push(line(
-                    from_base(base, values, heights, format::LENGTH.of(1.0)),
+                    from_base(base, values, levels, format::LENGTH.of(1.0)),
                     meaning,
                 ));
             }
             drift.push(line(
-                steps(&envelope.drift, heights, 100.0),
+                steps(&envelope.drift, levels, 100.0),
                 message::drift_of_the_storey(),
             ));
             shear.push(line(
-                steps(&envelope.shear, heights, format::FORCE.of(1.0)),
+                steps(&envelope.shear, levels, format::FORCE.of(1.0)),
                 message::storey_shear(),
             ));
             moment.push(line(
-                at_bases(&envelope.moment, heights, format::LARGE_MOMENT.of(1.0)),
+                at_bases(&envelope.moment, levels, format::LARGE_MOMENT.of(1.0)),
                 message::overturning_moment(),
             ));
             residual.push(line(
-                steps(&envelope.residual, heights, 100.0),
+                steps(&envelope.residual, levels, 100.0),
                 message::drift_at_the_end(),
             ));
             let floors = envelope
                 .acceleration
                 .iter()
                 .copied()
-                .zip(heights.iter().copied());
+                .zip(levels.floors.iter().copied());
             let mut points: Vec<(f64, f64)> = floors.collect();
             if !points.is_empty() {
                 let base = envelope.mat.map_or(page.motion.peak(), |mat| mat[2]);
-                points.insert(0, (base, 0.0));
+                points.insert(0, (base, levels.base));
             }
             for point in &mut points {
                 point.0 = format::ACCELERATION.of(point.0);
@@ -207,48 +202,56 @@ pub(crate) fn envelopes(page: &Page, run: &[Envelope], without: Option<&[Envelop
             acceleration.push(line(points, message::either_sign()));
         }
     }
-    let top = heights
-        .iter()
-        .flatten()
-        .copied()
-        .fold(0.0, f64::max)
-        .max(1e-3);
+    let all = levels.iter().flat_map(|own| &own.floors).copied();
+    let low = levels.iter().map(|own| own.base).fold(0.0, f64::min);
+    let ends = [low, all.fold(0.0, f64::max).max(low + 1e-3)];
     html! {
         div.multiples {
-            (picture(message::displacement_title(), format::LENGTH.name(), top, &displacement, page))
-            (picture(message::storey_drift_title(), "%", top, &drift, page))
-            (picture(message::total_acceleration_title(), format::ACCELERATION.name(), top, &acceleration, page))
-            (picture(message::storey_shear_title(), format::FORCE.name(), top, &shear, page))
-            (picture(message::overturning_moment_title(), format::LARGE_MOMENT.name(), top, &moment, page))
-            @if yields { (picture(message::residual_drift(), "%", top, &residual, page)) }
+            (picture(message::displacement_title(), format::LENGTH.name(), ends, &displacement, page))
+            (picture(message::storey_drift_title(), "%", ends, &drift, page))
+            (picture(message::total_acceleration_title(), format::ACCELERATION.name(), ends, &acceleration, page))
+            (picture(message::storey_shear_title(), format::FORCE.name(), ends, &shear, page))
+            (picture(message::overturning_moment_title(), format::LARGE_MOMENT.name(), ends, &moment, page))
+            @if yields { (picture(message::residual_drift(), "%", ends, &residual, page)) }
         }
     }
 }
 
-fn from_base(base: f64, values: &[f64], heights: &[f64], factor: f64) -> Vec<(f64, f64)> {
-    std::iter::once((base * factor, 0.0))
-        .chain(
-            values
-                .iter()
-                .map(|v| v * factor)
-                .zip(heights.iter().copied()),
-        )
+/// Heights above the datum of elevations \[m\].
+struct Levels {
+    base: f64,
+    floors: Vec<f64>,
+}
+
+impl Levels {
+    fn new(building: &jostle::Building) -> Self {
+        Self {
+            base: building.base.elevation,
+            floors: building.floor_levels(),
+        }
+    }
+}
+
+fn from_base(base: f64, values: &[f64], levels: &Levels, factor: f64) -> Vec<(f64, f64)> {
+    let floors = values.iter().map(|value| value * factor);
+    std::iter::once((base * factor, levels.base))
+        .chain(floors.zip(levels.floors.iter().copied()))
         .collect()
 }
 
 /// A value at the base of each storey, none at the top.
-fn at_bases(values: &[f64], heights: &[f64], factor: f64) -> Vec<(f64, f64)> {
-    let bases = std::iter::once(0.0).chain(heights.iter().copied());
+fn at_bases(values: &[f64], levels: &Levels, factor: f64) -> Vec<(f64, f64)> {
+    let bases = std::iter::once(levels.base).chain(levels.floors.iter().copied());
     let points = values.iter().map(|value| value * factor).zip(bases);
-    let top = heights.last().filter(|_| !values.is_empty());
+    let top = levels.floors.last().filter(|_| !values.is_empty());
     points.chain(top.map(|top| (0.0, *top))).collect()
 }
 
 /// A value constant over each storey.
-fn steps(values: &[f64], heights: &[f64], factor: f64) -> Vec<(f64, f64)> {
-    let mut base = 0.0;
+fn steps(values: &[f64], levels: &Levels, factor: f64) -> Vec<(f64, f64)> {
+    let mut base = levels.base;
     let mut points = Vec::new();
-    for (value, height) in values.iter().zip(heights) {
+    for (value, height) in values.iter().zip(&levels.floors) {
         points.push((value * factor, base));
         points.push((value * factor, *height));
         base = *height;
@@ -263,7 +266,8 @@ const RIGHT: f64 = 14.0;
 const TOP: f64 = 10.0;
 const BOTTOM: f64 = 30.0;
 
-fn picture(title: &str, unit: &str, top: f64, lines: &[Line], page: &Page) -> Markup {
+fn picture(title: &str, unit: &str, [low, top]: [f64; 2], lines: &[Line], page: &Page) -> Markup {
+    let (foot, head) = (low, low + 1.03 * (top - low));
     let values = || {
         lines
             .iter()
@@ -278,9 +282,10 @@ fn picture(title: &str, unit: &str, top: f64, lines: &[Line], page: &Page) -> Ma
         high + 0.05 * span,
     );
     let x = |value: f64| LEFT + (value - low) / (high - low) * (WIDTH - LEFT - RIGHT);
-    let y = |height: f64| HEIGHT - BOTTOM - height / (top * 1.03) * (HEIGHT - TOP - BOTTOM);
+    let y =
+        |height: f64| HEIGHT - BOTTOM - (height - foot) / (head - foot) * (HEIGHT - TOP - BOTTOM);
     let (x_ticks, x_decimals) = ticks(low, high, 5.0);
-    let (y_ticks, y_decimals) = ticks(0.0, format::HEIGHT.of(top * 1.03), 6.0);
+    let (y_ticks, y_decimals) = ticks(format::HEIGHT.of(foot), format::HEIGHT.of(head), 6.0);
     html! {
         figure.multiple {
             figcaption { (title) " " span.unit { "[" (unit) "]" } }
@@ -300,7 +305,7 @@ fn picture(title: &str, unit: &str, top: f64, lines: &[Line], page: &Page) -> Ma
                 }
                 @for line in lines.iter().filter(|line| !line.dashed) {
                     @for (value, height) in &line.points {
-                        @if *height > 0.0 && value.is_finite() {
+                        @if *height > line.points[0].1 && value.is_finite() {
                             circle.dot style=(crate::document::colour(line.building)) cx=(px(x(*value))) cy=(px(y(*height))) r="5" {
                                 title {
                                     (page.model.buildings.get(line.building).map_or("", |b| b.name.as_str())) ", "
@@ -359,9 +364,17 @@ mod tests {
 
     #[test]
     fn drift_is_constant_within_a_storey() {
+        let levels = Levels {
+            base: -1.5,
+            floors: vec![1.5, 4.5],
+        };
         assert_eq!(
-            steps(&[0.01, 0.02], &[3.0, 6.0], 100.0),
-            vec![(1.0, 0.0), (1.0, 3.0), (2.0, 3.0), (2.0, 6.0)]
+            steps(&[0.01, 0.02], &levels, 100.0),
+            vec![(1.0, -1.5), (1.0, 1.5), (2.0, 1.5), (2.0, 4.5)]
+        );
+        assert_eq!(
+            at_bases(&[7.0, 3.0], &levels, 1.0),
+            vec![(7.0, -1.5), (3.0, 1.5), (0.0, 4.5)]
         );
     }
 }

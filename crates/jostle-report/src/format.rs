@@ -226,7 +226,7 @@ pub(crate) fn tonnes(kilogram: f64) -> String {
 /// A flexural rigidity \[N·m²\].
 pub(crate) fn rigidity(value: f64) -> String {
     if is_us() {
-        return stated(RIGIDITY, value);
+        return short(RIGIDITY, value, 4);
     }
     prefixed_plain(
         value,
@@ -242,7 +242,7 @@ pub(crate) fn rigidity(value: f64) -> String {
 /// A lateral stiffness \[N/m\].
 pub(crate) fn stiffness(value: f64) -> String {
     if is_us() {
-        return stated(STIFFNESS, value);
+        return short(STIFFNESS, value, 4);
     }
     prefixed_plain(
         value,

@@ -4,10 +4,11 @@ use jostle::SpacePlace;
 use jostle::hysteresis::{Backbone, Hysteresis, Side};
 use jostle::linear::sort_by;
 use jostle::model::{Building, Hinges, Model, Structure};
-use jostle::results::summary::{HingeSummary, SpringSummary};
+use jostle::results::summary::{BuildingSummary, SpringSummary};
 use jostle::structure::{BaseMotion, Discretization, MemberEnd, MemberPlace, SpringPlace};
 use maud::{Markup, html};
 
+use crate::damage::{Damage, damage};
 use crate::format::Shown;
 use crate::message;
 use crate::{Page, format};
@@ -197,6 +198,11 @@ pub(crate) fn coordinates(at: SpringPlace) -> (char, usize, usize, usize) {
         | SpringPlace::Element { storey, .. }
         | SpringPlace::ColumnInPlan { storey, .. }
         | SpringPlace::BeamInPlan { floor: storey, .. } => ('s', storey, 0, 0),
+        // Of a plane frame: the lines of its lower and its upper end.
+        SpringPlace::Diagonal { frame: None, place } if place.line.is_none() => {
+            let [low, high] = place.lines();
+            ('d', place.storey, low + 1, high + 1)
+        }
         SpringPlace::Diagonal { place, .. } => ('s', place.storey, 0, 0),
         SpringPlace::Sliding { frame, member } => match (frame, member) {
             (None, MemberPlace::Column { line, storey }) => ('v', storey, line, 0),
@@ -315,8 +321,8 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
     Some(html! {
         section #hinges {
             h2 { (message::cracking_and_yielding_title()) }
-            @for building in page.summary.buildings.iter().filter(|b| b.hinges.total > 0) {
-                p { (sentence(&building.name, &building.hinges, building.response.residual_roof_displacement_m)) }
+            @for (model, own) in page.model.buildings.iter().zip(&page.summary.buildings) {
+                @if own.hinges.total > 0 { p { (sentence(model, own)) } }
             }
             @if loops {
                 p.quiet {
@@ -329,25 +335,16 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
     })
 }
 
-fn sentence(name: &str, hinges: &HingeSummary, residual: f64) -> String {
-    let residual = message::residual_displacement_of_the_roof(format::millimetres(residual.abs()));
-    let count = |n: usize| format::fixed(n as f64, 0);
-    match (hinges.first_yield_s, hinges.cracked) {
-        (Some(first), cracked) => message::yields_at_of_places_first(
-            name,
-            count(hinges.yielded),
-            count(hinges.total),
-            format::instant(first),
-            count(cracked),
-            format::significant(hinges.ductility, 3),
-            format::energy(hinges.dissipated_j),
-            &residual,
-        ),
-        (None, 0) => message::neither_cracks_nor_yields(name, count(hinges.total)),
-        (None, cracked) => {
-            message::cracks_at_of_places(name, count(cracked), count(hinges.total), &residual)
-        }
-    }
+fn sentence(model: &Building, own: &BuildingSummary) -> String {
+    let all = damage(Some(model), own);
+    let all: Vec<String> = all.iter().map(Damage::sentence).collect();
+    let residual = own.response.residual_roof_displacement_m.abs();
+    message::damage_of_building(
+        &own.name,
+        all.join("; "),
+        format::energy(own.hinges.dissipated_j),
+        message::residual_displacement_of_the_roof(format::millimetres(residual)),
+    )
 }
 
 fn table(page: &Page, order: &[(Place, &SpringSummary)]) -> Markup {

@@ -5,6 +5,7 @@ use jostle::separation::Requirements;
 use maud::{Markup, html};
 
 use crate::message;
+use crate::rules::{required_width, rows_of_rules};
 use crate::verdict::peak_closing;
 use crate::{Page, format};
 
@@ -12,6 +13,8 @@ use crate::{Page, format};
 struct Width {
     name: String,
     metres: f64,
+    /// The length in words.
+    shown: String,
     class: &'static str,
 }
 
@@ -52,7 +55,7 @@ pub(crate) fn joints(page: &Page) -> Markup {
                                 span.bar.(width.class) style=(format!("width:{:.2}%", width.metres / longest * 100.0)) {}
                                 span.bar-gap style=(format!("left:{:.2}%", summary.width_m / longest * 100.0)) {}
                             }
-                            span.bar-value role="cell" { (format::millimetres(width.metres)) }
+                            span.bar-value role="cell" { (width.shown) }
                         }
                     }
                 }
@@ -72,10 +75,10 @@ pub(crate) fn joints(page: &Page) -> Markup {
 
 /// Sources of the rules and the inputs that they used, folded.
 fn sources(required: &Requirements) -> Markup {
-    let codes: Vec<_> = required
-        .rules
-        .iter()
-        .filter(|rule| rule.code.is_some())
+    let rows = rows_of_rules(&required.rules, |rule| (&rule.name, rule.width));
+    let codes: Vec<_> = rows
+        .into_iter()
+        .filter(|(_, rule)| rule.code.is_some())
         .collect();
     html! {
         @if !codes.is_empty() || !required.left_out.is_empty() {
@@ -90,9 +93,9 @@ fn sources(required: &Requirements) -> Markup {
                             th scope="col" { (message::distance_from_the_property_line()) }
                         } }
                         tbody {
-                            @for rule in codes {
+                            @for (name, rule) in codes {
                                 tr {
-                                    th scope="row" { (rule.name) }
+                                    th scope="row" { (name) }
                                     td { (rule.source) }
                                     td { (rule.inputs.join("; ")) }
                                     td {
@@ -124,33 +127,35 @@ fn lower_height(page: &Page, between: [Option<usize>; 2]) -> Option<f64> {
 }
 
 fn widths(summary: &GapSummary, required: &Requirements) -> Vec<Width> {
-    let mut widths = vec![Width {
-        name: message::gap().into(),
-        metres: summary.width_m,
-        class: "of-gap",
-    }];
-    let mut add = |name: &str, metres: Option<f64>, class| {
-        if let Some(metres) = metres.filter(|m| m.is_finite() && *m >= 0.0) {
-            widths.push(Width {
-                name: name.into(),
-                metres,
-                class,
-            });
-        }
-    };
-    add(message::peak_closing(), peak_closing(summary), "of-run");
-    add(
-        message::smallest_gap_without_pounding(),
-        summary.closing_without_contact_m,
-        "of-run",
-    );
-    for rule in &required.rules {
-        let class = if rule.code.is_some() {
+    let computed = [
+        (message::gap(), Some(summary.width_m), "of-gap"),
+        (message::peak_closing(), peak_closing(summary), "of-run"),
+        (
+            message::smallest_gap_without_pounding(),
+            summary.closing_without_contact_m,
+            "of-run",
+        ),
+    ];
+    let computed = computed.into_iter().filter_map(|(name, metres, class)| {
+        let metres = metres.filter(|metres| metres.is_finite() && *metres >= 0.0)?;
+        Some(Width {
+            name: name.into(),
+            metres,
+            shown: format::millimetres(metres),
+            class,
+        })
+    });
+    let rules = rows_of_rules(&required.rules, |rule| (&rule.name, rule.width));
+    let rules = rules.into_iter().map(|(name, rule)| Width {
+        name,
+        metres: rule.width,
+        shown: required_width(rule.width),
+        class: if rule.code.is_some() {
             "of-code"
         } else {
             "of-rule"
-        };
-        add(&rule.name, Some(rule.width), class);
-    }
-    widths
+        },
+    });
+    let rules = rules.filter(|rule| rule.metres.is_finite() && rule.metres >= 0.0);
+    computed.chain(rules).collect()
 }

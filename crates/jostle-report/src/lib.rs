@@ -12,6 +12,7 @@ mod classes_page;
 mod collisions;
 mod comparison;
 mod contact_box;
+mod damage;
 mod describe;
 mod devices;
 mod diagrams;
@@ -38,6 +39,7 @@ mod panels;
 mod payload;
 mod plan_motion;
 mod pushover;
+mod rules;
 mod section;
 mod selection;
 mod shear_failures;
@@ -61,17 +63,19 @@ pub use classes_page::render_classes;
 pub use collisions::{CollidedLaw, Collisions, loops_svg, render_collisions};
 pub use comparison::{ComparedHistory, ComparedImpactTimes, ComparisonPage, render_comparison};
 pub use contact_box::ContactBox;
+pub use damage::{Damage, damage};
 pub use document::render_document;
 pub use method::render_method;
 pub use motion_page::{MotionPage, render_motion};
 pub use pushover::{Demand, render_pushover};
+pub use rules::{required_width, rows_of_rules, rule_name};
 pub use section::render_sections;
 pub use selection::{CheckedStructure, SelectionPage, render_selection, selection_sections};
 pub use site_drawing::site_svg;
 pub use site_places::SitePlace;
 pub use study_page::{
     Axis, Bar, Bars, Cell, Chart, HeatMap, Level, Petal, Rose, Section, Series, Stroke, StudyPage,
-    SuitePage, SuiteRow, render_study, render_suite,
+    SuitePage, SuiteRow, render_study, render_suite, with_unit,
 };
 pub use verdict::verdict;
 pub use viewer::{Frame, Viewer, frame};

@@ -1,5 +1,6 @@
 //! Greatest forces of columns and beams, and their demand over capacity: one table for each building, struck columns first.
 
+use jostle::Structure;
 use jostle::linear::sort_by;
 use jostle::results::summary::{
     BuildingSummary, CapacitySummary, ExceededSummary, JointSummary, MemberSummary, RatioPlace,
@@ -35,14 +36,14 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
                 h2 { (message::columns_and_beams()) }
                 @if let Some(rule) = rule {
                     @for capacity in page.summary.buildings.iter().filter_map(|b| Some((&b.name, b.capacity.as_ref()?))) {
-                        p { (verdict(capacity.0, capacity.1)) }
+                        p { (verdict(page, capacity.0, capacity.1)) }
                     }
                     p.quiet {
                         (message::capacity_by_with_the_strengths(rule.source()))
                     }
                 }
                 @for (index, building) in page.summary.buildings.iter().enumerate().filter(|(_, b)| !b.members.is_empty()) {
-                    (table(building))
+                    (table(page, building))
                     @if let Some(diagrams) = crate::diagrams::of_building(page, index) { (diagrams) }
                     @if !building.joints.is_empty() { (joints(building)) }
                 }
@@ -61,7 +62,7 @@ pub(crate) fn section(page: &Page) -> Option<Markup> {
 }
 
 /// How many members are beyond their capacity, and which.
-fn verdict(name: &str, capacity: &CapacitySummary) -> String {
+fn verdict(page: &Page, name: &str, capacity: &CapacitySummary) -> String {
     let place = |own: &ExceededSummary| {
         let during = own.impact.as_ref().map_or_else(String::new, |impact| {
             message::during_the_impact(
@@ -71,7 +72,13 @@ fn verdict(name: &str, capacity: &CapacitySummary) -> String {
             )
         });
         let at = format::instant(own.at_s);
-        message::in_at(&own.member, own.kind, own.at, &at, &during)
+        message::in_at(
+            member_name(page, &own.member),
+            own.kind,
+            own.at,
+            &at,
+            &during,
+        )
     };
     let worst = message::greatest_ratio_title(
         format::fixed(capacity.worst.ratio, 2),
@@ -88,6 +95,22 @@ fn verdict(name: &str, capacity: &CapacitySummary) -> String {
         ),
         None => message::none_of_members_is_beyond(name, capacity.rated, &worst),
     }
+}
+
+/// Name of a member: a storey of a wall, whose results are those of a column on its axis, is named as the wall.
+fn member_name(page: &Page, name: &str) -> String {
+    let wall = || {
+        let (of, place) = name.split_once(".column.")?;
+        let (line, storey) = place.split_once('.')?;
+        let [line, storey] = [line.parse::<usize>().ok()?, storey.parse::<usize>().ok()?];
+        let mut buildings = page.model.buildings.iter();
+        match &buildings.find(|own| own.name == of)?.structure {
+            Structure::Frame(frame) => frame.wall([storey - 1, line - 1])?,
+            _ => return None,
+        };
+        Some(message::wall_member(of, line, storey))
+    };
+    wall().unwrap_or_else(|| name.to_owned())
 }
 
 /// A ratio of demand to capacity; its place is shown on hovering.
@@ -146,7 +169,7 @@ fn greatest(member: &MemberSummary, of: fn(&SectionSummary) -> f64) -> f64 {
     sections(member).map(of).fold(f64::NEG_INFINITY, f64::max)
 }
 
-fn table(building: &BuildingSummary) -> Markup {
+fn table(page: &Page, building: &BuildingSummary) -> Markup {
     let hit = |m: &&MemberSummary| m.struck.iter().map(|s| s.peak_force_n).fold(0.0, f64::max);
     let shear = |m: &MemberSummary| {
         greatest(m, |s| {
@@ -215,7 +238,7 @@ fn table(building: &BuildingSummary) -> Markup {
                         @for member in &members {
                             @let impacts: usize = member.struck.iter().map(|s| s.impact_count).sum();
                             tr {
-                                th scope="row" { (member.name) }
+                                th scope="row" { (member_name(page, &member.name)) }
                                 @if is_rated {
                                     @let own = member.ratio.as_ref();
                                     (ratio(own.and_then(|r| r.shear), own.and_then(|r| r.shear_at.as_ref())))

@@ -138,7 +138,7 @@ fn elements(survey: &MethodSurvey) -> String {
     let mut parts = vec![message::lumped_masses(survey.lumped_masses)];
     for (count, name) in [
         (survey.members, message::massless_beams()),
-        (survey.hinges, message::hinges()),
+        (survey.hinges, message::hinges_word()),
         (survey.springs, message::storey_springs()),
     ] {
         if count > 0 {

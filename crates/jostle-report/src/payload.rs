@@ -79,7 +79,7 @@ struct Payload<'a> {
     bearing: Option<BearingData>,
 }
 
-/// Building, kind (`c`, `b`, `s`), level, line, end, when it cracked and yielded \[s\], and its greatest ductility \[–\].
+/// Building, kind (`c`, `b`, `s`; `d` with the lines of both ends), level, line, end, when it cracked and yielded \[s\], and its greatest ductility \[–\].
 type HingeData = (
     usize,
     char,
@@ -524,7 +524,7 @@ fn gaps(page: &Page, walls: &[SceneWall]) -> Vec<GapData> {
                     index += 1;
                     ContactData {
                         index: index - 1,
-                        label: place(contact),
+                        label: place(summary, contact),
                         floors: contact.floors,
                         height: contact.height_m,
                         width: contact.width_m,

@@ -124,7 +124,8 @@ pub(crate) fn space_section(page: &Page) -> Option<Markup> {
 /// The scene, still empty.
 pub(crate) fn scene() -> Markup {
     html! {
-        section #in-space {
+        // Shown by the script once buildings in space are there.
+        section #in-space hidden {
             h2 { (message::how_they_move_in_space()) }
             div #space.stage {}
             div.controls {

@@ -1,10 +1,9 @@
 //! The answers of a run, at the head of its page: how sure they are, how much gap, what is hurt, where, and what is left.
 
-use jostle::results::summary::{
-    BuildingSummary, FloorSummary, GapSummary, MemberSummary, StruckSummary, Summary,
-};
+use jostle::results::summary::{FloorSummary, GapSummary, MemberSummary, StruckSummary, Summary};
 use maud::{Markup, html};
 
+use crate::damage::{Damage, damage};
 use crate::verdict::{closest_approach, nearest, outside, peak_closing, place};
 use crate::{Page, format, message};
 
@@ -25,7 +24,7 @@ pub(crate) fn tiles(page: &Page) -> Markup {
     tiles.extend(drift(summary));
     tiles.extend(members(summary));
     tiles.extend(struck_column(summary));
-    tiles.extend(yielding(summary));
+    tiles.extend(damaged(page));
     tiles.extend(impacts(summary));
     tiles.extend(roofs(summary));
     html! {
@@ -187,30 +186,37 @@ fn struck_column(summary: &Summary) -> Option<Tile> {
     Some(tile(message::worst_struck_column(), value, note))
 }
 
-/// Hinges that yielded, and the greatest ductility.
-fn yielding(summary: &Summary) -> Vec<Tile> {
-    let all = summary.buildings.iter();
-    let own: Vec<&BuildingSummary> = all.filter(|own| own.hinges.total > 0).collect();
-    let one = |name: String, own: &[&BuildingSummary]| {
-        let sum = |of: fn(&BuildingSummary) -> usize| own.iter().map(|own| of(own)).sum::<usize>();
-        let ductility = own
-            .iter()
-            .fold(0.0_f64, |most, own| most.max(own.hinges.ductility));
-        let value = message::one_of_all(sum(|own| own.hinges.yielded), sum(|own| own.hinges.total));
-        let cracked = sum(|own| own.hinges.cracked);
-        let note = message::cracked_ductility(cracked, format::significant(ductility, 2));
-        tile(name, value, note)
+/// What yielded, buckled and cracked: of few buildings each by itself, of many the worst of every kind.
+fn damaged(page: &Page) -> Vec<Tile> {
+    let buildings = page.model.buildings.iter().zip(&page.summary.buildings);
+    let all: Vec<(&str, Damage)> = buildings
+        .flat_map(|(model, own)| {
+            let found = damage(Some(model), own).into_iter();
+            found.map(|one| (&own.name[..], one))
+        })
+        .collect();
+    let worst = |one: &Damage| {
+        let same = all.iter().filter(|(_, own)| own.name == one.name);
+        same.max_by_key(|(_, own)| own.count[0])
+            .is_some_and(|(_, own)| own == one)
     };
-    if own.is_empty() {
-        Vec::new()
-    } else if own.len() <= MOST_EACH {
-        let each = own
-            .iter()
-            .map(|own| one(message::hinges_yielded_of(&own.name), &[*own]));
-        each.collect()
-    } else {
-        vec![one(message::hinges_yielded().to_owned(), &own)]
-    }
+    let few =
+        |one: &Damage| all.iter().filter(|(_, own)| own.name == one.name).count() <= MOST_EACH;
+    let shown = all.iter().filter(|(_, one)| few(one) || worst(one));
+    let tiles = shown.map(|(name, one)| {
+        let [some, all] = one.count;
+        let first = one.first_s.map(format::instant);
+        let first = first.map_or_else(String::new, message::first_at);
+        tile(
+            message::damage_of(format::capital(one.name), name),
+            message::one_of_all(some, all),
+            match one.note.is_empty() {
+                true => first,
+                false => one.note.clone(),
+            },
+        )
+    });
+    tiles.collect()
 }
 
 /// The hardest impact, and how many there are.
@@ -222,16 +228,19 @@ fn impacts(summary: &Summary) -> Vec<Tile> {
     if count == 0 {
         return vec![tile(message::impacts_title(), message::none(), "")];
     }
-    let contacts = summary.gaps.iter().flat_map(|gap| &gap.contacts);
-    let hardest = contacts.max_by(|a, b| a.peak_force_n.total_cmp(&b.peak_force_n));
-    let force = hardest.map_or(0.0, |contact| contact.peak_force_n);
+    let contacts = summary.gaps.iter().flat_map(|gap| {
+        let own = gap.contacts.iter();
+        own.map(move |contact| (gap, contact))
+    });
+    let hardest = contacts.max_by(|a, b| a.1.peak_force_n.total_cmp(&b.1.peak_force_n));
+    let force = hardest.map_or(0.0, |(_, contact)| contact.peak_force_n);
     let first = summary.gaps.iter().filter_map(|gap| gap.first_impact_s);
     let first = first.min_by(f64::total_cmp);
     let mut tiles = vec![
         tile(
             message::peak_force_title(),
             format::force(force),
-            hardest.map_or_else(String::new, place),
+            hardest.map_or_else(String::new, |(gap, contact)| place(gap, contact)),
         ),
         tile(
             message::impacts_title(),

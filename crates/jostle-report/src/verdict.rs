@@ -106,10 +106,10 @@ fn sentence_of(gap: &GapSummary) -> String {
     let force = |impact: &ImpactSummary| format::force(impact.peak_force_n);
     let at = |impact: &ImpactSummary| format::instant(impact.start_s);
     if gap.impact_count == 1 {
-        return message::and_hit_once(left, right, place(first_at), at(first), force(first));
+        return message::and_hit_once(left, right, place(gap, first_at), at(first), force(first));
     }
     let head = message::hit_times(left, right, times(gap.impact_count));
-    let (first_place, hardest_place) = (place(first_at), place(hardest_at));
+    let (first_place, hardest_place) = (place(gap, first_at), place(gap, hardest_at));
     let start = format!("{} ({first_place})", at(first));
     if hardest == first {
         message::the_first_impact(&head, &start, force(hardest))
@@ -155,14 +155,18 @@ pub(crate) fn peak_closing(gap: &GapSummary) -> Option<f64> {
     nearest(gap).map(|contact| contact.closing_peak_m)
 }
 
-/// Where a contact is: "floor 5", "floors 5 and 4", "height 4.80 m".
-pub(crate) fn place(contact: &ContactSummary) -> String {
+/// Where a contact is: "floor 5", "floors 5 and 4", "floor 5 of Old against a column of New, height 4.80 m".
+pub(crate) fn place(gap: &GapSummary, contact: &ContactSummary) -> String {
+    let [left, right] = &gap.between;
+    let height = message::height_m(format::in_unit(format::HEIGHT, contact.height_m, 2));
     match contact.floors {
         [Some(0), Some(0)] => message::mats().to_owned(),
         [Some(0), None] | [None, Some(0)] => message::mat().to_owned(),
         [Some(left), Some(right)] if left == right => message::floor_one(left),
         [Some(left), Some(right)] => message::floors_and(left, right),
-        _ => message::height_m(format::in_unit(format::HEIGHT, contact.height_m, 2)),
+        [Some(floor), None] => message::floor_against_column(floor, left, right, height),
+        [None, Some(floor)] => message::floor_against_column(floor, right, left, height),
+        [None, None] => height,
     }
 }
 

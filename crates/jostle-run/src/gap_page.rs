@@ -1,6 +1,6 @@
 //! Force over gap as a page and a table.
 
-use jostle_report::{Axis, Chart, Section, Series, Stroke, StudyPage, render_study};
+use jostle_report::{Axis, Chart, Section, Series, Stroke, StudyPage, render_study, rows_of_rules};
 
 use std::path::Path;
 
@@ -99,11 +99,20 @@ pub fn gap_curve_page(title: &str, found: &[CriticalGap]) -> String {
     render_study(&StudyPage {
         kind: message::force_over_gap().into(),
         title: title.into(),
-        headline: found.iter().map(headline).collect(),
+        headline: headlines(found),
         sections: sections.collect(),
         files: vec![(TABLE.into(), message::one_row_per_width().into())],
         ..StudyPage::default()
     })
+}
+
+fn headlines(found: &[CriticalGap]) -> Vec<String> {
+    let mut all: Vec<String> = found.iter().map(headline).collect();
+    let several = found.iter().any(|gap| gap.motion != found[0].motion);
+    if !several && !found.is_empty() {
+        all.push(message::one_record_is_no_design_value().into());
+    }
+    all
 }
 
 fn headline(gap: &CriticalGap) -> String {
@@ -151,19 +160,28 @@ fn sections_of(pair: &[String; 2], gaps: &[&CriticalGap]) -> Vec<Section> {
             .collect();
         if dots {
             for (index, gap) in gaps.iter().enumerate() {
-                let rules = gap.rules.iter().filter(|rule| rule.gap_m <= gap.gap_m);
-                let points: Vec<[f64; 2]> = rules
-                    .filter_map(|rule| Some([LENGTH.of(rule.gap_m), FORCE.of(rule.peak_force_n?)]))
-                    .collect();
-                if !points.is_empty() {
-                    series.push(Series {
-                        name: message::gaps_of_rules().into(),
-                        points,
-                        band: Vec::new(),
-                        stroke: Stroke::Dots,
-                        colour: gaps.len() + index,
-                    });
+                let rules = rows_of_rules(&gap.rules, |rule| (&rule.rule, rule.gap_m));
+                let narrow = rules.into_iter();
+                let narrow = narrow.filter(|(_, rule)| rule.gap_m <= gap.gap_m);
+                // Rules that require the same share a dot.
+                let mut dots: Vec<(String, [f64; 2])> = Vec::new();
+                for (name, rule) in narrow {
+                    let Some(force) = rule.peak_force_n else {
+                        continue;
+                    };
+                    let point = [LENGTH.of(rule.gap_m), FORCE.of(force)];
+                    match dots.iter_mut().find(|(_, known)| *known == point) {
+                        Some((names, _)) => *names = format!("{names}, {name}"),
+                        None => dots.push((name, point)),
+                    }
                 }
+                series.extend(dots.into_iter().map(|(name, point)| Series {
+                    name,
+                    points: vec![point],
+                    band: Vec::new(),
+                    stroke: Stroke::Dots,
+                    colour: gaps.len() + index,
+                }));
             }
         }
         Chart {
@@ -211,12 +229,13 @@ fn sections_of(pair: &[String; 2], gaps: &[&CriticalGap]) -> Vec<Section> {
             message::impacts(),
             message::greatest_force_kn(),
         ];
-        let rows = gap.rules.iter().map(|rule| {
+        let rows = rows_of_rules(&gap.rules, |rule| (&rule.rule, rule.gap_m));
+        let rows = rows.into_iter().map(|(name, rule)| {
             let worse = rule.worse_outcome();
             let ratio = rule.ratio_of_both_signs.or(rule.ratio);
             vec![
-                rule.rule.clone(),
-                mm(rule.gap_m),
+                name,
+                LENGTH.rounded_up(rule.gap_m),
                 ratio.map_or("–".into(), |ratio| format!("{ratio:.2}")),
                 worse.map_or("–".into(), |own| own.impact_count.to_string()),
                 worse.map_or("–".into(), |own| kn(own.peak_force_n)),

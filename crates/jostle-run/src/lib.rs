@@ -85,7 +85,7 @@ pub use motions::{
     NamedMotion, Noise, Processing, Pulse, Selection, SelectionRequest, SpectrumMatch, Synthesis,
     made_by_recipe, measures_json, motion_in_short, motion_text, write_motion,
 };
-pub use numbers::{counted, counted_grouped, grouped, kn, mm, rounded_up};
+pub use numbers::{counted, counted_grouped, grouped, kn, mm};
 pub use observer::{Observer, Stage, stopped_by};
 pub use opened::{EXAMPLE, Opened, name_of, open, read};
 pub use pdf::{Paper, find_chromium, print_pdf};

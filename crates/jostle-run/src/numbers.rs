@@ -28,17 +28,6 @@ pub fn kn(newtons: f64) -> String {
     FORCE.number(newtons, 1)
 }
 
-/// A width that is at least as large: whole millimetres, or hundredths of an inch \[m\].
-#[must_use]
-pub fn rounded_up(width: f64) -> String {
-    let decimals = LENGTH.decimals(0);
-    let steps = if decimals == 0 { 1.0 } else { 100.0 };
-    format!(
-        "{:.decimals$}",
-        (LENGTH.of(width) * steps - 1e-6).ceil() / steps
-    )
-}
-
 /// A number with three decimals and a power of ten, with the unit that is shown for this SI unit, such as `N/m`.
 pub(crate) fn power(si: f64, unit: &str) -> String {
     match Shown::named(&unit.replace('.', "·")).or_else(|| Shown::named(unit)) {

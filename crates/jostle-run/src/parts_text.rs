@@ -41,7 +41,7 @@ pub(crate) fn write_parts(text: &mut String, buildings: &[BuildingSummary]) -> s
             if let Some((ratio, name)) = across.max_by(|a, b| a.0.total_cmp(&b.0)) {
                 writeln!(
                     text,
-                    "Across their plane, panels of {} reach up to {ratio:.2} of their strength, in {name}",
+                    "Out-of-plane demand of panels of {}: up to {ratio:.2} of their strength, in {name}",
                     building.name
                 )?;
             }
@@ -105,14 +105,14 @@ fn write_walls(text: &mut String, building: &BuildingSummary) -> std::fmt::Resul
             [worst.rotation_max_rad, worst.rotation_min_rad].map(Option::unwrap_or_default);
         let turned = turned[0].max(turned[1]);
         let hinge = match turned > 0.0 {
-            true => format!(", where its hinge turns by {:.2} mrad", turned * 1e3),
+            true => format!(", hinge rotation {:.2} mrad", turned * 1e3),
             false => String::new(),
         };
         let coupled = building
             .degree_of_coupling
             .map_or_else(String::new, |degree| {
                 format!(
-                    "; their couple bears {:.0} % of the moment at the base",
+                    "; axial couple carries {:.0} % of the moment at the base",
                     100.0 * degree
                 )
             });
@@ -134,7 +134,7 @@ fn write_walls(text: &mut String, building: &BuildingSummary) -> std::fmt::Resul
             [worst.rotation_max_rad, worst.rotation_min_rad].map(Option::unwrap_or_default);
         writeln!(
             text,
-            "Coupling beams of {}: up to {} of shear in {}, whose chord turns by {:.2} mrad",
+            "Coupling beams of {}: up to {} of shear in {}, chord rotation {:.2} mrad",
             building.name,
             FORCE.text(force(worst), 0),
             worst.name,

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
+use jostle::Building;
 use jostle::linear::sort_by;
 use jostle::results::contact_sensitivity::ContactSensitivity;
 use jostle::results::gradient::Gradient;
@@ -17,11 +18,12 @@ use jostle_io::shown::{
     ACCELERATION, ENERGY, FORCE, GROUND_ACCELERATION, IMPULSE, LENGTH, MASS, MOMENT, Shown,
     by_model,
 };
+use jostle_report::{damage, rows_of_rules};
 
 use crate::checks_text::write_findings;
 use crate::floor_spectra::low_pass;
 use crate::floor_spectra_text::write_floor_spectra;
-use crate::numbers::{counted, counted_grouped, grouped, kn, mm, rounded_up};
+use crate::numbers::{counted, counted_grouped, grouped, kn, mm};
 use crate::parts_text::write_parts;
 use crate::sections_text::write_sections;
 use crate::style::{BOLD, DIM, LOUD, styled};
@@ -75,7 +77,7 @@ fn write_all(
     write_in_plan(text, &summary.buildings)?;
     write_isolation(text, summary)?;
     write_foundations(text, summary)?;
-    write_hinges(text, &summary.buildings)?;
+    write_damage(text, &input.model.buildings, &summary.buildings)?;
     write_shear_failures(text, &summary.buildings)?;
     write_parts(text, &summary.buildings)?;
     write_sections(text, &summary.buildings)?;
@@ -246,22 +248,22 @@ fn write_changes(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::
     const HEADING: &str = "effect of pounding (with ÷ without)";
     let width = buildings
         .iter()
-        .map(|building| building.name.chars().count() + "  worst".len())
+        .map(|building| building.name.chars().count() + "  least affected".len())
         .fold(HEADING.chars().count(), usize::max);
     let mut rows = String::new();
     for building in buildings {
         let [Some(drift), Some(shear), Some(acceleration)] = changes(building) else {
             continue;
         };
-        let name = width - "  worst".len();
-        for (side, label) in [(0, "worst"), (1, "best")] {
+        let name = width - "  least affected".len();
+        for (side, label) in [(0, "most affected"), (1, "least affected")] {
             let cell = |extremes: &Extremes, place: &str| {
                 let (ratio, at) = extremes[side];
                 format!("{ratio:.2} ({place} {at})")
             };
             writeln!(
                 rows,
-                "{:name$}  {label:5}  {:>17}  {:>17}  {:>17}",
+                "{:name$}  {label:14}  {:>17}  {:>17}  {:>17}",
                 if side == 0 { &*building.name } else { "" },
                 cell(&drift, "storey"),
                 cell(&shear, "storey"),
@@ -397,25 +399,17 @@ fn write_isolation(text: &mut String, summary: &Summary) -> std::fmt::Result {
     Ok(())
 }
 
-fn write_hinges(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::Result {
+fn write_damage(
+    text: &mut String,
+    models: &[Building],
+    buildings: &[BuildingSummary],
+) -> std::fmt::Result {
     let mut between = "\n";
-    for building in buildings
-        .iter()
-        .filter(|building| building.hinges.total > 0)
-    {
-        let hinges = &building.hinges;
-        let first = hinges.first_yield_s.map_or_else(String::new, |first| {
-            format!(
-                ", first at {first:.3} s, with a ductility up to {:.1}",
-                hinges.ductility
-            )
-        });
-        writeln!(
-            text,
-            "{between}{}: {} of {} hinges yielded{first}; {} cracked",
-            building.name, hinges.yielded, hinges.total, hinges.cracked
-        )?;
-        between = "";
+    for (index, building) in buildings.iter().enumerate() {
+        for one in damage(models.get(index), building) {
+            writeln!(text, "{between}{}: {}", building.name, one.sentence())?;
+            between = "";
+        }
     }
     Ok(())
 }
@@ -819,18 +813,21 @@ fn write_codes(
             "  Minimum by codes: not known without the run without contact, which was left out; see jostle gap."
         );
     }
-    let short = |rule: &&&Requirement| computed.is_some_and(|computed| rule.width < computed);
-    let short: Vec<&str> = rules.iter().filter(short).map(|rule| &*rule.name).collect();
+    let rows = rows_of_rules(&rules, |rule| (&rule.name, rule.width));
+    let short = rows
+        .iter()
+        .filter(|(_, rule)| computed.is_some_and(|computed| rule.width < computed));
+    let short: Vec<&str> = short.map(|(name, _)| &**name).collect();
     if let (Some(computed), false) = (computed, short.is_empty()) {
-        let codes = short.join(", ");
+        let codes = short.join("; ");
         let computed = LENGTH.text(computed, 1);
         writeln!(
             text,
             "  The minimum by {codes} is less than the {computed} computed."
         )?;
     }
-    let widths = rules.iter();
-    let widths = widths.map(|rule| format!("{} {}", rule.name, rounded_up(rule.width)));
+    let widths = rows.iter();
+    let widths = widths.map(|(name, rule)| format!("{name}: {}", LENGTH.rounded_up(rule.width)));
     let widths: Vec<String> = widths.collect();
     if !widths.is_empty() {
         write_list(
@@ -857,7 +854,7 @@ fn write_list(text: &mut String, heading: &str, items: &[String]) -> std::fmt::R
     for (index, item) in items.iter().enumerate() {
         let item = match index + 1 == items.len() {
             true => format!("{item}."),
-            false => format!("{item}, "),
+            false => format!("{item}; "),
         };
         if line.trim_end() != heading.trim_end()
             && line.chars().count() + item.chars().count() > WIDTH
@@ -916,8 +913,8 @@ mod tests {
             text,
             "\n\
              effect of pounding (with ÷ without)       storey drift       storey shear       acceleration\n\
-             A                             worst    1.50 (storey 2)    1.20 (storey 2)     4.50 (floor 2)\n\
-             \x20                             best     0.50 (storey 1)    0.80 (storey 1)     0.50 (floor 1)\n\n"
+             A                    most affected     1.50 (storey 2)    1.20 (storey 2)     4.50 (floor 2)\n\
+             \x20                    least affected    0.50 (storey 1)    0.80 (storey 1)     0.50 (floor 1)\n\n"
         );
         let mut text = String::new();
         let _ = write_changes(&mut text, &[]);
@@ -952,10 +949,10 @@ mod tests {
             building("C", uncracked),
         ];
         let mut text = String::new();
-        let _ = write_hinges(&mut text, &buildings);
+        let _ = write_damage(&mut text, &[], &buildings);
         assert_eq!(
             text,
-            "\nA: 7 of 50 hinges yielded, first at 2.134 s, with a ductility up to 2.4; 40 cracked\n\
+            "\nA: 7 of 50 hinges yielded, first at 2.134 s; 40 cracked; ductility 2.4\n\
              C: 0 of 4 hinges yielded; 0 cracked\n"
         );
     }

@@ -1,6 +1,6 @@
 //! A study ready to be run: file, cases, columns.
 
-use jostle::Settings;
+use jostle::{Settings, Summary};
 use jostle_io::{Factor, FactorValues, InputError, ModelTree, PathError, StudyFile};
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
@@ -12,7 +12,7 @@ use crate::design::{CaseDesign, Choice, DesignError, value_of};
 use crate::layout::{Layout, Named};
 use crate::measures::measures;
 use crate::verified::Verified;
-use jostle_run::{CaseCache, CaseError};
+use jostle_run::{CaseCache, CaseError, Prepared};
 
 /// A study ready to be run.
 pub struct Study {
@@ -420,16 +420,20 @@ fn columns(
 ) -> Result<(Vec<Named>, Vec<String>), CaseError> {
     let input = tree(file, choices)?.input()?;
     let mut prepared = case_cache.assemble(input)?;
-    let warnings = prepared.input.warnings.clone();
+    let summary = at_rest(&mut prepared);
+    let list = measures(&summary, &prepared.motion, file.without_contact);
+    Ok((list, prepared.input.warnings.clone()))
+}
+
+/// The summary of a case before its motion begins.
+pub(crate) fn at_rest(prepared: &mut Prepared) -> Summary {
     prepared.motion.duration = 0.0;
     let settings = Settings {
         record_interval: None,
         ..Settings::default()
     };
     let outcome = prepared.step(settings, |_| ControlFlow::Continue(()));
-    let summary = prepared.summary(&outcome, None, 0.0);
-    let list = measures(&summary, &prepared.motion, file.without_contact);
-    Ok((list, warnings))
+    prepared.summary(&outcome, None, 0.0)
 }
 
 /// Identity of studies, and the hash of the base model. Files belong to it by their contents: those that the reader of

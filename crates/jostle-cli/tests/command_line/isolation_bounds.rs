@@ -61,19 +61,19 @@ fn check_says_whether_columns_shorten_and_why() {
             4,
             square,
             "",
-            "columns keep their length, the default up to 3 times as high as wide or 10 storeys; 1.0 times as high as wide",
+            "columns axially rigid (default up to 3 times as high as wide or 10 storeys); 1.0 times as high as wide",
         ),
         (
             12,
             square,
             "",
-            "columns shorten under axial force, the default above 3 times as high as wide or 10 storeys; 3.0 times as high as wide",
+            "columns shorten under axial force (default above 3 times as high as wide or 10 storeys); 3.0 times as high as wide",
         ),
         (
             12,
             square,
             "axial = \"rigid\"",
-            "columns keep their length, as stated; 3.0 times as high as wide",
+            "columns axially rigid, as stated; 3.0 times as high as wide",
         ),
         (
             4,
@@ -85,7 +85,7 @@ fn check_says_whether_columns_shorten_and_why() {
             12,
             "{ EI = 1e8, mass = 600 }",
             "",
-            "columns keep their length: no EA, or a foundation on soil; 3.0 times as high as wide",
+            "columns axially rigid: no EA, or a foundation on soil; 3.0 times as high as wide",
         ),
     ] {
         assert_eq!(says(storeys, column, axial), due);

@@ -51,6 +51,14 @@ messages! {
     classes_interval = "90 % interval [g]";
     classes_note = "note";
 
+    // damage
+    hinges_yielded_word = "hinges yielded";
+    braces_buckled = "braces buckled";
+    braces_yielded = "braces yielded";
+    struts_cracked = "infill struts cracked";
+    crushed_of_struts(count) = "{count} crushed";
+    damage_first_at(instant) = ", first at {instant} s";
+
     // collisions
     time_ms = "time [ms]";
     indentation_mm = "indentation [{mm}]";
@@ -156,8 +164,8 @@ messages! {
     damping_of_that_mode = "damping of that mode";
     on_rigid_ground(damping_ratio, damping_ratio_fixed) = "{damping_ratio} %, on rigid ground {damping_ratio_fixed} %";
     springs_and_dashpots = "springs and dashpots of the soil";
-    hinges = "hinges";
-    cracked_yielded(cracked, yielded) = "{cracked} cracked, {yielded} yielded";
+    hinges_word = "hinges";
+    damage_word = "damage";
     lateral_mode = "lateral mode";
     period_s = "period [s]";
     spans = "spans";
@@ -348,9 +356,7 @@ messages! {
     cracking_and_yielding_title = "Cracking and yielding";
     hinges_with_the_largest_ductility = "Hinges with the largest ductility or dissipated energy. Dashed: the curve of first loading. The dot is the instant of the cursor; the strong line leads to it from the left end of the charts above.";
     residual_displacement_of_the_roof(residual) = "Residual displacement of the roof: {residual}.";
-    yields_at_of_places_first(name, yielded, total, instant, cracked, ductility, dissipated, residual) = "{name}: {yielded} of {total} hinges yielded, first at {instant}; {cracked} cracked. Greatest ductility {ductility}; {dissipated} dissipated. {residual}";
-    neither_cracks_nor_yields(name, total) = "{name}: none of {total} hinges cracked or yielded.";
-    cracks_at_of_places(name, cracked, total, residual) = "{name}: {cracked} of {total} hinges cracked, none yielded. {residual}";
+    damage_of_building(name, damage, dissipated, residual) = "{name}: {damage}. {dissipated} dissipated. {residual}";
     cracked = "cracked";
     yielded = "yielded";
     ductility = "ductility";
@@ -515,12 +521,12 @@ messages! {
     worst_struck_column = "Worst struck column";
     times_its_capacity(ratio) = "{ratio} × capacity";
     struck_up_to(times, force) = "struck {times} ×, up to {force}";
-    hinges_yielded = "Hinges yielded";
     peak_ground_acceleration = "Peak ground acceleration";
     under_the_motion(name, peak, percent, imbalance) = "Under {name}, peak {peak} ({percent} % g). Energy imbalance {imbalance}.";
     roof_of(name) = "Roof of {name}";
-    hinges_yielded_of(name) = "Hinges yielded, {name}";
+    damage_of(what, name) = "{what}, {name}";
     one_of_all(one, all) = "{one} of {all}";
+    count_cracked(cracked) = "{cracked} cracked";
     cracked_ductility(cracked, ductility) = "{cracked} cracked; ductility {ductility}";
     accuracy = "Accuracy:";
     assumptions_and_limits = "Assumptions and limits of this result";
@@ -909,6 +915,8 @@ messages! {
     the_smallest_distance_between(head, left, right, distance) = "{head}the smallest distance between {left} and {right} is {distance}.";
     no_contact = "No contact.";
     mats = "mats";
+    wall_member(of, line, storey) = "{of}.wall, line {line}, storey {storey}";
+    floor_against_column(floor, of, other, height) = "floor {floor} of {of} against a column of {other}, {height}";
     floors_and(left, right) = "floors {left} and {right}";
     height_m(height) = "height {height}\u{a0}{m}";
     once = "once";
@@ -920,14 +928,14 @@ messages! {
     one_row_per_width = "one row per width";
     the_greatest_force_kn_comes(peak_force, width) = " The greatest force, {peak_force} {kN}, comes at a gap of {width} {mm}.";
     under_with_cm_s_do(motion, pga, pair, gap, strongest) = "Under {motion} with {pga} {cm/s²}, {pair} do not touch from {gap} {mm} on.{strongest}";
-    gaps_of_rules = "gaps of rules";
+    one_record_is_no_design_value = "One record gives no design value: codes require 3, 7 or 11 records.";
     did_not_meet_the_tolerance(unmet) = " {unmet} did not meet the tolerance (column met).";
     point = "point";
-    greatest_contact_force_and_number(warning) = "Greatest contact force and number of impacts over the width of the gap, all other gaps out of reach. Dots: the gaps of rules that are narrower than needed. Where neighbouring points jump, a slightly different gap leads to other impacts.{warning}";
+    greatest_contact_force_and_number(warning) = "Greatest contact force and number of impacts over the width of the gap, all other gaps out of reach. Dots: rules that require less than needed. Where neighbouring points jump, a slightly different gap leads to other impacts.{warning}";
     greatest_contact_force = "greatest contact force";
-    gap_mm = "gap {mm}";
+    gap_mm = "required gap [{mm}]";
     smallest = "÷ smallest";
-    greatest_force_kn = "greatest force {kN}";
+    greatest_force_kn = "greatest force [{kN}]";
     rules_under(motion) = "Rules under {motion}";
     smallest_gap_without_pounding_mm(gap) = "Smallest gap without pounding: {gap} {mm}. Sources: jostle gap --json.";
 
@@ -1163,23 +1171,26 @@ messages! {
     minimised = "minimised";
     trials_word = "trials";
     seed_word = "seed";
-    kept_word = "kept";
+    kept_word = "condition";
     records_fact = "records";
     best_trial_and_trade_offs = "the best trial and the trade-offs";
     one_row_per_trial = "one row per trial";
     finished_trials_to_go_on_from = "finished trials, from which the same command goes on";
-    misses_a_condition = "misses a condition";
-    keeps_all = "keeps all";
+    misses_a_condition = "violates a condition";
+    keeps_all = "meets all conditions";
     least_of_front = "least";
     trade_off_against(objective, left) = "Trade-off: {objective} against {left}";
-    line_joins_unbeaten_trials(condition) = "The line joins trials that no other beats in both. Kept: {condition}.";
+    line_joins_unbeaten_trials(condition) = "The line joins trials that no other beats in both. Condition: {condition}.";
     course_of_the_search = "Course of the search";
-    least_objective_so_far = "The least objective among the trials so far that keep all conditions.";
+    least_objective_so_far = "The least objective among the trials so far that meet all conditions.";
     trial_axis = "trial";
     objective_over_varied_keys = "Objective over the varied keys";
     best_trials = "The best trials";
 
     // jostle-study: suite
+    suite_of_no_gap(records) = "{records} records, no gap.";
+    suite_pounds(pounding, records) = "The buildings pound under {pounding} of {records} records.";
+    greatest_of(name) = "{name}, greatest";
     peak_displacement_over_height = "Peak displacement";
     peak_storey_drift_over_height = "Peak storey drift";
     peak_drift_of_corners_over_height = "Peak storey drift of corners";
@@ -1203,6 +1214,8 @@ messages! {
     // jostle-study: results
     over_factor(name) = "Over {name}";
     one_line_for_each(name) = "One line for each {name}.";
+    lines_shown(name, shown, all) = "One line for each {name}; {shown} of {all} shown, with the first, the last and the one of the greatest value.";
+    combinations_shown(shown, all) = "{shown} of {all} combinations shown, from the first to the last.";
     each_curve = "each";
     demand_over_intensity_file = "demand over intensity, curve by curve, with fractiles";
     incremental_dynamic_analysis = "Incremental dynamic analysis";
@@ -1233,11 +1246,15 @@ messages! {
     greatest_force_of_cases(force) = "; the greatest force is {force} {kN}";
     design_word = "design";
     needed_gap = "needed";
+    gap_needed_at(name, levels, gaps, of_all) = "Gap needed at {name} {levels}: {gaps} {mm}{of_all}.";
+    the_greatest_of_combinations(count) = ", the greatest of {count} combinations";
+    more_than(width) = "> {width}";
     required_gap = "Gaps of rules";
     smallest_gap_and_rules = "Smallest gap of this study without impact, and rules";
-    needed_gap_and_rules = "Needed: the smallest gap of this study without an impact and without one at any wider gap. The true value lies between it and the next smaller gap of the study. ABS, SRSS and DDC come from the peak displacements at the highest floors that face each other, with the widest gap: the greatest of all records and draws, where none of them closes it.";
+    needed_gap_and_rules = "Needed: the smallest gap of this study without an impact and without one at any wider gap. The true value lies between it and the next smaller gap of the study. ABS, SRSS and DDC come from the peak displacements where the buildings can touch, with the widest gap: the greatest of all records and draws, where none of them closes it.";
     gb50011_of_intensity(intensity) = "GB 50011, intensity {intensity}";
-    gb50011_of_intensities(least, most) = "GB 50011, intensities 7 to 9: {least} to {most} {mm}";
+    gb50011_of_every_intensity = "GB 50011, every intensity";
+    gb50011_of_intensities(least, most) = "GB 50011, intensities 6 to 9: {least} to {most} {mm}";
     share_of_the_variance = "share of the variance";
     how_much_factors_matter = "how much every factor matters";
     sensitivity_of_results = "Sensitivity";

@@ -125,12 +125,17 @@ pub(super) fn figure(chart: &Chart) -> Markup {
         let lower: Vec<[f64; 2]> = lower.map(|(p, band)| [p[0], band[0]]).collect();
         format!("{}Z", path(&[upper, lower].concat()))
     };
-    // Levels differ by lightness, from low to high; other series by hue.
+    // Levels are a sequence from low to high; other series differ by hue.
     let last = chart.series.iter().map(|series| series.colour).max();
     let colour = |number: usize| match last {
         Some(last) if chart.ordered => {
-            let share = 100.0 * number as f64 / last.max(1) as f64;
-            format!("--c:color-mix(in oklab, var(--high) {share:.0}%, var(--low))")
+            let share = 200.0 * number as f64 / last.max(1) as f64;
+            let (to, from, share) = if share > 100.0 {
+                ("high", "middle", share - 100.0)
+            } else {
+                ("middle", "low", share)
+            };
+            format!("--c:color-mix(in oklab, var(--{to}) {share:.0}%, var(--{from}))")
         }
         _ => format!("--c:var(--c{})", number % COLOURS),
     };
@@ -146,7 +151,7 @@ pub(super) fn figure(chart: &Chart) -> Markup {
                 @if !chart.title.is_empty() { span.chart-title { (chart.title) } }
                 span.legend {
                     @for series in named.iter().take(LEGEND) {
-                        span.key style=(colour(series.colour)) { span.swatch.dashed[series.stroke == Stroke::Dashed] {} (series.name) }
+                        span.key style=(colour(series.colour)) { span.swatch.dashed[series.stroke == Stroke::Dashed].dots[series.stroke == Stroke::Dots] {} (series.name) }
                     }
                     @if named.len() > LEGEND { span.key { (message::and_more(named.len() - LEGEND)) } }
                 }
@@ -170,7 +175,6 @@ pub(super) fn figure(chart: &Chart) -> Markup {
                 }
                 @for level in &chart.levels {
                     line.study-level x1=(LEFT) x2=(WIDTH - RIGHT) y1=(py(level.value)) y2=(py(level.value)) {}
-                    text.study-level-name x=(WIDTH - RIGHT - 4.0) y=(py(level.value) - 4.0) text-anchor="end" { (level.name) }
                 }
                 @for series in &chart.series {
                     @if series.stroke != Stroke::Dots && series.points.len() > 1 {
@@ -183,6 +187,14 @@ pub(super) fn figure(chart: &Chart) -> Markup {
                             }
                         }
                     }
+                }
+                @for series in chart.series.iter().filter(|own| own.stroke == Stroke::Dots && own.points.len() == 1) {
+                    @let [x, y] = series.points[0];
+                    text.study-level-name x=(format!("{:.1}", px(x) + 6.0)) y=(format!("{:.1}", py(y) - 4.0)) { (series.name) }
+                }
+                // Above the lines, which would cross them.
+                @for level in &chart.levels {
+                    text.study-level-name x=(WIDTH - RIGHT - 4.0) y=(py(level.value) - 4.0) text-anchor="end" { (level.name) }
                 }
                 text x=(0.5 * (LEFT + WIDTH - RIGHT)) y=(HEIGHT - 6.0) text-anchor="middle" { (chart.x.label()) }
                 text x="0" y="0" transform={ "translate(12 " (0.5 * (TOP + HEIGHT - BOTTOM)) ") rotate(-90)" } text-anchor="middle" { (chart.y.label()) }

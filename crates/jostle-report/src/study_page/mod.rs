@@ -241,6 +241,12 @@ fn number(value: f64) -> String {
     }
 }
 
+/// A number with three significant digits and its unit, which may be empty.
+#[must_use]
+pub fn with_unit(value: f64, unit: &str) -> String {
+    format!("{} {unit}", number(value)).trim_end().to_owned()
+}
+
 impl Axis {
     /// Name with unit.
     fn label(&self) -> String {

@@ -12,8 +12,12 @@ use jostle::results::summary::Finding;
 pub struct SuitePage {
     /// Title of the model.
     pub title: String,
-    /// The rule for governing values, in a sentence.
+    /// The result in a sentence.
     pub headline: String,
+    /// The rule for governing values, in a sentence.
+    pub rule: String,
+    /// The greatest values over the records: name, value with unit, and the record.
+    pub tiles: Vec<[String; 3]>,
     /// Warnings about the governing values.
     pub warnings: Vec<String>,
     /// The accuracy of the worst record, in a sentence; empty if none reached its end.
@@ -95,6 +99,12 @@ pub fn render_suite(page: &SuitePage) -> String {
                 }
                 main {
                     p.verdict { (page.headline) }
+                    div.tiles {
+                        @for [name, value, note] in &page.tiles {
+                            div.tile { p.tile-name { (name) } p.tile-value { (value) } p.tile-note { (note) } }
+                        }
+                    }
+                    p.quiet { (page.rule) }
                     @if !page.accuracy.is_empty() { p.quiet { b { (message::accuracy()) " " } (page.accuracy) "." } }
                     (quantities(page))
                     (records(page))

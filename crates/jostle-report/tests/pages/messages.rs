@@ -42,6 +42,7 @@ const NO_TEXT: &[&str] = &[
     "jostle",
     "Content-Security-Policy",
     "(prefers-color-scheme: dark)",
+    "(max-width: 860px)",
     "hinge-2 grade-",
     "14px system-ui, sans-serif",
     "12px system-ui, sans-serif",

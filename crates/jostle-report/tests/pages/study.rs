@@ -151,7 +151,7 @@ fn axes_have_titles_and_rankings_their_base_and_ticks() {
 }
 
 #[test]
-fn levels_of_one_quantity_differ_by_lightness_alone() {
+fn levels_of_one_quantity_are_a_sequence_of_colours() {
     let mut page = page();
     let chart = &mut page.sections[0].charts[0];
     let first = chart.series[0].clone();
@@ -166,8 +166,12 @@ fn levels_of_one_quantity_differ_by_lightness_alone() {
     assert!(own.contains("--c:var(--c2)") && !own.contains("--high) 50%"));
     page.sections[0].charts[0].ordered = true;
     let ordered = render_study(&page);
-    for share in [0, 50, 100] {
-        let colour = format!("--c:color-mix(in oklab, var(--high) {share}%, var(--low))");
+    for (share, to, from) in [
+        (0, "middle", "low"),
+        (100, "middle", "low"),
+        (100, "high", "middle"),
+    ] {
+        let colour = format!("--c:color-mix(in oklab, var(--{to}) {share}%, var(--{from}))");
         // In the legend, the line and its band.
         assert_eq!(ordered.matches(&colour).count(), 3, "{share} %");
     }

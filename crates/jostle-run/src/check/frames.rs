@@ -15,7 +15,7 @@ pub(super) fn axial_of_columns(frame: &Frame, is_stated: Option<bool>) -> String
     let (height, width): (f64, f64) = (frame.storey_heights.iter().sum(), frame.spans.iter().sum());
     let what = match frame.axial.columns_flexible {
         true => "columns shorten under axial force",
-        false => "columns keep their length",
+        false => "columns axially rigid",
     };
     let limit = format!(
         "{} times as high as wide or {} storeys",
@@ -31,9 +31,9 @@ pub(super) fn axial_of_columns(frame: &Frame, is_stated: Option<bool>) -> String
         (Some(false), true, _) if !frame.walls.is_empty() => {
             ", the default of frames with walls".to_owned()
         }
-        (Some(false), true, _) => format!(", the default above {limit}"),
+        (Some(false), true, _) => format!(" (default above {limit})"),
         (Some(false), false, true) => ": no EA, or a foundation on soil".to_owned(),
-        (Some(false), false, false) => format!(", the default up to {limit}"),
+        (Some(false), false, false) => format!(" (default up to {limit})"),
         (None, ..) => String::new(),
     };
     if width > 0.0 {

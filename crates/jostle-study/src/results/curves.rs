@@ -13,6 +13,8 @@ use crate::study::StudyError;
 const MOST_GROUPS: usize = 8;
 /// Largest number of distinguishable lines in one chart.
 const MOST_LINES: usize = 14;
+/// Largest number of levels of one quantity that a sequence of colours tells apart.
+const MOST_LEVELS: usize = 8;
 /// Largest number of curves in one chart.
 const MOST_CURVES: usize = 200;
 /// Curves from which on fractiles are drawn.
@@ -27,6 +29,7 @@ impl Results<'_> {
         let (y_axis, y_size) = words::axis(&self.study.layout.inputs[up].name);
         let mut charts = Vec::new();
         let groups = self.grouped(&self.others(&[right, up]));
+        let levels = self.numbers(up);
         for (name, cases) in groups.into_iter().take(MOST_GROUPS) {
             for shown in ["peak_force_n", "impact_count"] {
                 let values = self.table.column(shown);
@@ -34,22 +37,24 @@ impl Results<'_> {
                     continue;
                 }
                 let (axis, size) = words::axis(shown);
-                let levels = self.numbers(up);
-                let series = levels.iter().enumerate().map(|(colour, level)| {
-                    let of_level = cases.iter().filter(|case| ys[**case] == Some(*level));
-                    let mut points: Vec<[f64; 2]> = of_level
-                        .filter_map(|case| Some([x_size * xs[*case]?, size * values[*case]?]))
-                        .collect();
-                    sort_by(&mut points, |a, b| a[0].total_cmp(&b[0]));
-                    Series {
-                        name: format!("{:.4} {}", y_size * level, y_axis.unit)
-                            .trim()
-                            .to_owned(),
-                        points: means(&points),
-                        band: Vec::new(),
-                        stroke: Stroke::Dotted,
-                        colour,
-                    }
+                let lines: Vec<Vec<[f64; 2]>> = levels
+                    .iter()
+                    .map(|level| {
+                        let of_level = cases.iter().filter(|case| ys[**case] == Some(*level));
+                        let mut points: Vec<[f64; 2]> = of_level
+                            .filter_map(|case| Some([x_size * xs[*case]?, size * values[*case]?]))
+                            .collect();
+                        sort_by(&mut points, |a, b| a[0].total_cmp(&b[0]));
+                        means(&points)
+                    })
+                    .collect();
+                let drawn = with_highest(spread(levels.len(), MOST_LEVELS), &lines);
+                let series = drawn.into_iter().map(|level| Series {
+                    name: jostle_report::with_unit(y_size * levels[level], &y_axis.unit),
+                    points: lines[level].clone(),
+                    band: Vec::new(),
+                    stroke: Stroke::Dotted,
+                    colour: level,
                 });
                 charts.push(Chart {
                     title: if name.is_empty() {
@@ -59,16 +64,21 @@ impl Results<'_> {
                     },
                     x: x_axis.clone(),
                     y: axis,
-                    series: series.take(MOST_LINES).map(short_name).collect(),
+                    series: series.collect(),
                     levels: Vec::new(),
                     reach: 0.0,
                     ordered: true,
                 });
             }
         }
-        (!charts.is_empty()).then(|| Section {
+        let most = charts.iter().map(|chart| chart.series.len()).max()?;
+        Some(Section {
             title: message::over_factor(&x_axis.name),
-            remark: message::one_line_for_each(&y_axis.name),
+            remark: if most < levels.len() {
+                message::lines_shown(&y_axis.name, most, levels.len())
+            } else {
+                message::one_line_for_each(&y_axis.name)
+            },
             charts,
             ..Section::default()
         })
@@ -80,7 +90,9 @@ impl Results<'_> {
         let xs = self.input(factor);
         let (x_axis, x_size) = words::axis(&self.study.layout.inputs[factor].name);
         let groups = self.grouped(&self.others(&[factor]));
-        let lines: Vec<_> = groups.into_iter().take(MOST_LINES).collect();
+        let all = groups.len();
+        let drawn = spread(all, MOST_LINES);
+        let lines: Vec<_> = drawn.into_iter().map(|group| &groups[group]).collect();
         let mut charts = Vec::new();
         for shown in ["peak_force_n", "impact_count", "closing_peak_m"] {
             let values = self.table.column(shown);
@@ -114,6 +126,11 @@ impl Results<'_> {
         }
         (!charts.is_empty()).then(|| Section {
             title: message::over_factor(&x_axis.name),
+            remark: if lines.len() < all {
+                message::combinations_shown(lines.len(), all)
+            } else {
+                String::new()
+            },
             charts,
             ..Section::default()
         })
@@ -218,15 +235,27 @@ impl Results<'_> {
     }
 }
 
-fn short_name(mut series: Series) -> Series {
-    // 35.0000 cm/s² reads better as 35 cm/s².
-    if let Some((number, unit)) = series.name.clone().split_once(' ')
-        && number.contains('.')
+/// At most `most` of the numbers below `count`, as evenly as they go, the first and the last among them.
+pub(super) fn spread(count: usize, most: usize) -> Vec<usize> {
+    let shown = count.min(most);
+    let gaps = shown.saturating_sub(1).max(1);
+    (0..shown)
+        .map(|index| (index * (count - 1) + gaps / 2) / gaps)
+        .collect()
+}
+
+/// Adds the line that reaches highest, if it is not among those drawn.
+fn with_highest(mut drawn: Vec<usize>, lines: &[Vec<[f64; 2]>]) -> Vec<usize> {
+    let height = |line: &Vec<[f64; 2]>| line.iter().map(|point| point[1]).fold(0.0, f64::max);
+    let heights = lines.iter().map(height).enumerate();
+    let highest = heights.max_by(|a, b| a.1.total_cmp(&b.1));
+    if let Some((highest, _)) = highest
+        && !drawn.contains(&highest)
     {
-        let number = number.trim_end_matches('0').trim_end_matches('.');
-        series.name = format!("{number} {unit}");
+        drawn.push(highest);
+        drawn.sort_unstable();
     }
-    series
+    drawn
 }
 
 /// Means of points at equal places, which follow each other.
@@ -298,4 +327,21 @@ fn ida_table(
         (intensity.to_owned(), Values::Real(xs)),
         (demand.to_owned(), Values::Real(ds)),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_are_chosen_evenly_and_the_strongest_is_among_them() {
+        assert_eq!(spread(0, 8), [0; 0]);
+        assert_eq!(spread(3, 8), [0, 1, 2]);
+        assert_eq!(spread(24, 8), [0, 3, 7, 10, 13, 16, 20, 23]);
+        let lines: Vec<Vec<[f64; 2]>> = (0..24)
+            .map(|level| vec![[0.0, if level == 22 { 9.0 } else { 1.0 }]])
+            .collect();
+        let drawn = with_highest(spread(24, 8), &lines);
+        assert_eq!(drawn, [0, 3, 7, 10, 13, 16, 20, 22, 23]);
+    }
 }

@@ -1,75 +1,52 @@
 //! The required gap at every intensity, compared with the rules.
 
-use jostle::Structure;
-use jostle::separation::{ddc_coefficient, double_difference, gb50011_frame_joint, srss};
+use std::sync::Arc;
+
+use jostle::Summary;
+use jostle::results::summary::FloorSummary;
+use jostle::separation::{Code, Requirement};
+use jostle_io::Input;
 use jostle_io::shown::LENGTH;
 use jostle_report::message;
-use jostle_report::{Chart, Level, Section, Series, Stroke};
+use jostle_report::{Chart, Level, Section, Series, Stroke, rows_of_rules};
+use jostle_run::CaseCache;
 
+use super::curves::spread;
 use super::{Results, words};
-use crate::study::Study;
+use crate::study::{Study, at_rest};
 
-/// Columns that [`Results::needed_gap`] reads: peaks of the highest common floors of the first gap.
+/// Rules drawn over the intensity, by their names.
+const DRAWN: [&str; 3] = ["ABS", "SRSS", "DDC"];
+/// Groups of cases that are drawn at most, one for each colour.
+const MOST_GROUPS: usize = 7;
+/// Intensities whose gap the head of the page names at most.
+const SAID_LEVELS: usize = 5;
+/// Least distance of horizontal lines with names of their own, as a share of the axis.
+const LEAST_APART: f64 = 0.06;
+
+/// Columns that [`Results::needed_gap`] reads: peaks of the floors beside the only gap.
 pub(super) fn columns(study: &Study) -> Vec<String> {
-    places(study).map_or(Vec::new(), |places| {
-        let mut names: Vec<String> = places
-            .roofs
-            .iter()
-            .flat_map(|roof| {
-                [
-                    format!("{roof}.displacement_max_m"),
-                    format!("{roof}.displacement_min_m"),
-                ]
+    let Ok(input) = study.file.base.input() else {
+        return Vec::new();
+    };
+    let [gap] = &input.model.gaps[..] else {
+        return Vec::new();
+    };
+    let beside = input.model.buildings_beside(gap.between);
+    let beside = beside.into_iter().flatten();
+    let beside = beside.map(|building| &input.model.buildings[building].name);
+    let all = beside.flat_map(|name| {
+        let own = format!("{name}.");
+        let names = study.layout.results.iter().map(|column| &column.name);
+        names.filter(move |column| {
+            column.strip_prefix(&own).is_some_and(|rest| {
+                let place = rest.starts_with("floor") || rest.starts_with("isolation_");
+                let ends = ["max_m", "min_m"].iter().any(|end| rest.ends_with(end));
+                place && ends && rest.contains("displacement_")
             })
-            .collect();
-        names.extend(places.names.iter().map(|name| format!("{name}.period_s")));
-        names
-    })
-}
-
-struct Places {
-    names: [String; 2],
-    /// The highest common floor of either neighbour, as its columns begin.
-    roofs: [String; 2],
-    height: f64,
-    damping: f64,
-}
-
-/// The highest floors that face each other in the base model.
-fn places(study: &Study) -> Option<Places> {
-    let model = study.file.base.input().ok()?.model;
-    let gap = model.gaps.first().filter(|_| model.gaps.len() == 1)?;
-    let [Some(left), Some(right)] = gap.between else {
-        return None;
-    };
-    let pair = [&model.buildings[left], &model.buildings[right]];
-    let levels = pair.map(|building| building.floor_levels());
-    let top = levels[0]
-        .iter()
-        .enumerate()
-        .rev()
-        .find_map(|(left, height)| {
-            let right = levels[1].iter().position(|h| (h - height).abs() < 1e-3)?;
-            Some([left, right])
-        })?;
-    let height = pair.iter().filter_map(|own| own.floor_heights().pop());
-    let ratio = |building: &jostle::Building| match building.damping {
-        jostle::Damping::Ratio { ratio, .. } | jostle::Damping::AllModes { ratio } => ratio,
-        jostle::Damping::Rayleigh { .. } => 0.05,
-    };
-    let frames = pair
-        .iter()
-        .all(|building| matches!(building.structure, Structure::Frame(_)));
-    Some(Places {
-        names: pair.map(|building| building.name.clone()),
-        roofs: [0, 1].map(|side| format!("{}.floor{}", pair[side].name, top[side] + 1)),
-        height: if frames {
-            height.fold(f64::INFINITY, f64::min)
-        } else {
-            f64::NAN
-        },
-        damping: (ratio(pair[0]) * ratio(pair[1])).sqrt(),
-    })
+        })
+    });
+    all.cloned().collect()
 }
 
 impl Results<'_> {
@@ -88,14 +65,16 @@ impl Results<'_> {
         let (axis, size) = words::axis(&self.study.layout.inputs[up].name);
         let impacts = self.table.column("impact_count").to_vec();
         let groups = self.grouped(&self.others(&[right, up]));
-        let places = places(self.study);
         let levels = self.numbers(up);
         let widest = self.numbers(right).last().copied().unwrap_or(0.0);
+        let rules = Rules::new(self.study);
+        // Greatest gap needed at every intensity, infinite where the widest of the study is hit.
+        let mut most = vec![0.0_f64; levels.len()];
         let mut series = Vec::new();
-        for (colour, (name, cases)) in groups.iter().enumerate().take(7) {
+        for (colour, (name, cases)) in groups.iter().enumerate() {
             let (mut needed, mut between) = (Vec::new(), Vec::new());
-            let mut rules: [Vec<[f64; 2]>; 3] = Default::default();
-            for level in &levels {
+            let mut of_rules: [Vec<[f64; 2]>; DRAWN.len()] = Default::default();
+            for (level, most) in levels.iter().zip(&mut most) {
                 let own = || {
                     cases
                         .iter()
@@ -108,36 +87,44 @@ impl Results<'_> {
                     .filter_map(|case| gaps[*case])
                     .filter(|gap| *gap > hit)
                     .fold(f64::INFINITY, f64::min);
+                *most = most.max(free);
                 if free.is_finite() {
                     needed.push([size * level, gap_size * free]);
                     between.push([gap_size * hit.max(0.0), gap_size * free]);
                 }
+                if groups.len() > 1 {
+                    continue;
+                }
                 // All records and draws alike: the same cases at every intensity.
-                let apart: Vec<usize> = own()
-                    .filter(|case| gaps[**case] == Some(widest))
-                    .copied()
-                    .collect();
-                let free = apart.iter().all(|case| impacts[*case] == Some(0.0));
-                if let (true, Some(places)) = (free, &places) {
-                    self.rules(&apart, places, [size * level, gap_size], &mut rules);
+                let apart = own().filter(|case| gaps[**case] == Some(widest));
+                if let Some(rules) = &rules
+                    && apart.clone().all(|case| impacts[*case] == Some(0.0))
+                {
+                    let found = apart.filter_map(|case| self.required(*case, rules));
+                    let greatest = found.reduce(|a, b| std::array::from_fn(|i| a[i].max(b[i])));
+                    for (points, gap) in of_rules.iter_mut().zip(greatest.into_iter().flatten()) {
+                        if gap.is_finite() {
+                            points.push([size * level, gap_size * gap]);
+                        }
+                    }
                 }
             }
-            let label = |what: &str| {
-                if name.is_empty() {
-                    what.to_owned()
-                } else {
-                    format!("{what}, {name}")
-                }
-            };
+            if colour >= MOST_GROUPS {
+                continue;
+            }
             series.push(Series {
-                name: label(message::needed_gap()),
+                name: if name.is_empty() {
+                    message::needed_gap().to_owned()
+                } else {
+                    format!("{}, {name}", message::needed_gap())
+                },
                 points: needed,
                 band: between,
                 stroke: Stroke::Dotted,
                 colour,
             });
-            for (rule, points) in ["ABS", "SRSS", "DDC"].into_iter().zip(rules) {
-                if groups.len() == 1 && !points.is_empty() {
+            for (rule, points) in DRAWN.into_iter().zip(of_rules) {
+                if !points.is_empty() {
                     series.push(Series {
                         name: rule.to_owned(),
                         points,
@@ -148,37 +135,58 @@ impl Results<'_> {
                 }
             }
         }
-        let height = places.map_or(f64::NAN, |places| places.height);
-        let codes = [7, 8, 9].into_iter().filter_map(|intensity| {
-            Some(Level {
-                name: message::gb50011_of_intensity(intensity),
-                value: gap_size
-                    * gb50011_frame_joint(height, intensity).filter(|_| height.is_finite())?,
-            })
+        let width = |gap: f64| {
+            if gap.is_finite() {
+                LENGTH.rounded_up(gap)
+            } else {
+                message::more_than(LENGTH.rounded_up(widest))
+            }
+        };
+        let intensity = |level: f64| jostle_report::with_unit(size * level, &axis.unit);
+        let named = spread(levels.len(), SAID_LEVELS);
+        let join = |text: &dyn Fn(usize) -> String| {
+            let all: Vec<String> = named.iter().map(|at| text(*at)).collect();
+            all.join(" / ")
+        };
+        self.said.push(message::gap_needed_at(
+            &axis.name,
+            format!(
+                "{} {}",
+                join(&|at| jostle_report::with_unit(size * levels[at], "")),
+                axis.unit
+            )
+            .trim_end(),
+            join(&|at| width(most[at])),
+            match groups.len() {
+                1 => String::new(),
+                count => message::the_greatest_of_combinations(count),
+            },
+        ));
+        let of_rules = series.iter().filter(|own| own.stroke == Stroke::Dashed);
+        let in_unit = |name: &str| format!("{name} [{}]", LENGTH.name());
+        let mut heads = vec![axis.name.clone(), in_unit(message::needed_gap())];
+        heads.extend(of_rules.clone().map(|own| in_unit(&own.name)));
+        let rows = levels.iter().zip(&most).map(|(level, gap)| {
+            let x = size * level;
+            let mut row = vec![intensity(*level), width(*gap)];
+            row.extend(of_rules.clone().map(|own| {
+                let point = own.points.iter().find(|point| point[0] == x);
+                point.map_or("–".into(), |point| width(point[1] / gap_size))
+            }));
+            row
         });
-        let mut codes: Vec<Level> = codes.collect();
-        // Lines that nearly coincide would write over each other.
-        if let [first, .., last] = &codes[..]
-            && last.value - first.value < 0.08 * gap_size * widest
-        {
-            let joined = Level {
-                name: message::gb50011_of_intensities(
-                    format_args!("{:.*}", LENGTH.decimals(0), first.value),
-                    format_args!("{:.*}", LENGTH.decimals(0), last.value),
-                ),
-                value: first.value,
-            };
-            codes = vec![joined];
-        }
+        let rows = rows.collect();
+        let codes = rules.map_or(Vec::new(), |rules| rules.of_gb50011());
         Some(Section {
             title: message::required_gap().into(),
             remark: message::needed_gap_and_rules().into(),
+            table: Some((heads, rows)),
             charts: vec![Chart {
                 title: message::smallest_gap_and_rules().into(),
                 x: axis,
                 y: gap_axis,
                 series,
-                levels: codes,
+                levels: levels_of(&codes, gap_size, gap_size * widest),
                 reach: gap_size * widest,
                 ordered: false,
             }],
@@ -186,43 +194,102 @@ impl Results<'_> {
         })
     }
 
-    /// Adds the greatest gap of each rule over cases without contact.
-    fn rules(
-        &self,
-        cases: &[usize],
-        places: &Places,
-        [x, size]: [f64; 2],
-        into: &mut [Vec<[f64; 2]>; 3],
-    ) {
-        let of_cases = cases.iter().filter_map(|case| self.rules_of(*case, places));
-        let greatest = of_cases.reduce(|a, b| [0, 1, 2].map(|rule| a[rule].max(b[rule])));
-        for (points, gap) in into.iter_mut().zip(greatest.into_iter().flatten()) {
-            if gap.is_finite() {
-                points.push([x, size * gap]);
+    /// Gaps of the drawn rules for the peaks of a case; not a number where a rule does not apply \[m\].
+    fn required(&self, case: usize, rules: &Rules) -> Option<[f64; DRAWN.len()]> {
+        let mut summary = rules.at_rest.clone();
+        for building in &mut summary.buildings {
+            let value = |name: &str| {
+                let name = format!("{}.{name}", building.name);
+                self.table.column(&name).get(case).copied().flatten()
+            };
+            if let Some(mat) = &mut building.floors.mat {
+                set_peaks(mat, "isolation_", &value)?;
+            }
+            for floor in &mut building.floors.above {
+                let place = format!("floor{}.", floor.floor);
+                set_peaks(floor, &place, &value)?;
             }
         }
+        let required = rules.required(&summary);
+        Some(DRAWN.map(|name| {
+            let found = required.iter().find(|rule| rule.name == name);
+            found.map_or(f64::NAN, |rule| rule.width)
+        }))
+    }
+}
+
+/// Sets the peaks of a floor that rules read, from the columns of a case that begin with `place`.
+fn set_peaks(
+    floor: &mut FloorSummary,
+    place: &str,
+    value: &dyn Fn(&str) -> Option<f64>,
+) -> Option<()> {
+    let peak = |name: &str| value(&format!("{place}{name}"));
+    floor.without_contact = None;
+    floor.without_contact_in_plan = None;
+    floor.response.displacement_max_m = peak("displacement_max_m")?;
+    floor.response.displacement_min_m = peak("displacement_min_m")?;
+    if let Some(plan) = &mut floor.in_plan {
+        plan.displacement_across_max_m = peak("displacement_across_max_m")?;
+        plan.displacement_across_min_m = peak("displacement_across_min_m")?;
+    }
+    Some(())
+}
+
+/// What the rules of the only gap of the base model need beside the peaks of a case.
+struct Rules {
+    input: Arc<Input>,
+    at_rest: Summary,
+}
+
+impl Rules {
+    fn new(study: &Study) -> Option<Self> {
+        let input = study.file.base.input().ok()?;
+        if input.model.gaps.len() != 1 {
+            return None;
+        }
+        let mut prepared = CaseCache::default().assemble(input).ok()?;
+        let at_rest = at_rest(&mut prepared);
+        Some(Self {
+            input: prepared.input,
+            at_rest,
+        })
     }
 
-    /// Gaps by ABS, SRSS and DDC, the last not a number without periods and damping \[m\].
-    fn rules_of(&self, case: usize, places: &Places) -> Option<[f64; 3]> {
-        let value = |name: String| self.table.column(&name).get(case).copied().flatten();
-        let peak = |roof: &String| {
-            let high = value(format!("{roof}.displacement_max_m"))?;
-            let low = value(format!("{roof}.displacement_min_m"))?;
-            Some(high.max(-low))
-        };
-        let [left, right] = [peak(&places.roofs[0])?, peak(&places.roofs[1])?];
-        let periods = places
-            .names
-            .each_ref()
-            .map(|name| value(format!("{name}.period_s")));
-        let difference = match periods {
-            [Some(a), Some(b)] if places.damping > 0.0 => {
-                let rho = ddc_coefficient([a, b], [places.damping; 2]);
-                double_difference(left, right, rho)
-            }
-            _ => f64::NAN,
-        };
-        Some([left + right, srss(left, right), difference])
+    /// The same as `jostle gap` finds from a run.
+    fn required(&self, summary: &Summary) -> Vec<Requirement> {
+        let Input { model, codes, .. } = &*self.input;
+        summary.required_gaps(model, 0, codes).rules
     }
+
+    /// The widths of GB 50011, which follow from heights alone.
+    fn of_gb50011(&self) -> Vec<Requirement> {
+        let mut rules = self.required(&self.at_rest);
+        rules.retain(|rule| rule.code == Some(Code::Gb50011));
+        rules
+    }
+}
+
+/// Horizontal lines of rules; those that nearly coincide are one, so that their names do not write over each other.
+fn levels_of(rules: &[Requirement], size: f64, reach: f64) -> Vec<Level> {
+    if let [first, .., last] = rules
+        && last.width > first.width
+        && rules.windows(2).any(|pair| {
+            size * (pair[1].width - pair[0].width) < LEAST_APART * reach.max(size * last.width)
+        })
+    {
+        return vec![Level {
+            name: message::gb50011_of_intensities(
+                LENGTH.rounded_up(first.width),
+                LENGTH.rounded_up(last.width),
+            ),
+            value: size * first.width,
+        }];
+    }
+    let rows = rows_of_rules(rules, |rule| (&rule.name, rule.width));
+    let level = |(name, rule): (String, &Requirement)| Level {
+        name,
+        value: size * rule.width,
+    };
+    rows.into_iter().map(level).collect()
 }

@@ -55,7 +55,8 @@ pub(super) fn axis(column: &str) -> (Axis, f64) {
         "first_impact" => message::first_impact_axis().into(),
         "closing_peak" => message::greatest_closing_axis().into(),
         "pga" | "motion.pga" => message::peak_ground_acceleration_axis().into(),
-        other => other.replace('_', " "),
+        "gap.width" => message::gap().into(),
+        other => other.replace(['_', '.'], " "),
     };
     let axis = Axis {
         name,

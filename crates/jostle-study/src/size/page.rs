@@ -4,7 +4,7 @@ use jostle::linear::sort_by;
 use jostle_report::message;
 use jostle_report::{Axis, Chart, Level, Section, Series, Stroke, StudyPage, render_study};
 
-use super::text::{number, rounded, shown};
+use super::text::{in_words, number, rounded, shown};
 use super::{SizeResults, Trial};
 use crate::row::Status;
 
@@ -13,7 +13,7 @@ const BEST: usize = 20;
 
 fn axis(name: &str, suffix: &str) -> Axis {
     Axis {
-        name: name.into(),
+        name: in_words(name),
         unit: shown(suffix).0.into(),
     }
 }
@@ -33,12 +33,15 @@ impl SizeResults {
     #[must_use]
     pub fn page(&self) -> String {
         let mut facts = vec![
-            (message::minimised().to_owned(), self.objective.text.clone()),
+            (
+                message::minimised().to_owned(),
+                in_words(&self.objective.text),
+            ),
             (message::trials_word().into(), self.trials.len().to_string()),
             (message::seed_word().into(), self.seed.to_string()),
         ];
         for condition in &self.conditions {
-            facts.insert(1, (message::kept_word().into(), condition.text.clone()));
+            facts.insert(1, (message::kept_word().into(), in_words(&condition.text)));
         }
         if self.records.len() > 1 {
             let records = format!("{}, {}", self.records.len(), self.over);
@@ -113,8 +116,11 @@ impl SizeResults {
             1,
         ));
         Section {
-            title: message::trade_off_against(&self.objective.text, &condition.left.text),
-            remark: message::line_joins_unbeaten_trials(&condition.text),
+            title: message::trade_off_against(
+                in_words(&self.objective.text),
+                in_words(&condition.left.text),
+            ),
+            remark: message::line_joins_unbeaten_trials(in_words(&condition.text)),
             charts: vec![Chart {
                 title: String::new(),
                 x: axis(&condition.left.text, &condition.left.suffix),
@@ -204,10 +210,10 @@ impl SizeResults {
             let value = |trial: &Trial| trial.objective.unwrap_or(f64::INFINITY);
             value(a).total_cmp(&value(b))
         });
-        let names = self.other_inputs().map(|(_, (name, _))| name.clone());
+        let names = self.other_inputs().map(|(_, (name, _))| in_words(name));
         let mut heads: Vec<String> = names.collect();
-        heads.push(self.objective.text.clone());
-        heads.extend(self.conditions.iter().map(|c| c.left.text.clone()));
+        heads.push(in_words(&self.objective.text));
+        heads.extend(self.conditions.iter().map(|c| in_words(&c.left.text)));
         let rows = best.into_iter().take(BEST).map(|trial| {
             let inputs = self.other_inputs();
             let mut row: Vec<String> = inputs

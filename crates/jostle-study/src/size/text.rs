@@ -52,6 +52,51 @@ pub(super) fn number(value: f64, suffix: &str) -> String {
     }
 }
 
+/// A least value in words: rounded up, so that what it meets is met, to one decimal or three digits.
+fn rounded_up(value: f64, suffix: &str) -> String {
+    let (unit, size) = shown(suffix);
+    let own = size * value;
+    let decimals = if own == 0.0 || own.abs() >= 1.0 {
+        1
+    } else {
+        (2 - libm::log10(own.abs()).floor() as i32).clamp(1, 9)
+    };
+    let steps = libm::pow(10.0, f64::from(decimals));
+    let up = (own * steps - 1e-6).ceil() / steps;
+    format!("{up:.*} {unit}", decimals as usize)
+        .trim_end()
+        .to_owned()
+}
+
+/// A key, a result or a condition in words: `gap.width` is the gap, `impact_count == 0` no impact.
+pub(super) fn in_words(text: &str) -> String {
+    const WORDS: [(&str, &str); 12] = [
+        ("impact_count == 0", "no impact"),
+        ("impact_count <= 0", "no impact"),
+        ("impact_count < 1", "no impact"),
+        ("impact_count", "number of impacts"),
+        ("gap.width", "gap"),
+        ("peak_force_n", "peak force"),
+        ("closing_peak_m", "peak closing"),
+        ("base_shear_peak_n", "peak base shear"),
+        ("drift_peak", "peak drift"),
+        ("<=", "≤"),
+        (">=", "≥"),
+        ("==", "="),
+    ];
+    let replaced = WORDS.iter().fold(text.to_owned(), |text, (name, words)| {
+        text.replace(name, words)
+    });
+    let mut words = String::new();
+    let letters: Vec<char> = replaced.chars().collect();
+    for (index, letter) in letters.iter().enumerate() {
+        let after = letters.get(index + 1);
+        let joins = *letter == '_' || *letter == '.' && after.is_some_and(|c| c.is_alphabetic());
+        words.push(if joins { ' ' } else { *letter });
+    }
+    words
+}
+
 /// A value as written into the model, with five digits.
 pub(super) fn rounded(text: &str) -> String {
     let end = text.find(' ').unwrap_or(text.len());
@@ -69,7 +114,8 @@ impl SizeResults {
         let keeping = match self.conditions.len() {
             0 => String::new(),
             _ => {
-                let texts: Vec<&str> = self.conditions.iter().map(|c| &c.text[..]).collect();
+                let texts: Vec<String> =
+                    self.conditions.iter().map(|c| in_words(&c.text)).collect();
                 format!(" with {}", texts.join(" and "))
             }
         };
@@ -78,7 +124,7 @@ impl SizeResults {
                 let objective = best.objective.unwrap_or(f64::NAN);
                 let inputs = self.inputs.iter().zip(&best.inputs);
                 let inputs: Vec<String> = inputs
-                    .map(|((name, _), (_, text))| format!("{name} = {}", rounded(text)))
+                    .map(|((name, _), (_, text))| format!("{} {}", in_words(name), rounded(text)))
                     .collect();
                 // A search that did not end by itself has a best trial, not a least value.
                 let least = if self.converged {
@@ -95,12 +141,12 @@ impl SizeResults {
                 };
                 sentences.push(format!(
                     "{least} {}{keeping}: {}{at}.",
-                    self.objective.text,
-                    number(objective, &self.objective.suffix),
+                    in_words(&self.objective.text),
+                    rounded_up(objective, &self.objective.suffix),
                 ));
             }
             None => sentences.push(format!(
-                "None of the {} trials keeps {}; widen the bounds or relax a condition.",
+                "None of the {} trials meets {}; widen the bounds or relax a condition.",
                 self.trials.len(),
                 keeping.trim_start_matches(" with ")
             )),
@@ -145,7 +191,7 @@ impl SizeResults {
                     left.map_or_else(|| "–".into(), |left| number(left, &condition.left.suffix));
                 let _ = writeln!(
                     text,
-                    "  {:<28} {left}   (kept: {})",
+                    "  {:<28} {left}   (met: {})",
                     condition.left.text, condition.text
                 );
             }

@@ -72,7 +72,7 @@ pub enum FitError {
     #[error("the event does not become likelier with the intensity")]
     Falling,
     /// The search failed.
-    #[error("the likelihood has no greatest value that could be found")]
+    #[error("no curve fits: too few intensities have both outcomes; add intensities")]
     NoMaximum,
 }
 

@@ -93,7 +93,9 @@ impl SuiteResults {
         sections.extend(self.spectra(suite));
         render_suite(&SuitePage {
             title: self.title.clone(),
-            headline: self.governing.in_words(self.records.len()),
+            headline: self.result_in_words(),
+            rule: self.governing.in_words(self.records.len()),
+            tiles: self.tiles(),
             warnings: self.warnings.clone(),
             accuracy: self.accuracy_in_words().map_or_else(String::new, |words| {
                 words.trim_start_matches("accuracy: ").to_owned()
@@ -139,6 +141,53 @@ impl SuiteResults {
                 }
             })
             .collect()
+    }
+
+    /// How many records pound, and the hardest.
+    fn result_in_words(&self) -> String {
+        let done = self.records.iter();
+        let done = done.filter(|record| record.status == RecordStatus::Completed);
+        let done: Vec<&Value> = done.map(|record| &record.summary).collect();
+        let gaps = |record: &&&Value| {
+            list(record, "gaps").any(|gap| gap["impact_count"].as_u64() > Some(0))
+        };
+        let pounding = done.iter().filter(gaps).count();
+        if !done
+            .iter()
+            .any(|record| list(record, "gaps").next().is_some())
+        {
+            return message::suite_of_no_gap(done.len());
+        }
+        message::suite_pounds(pounding, done.len())
+    }
+
+    /// The greatest of what decides, each over all gaps or buildings: force, gap, drift, damage.
+    fn tiles(&self) -> Vec<[String; 3]> {
+        const ENDS: [&str; 6] = [
+            ".peak_force_n",
+            ".closing_without_contact_m",
+            ".drift_peak",
+            ".hinges_yielded",
+            ".ductility",
+            ".residual_drift_peak",
+        ];
+        let all = headlines(self);
+        let greatest = ENDS.iter().filter_map(|end| {
+            let own = all
+                .iter()
+                .filter(|(_, quantity)| quantity.name.ends_with(end) && quantity.maximum > 0.0);
+            own.max_by(|a, b| a.1.maximum.total_cmp(&b.1.maximum))
+        });
+        let tiles = greatest.map(|(name, quantity)| {
+            let form = shown(&quantity.name);
+            let value = form.number(quantity.maximum);
+            [
+                message::greatest_of(name),
+                format!("{value} {}", form.unit).trim_end().to_owned(),
+                self.records[quantity.maximum_record].motion().to_owned(),
+            ]
+        });
+        tiles.collect()
     }
 
     /// Name, mean, deviation, 16 and 84 %, greatest with its record, governing.

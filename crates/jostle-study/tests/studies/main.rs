@@ -8,6 +8,7 @@ mod isolation_columns;
 mod large;
 mod pages_in_another_language;
 mod ready_made;
+mod required_gap;
 mod scan;
 mod size;
 mod studies;

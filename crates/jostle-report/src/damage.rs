@@ -1,0 +1,149 @@
+//! What cracked, yielded and buckled, each in its own words: hinges, braces, and struts of panels.
+
+use jostle::hysteresis::{BackboneSide, HysteresisRule, Side};
+use jostle::model::{Building, Diagonal, DiagonalKind, Structure};
+use jostle::results::summary::{BuildingSummary, SpringSummary};
+use jostle::structure::{Discretization, SpringPlace};
+
+use crate::{format, message};
+
+/// Members of one kind that left the elastic range.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Damage {
+    /// What is counted, and what became of it, such as `braces buckled`.
+    pub name: &'static str,
+    /// Those it happened to, and all of them.
+    pub count: [usize; 2],
+    /// When it first happened \[s\].
+    pub first_s: Option<f64>,
+    /// Further numbers in words; may be empty.
+    pub note: String,
+}
+
+impl Damage {
+    /// The count and the name in a sentence, such as `6 of 10 braces buckled, first at 2.310 s; …`.
+    #[must_use]
+    pub fn sentence(&self) -> String {
+        let [some, all] = self.count;
+        let first = self.first_s.map(|first| format::fixed(first, 3));
+        let first = first.map_or_else(String::new, message::damage_first_at);
+        let note = match self.note.is_empty() {
+            true => String::new(),
+            false => format!("; {}", self.note),
+        };
+        format!(
+            "{} {}{first}{note}",
+            message::one_of_all(some, all),
+            self.name
+        )
+    }
+}
+
+/// Damage of a building by kind; empty if nothing in it can yield. Without its model all counts are those of hinges.
+#[must_use]
+pub fn damage(model: Option<&Building>, summary: &BuildingSummary) -> Vec<Damage> {
+    let hinges = &summary.hinges;
+    let braces: Vec<usize> = model.map_or_else(Vec::new, braces_of);
+    let is_brace = |own: &&SpringSummary| braces.contains(&own.index);
+    let mut found = Vec::new();
+    if hinges.total > braces.len() {
+        let own = |own: &&SpringSummary| !is_brace(own);
+        let list = || hinges.list.iter().filter(own);
+        let yields = || list().filter_map(|own| own.yielded_s);
+        let (cracked, yielded, first_s, ductility) = if braces.is_empty() {
+            let first = hinges.first_yield_s;
+            (hinges.cracked, hinges.yielded, first, hinges.ductility)
+        } else {
+            let cracked = list().filter(|own| own.cracked_s.is_some()).count();
+            let ductility = list().map(|own| own.ductility).fold(0.0, f64::max);
+            let first = yields().min_by(f64::total_cmp);
+            (cracked, yields().count(), first, ductility)
+        };
+        found.push(Damage {
+            name: message::hinges_yielded_word(),
+            count: [yielded, hinges.total - braces.len()],
+            first_s,
+            note: match cracked {
+                0 => message::count_cracked(0),
+                _ => message::cracked_ductility(cracked, format::significant(ductility, 2)),
+            },
+        });
+    }
+    if !braces.is_empty() {
+        let buckled = summary.parts.iter().filter_map(|part| part.buckled_s);
+        let yielded = hinges.list.iter().filter(is_brace);
+        let yielded = yielded.filter_map(|own| own.yielded_s);
+        let (name, times): (_, Vec<f64>) = match buckles(model) {
+            true => (message::braces_buckled(), buckled.collect()),
+            false => (message::braces_yielded(), yielded.collect()),
+        };
+        found.push(Damage {
+            name,
+            count: [times.len(), braces.len()],
+            first_s: times.into_iter().min_by(f64::total_cmp),
+            note: String::new(),
+        });
+    }
+    found.extend(model.and_then(|model| struts(model, summary)));
+    found
+}
+
+/// Indices of braces among the springs of a building that can yield.
+fn braces_of(model: &Building) -> Vec<usize> {
+    if !model.may_yield() {
+        return Vec::new();
+    }
+    let places = Discretization::new(model)
+        .spring_places
+        .into_iter()
+        .enumerate();
+    let braces = places.filter(|(_, at)| {
+        matches!(at, SpringPlace::Diagonal { place, .. } if place.kind == DiagonalKind::Brace)
+    });
+    braces.map(|(index, _)| index).collect()
+}
+
+/// Whether the braces of a building buckle; otherwise they yield in either sense.
+fn buckles(model: Option<&Building>) -> bool {
+    let buckling = |own: &Diagonal| {
+        let rule = own.hysteresis.map(|own| own.rule());
+        matches!(rule, Some(HysteresisRule::Buckling(_)))
+    };
+    model.is_some_and(|model| diagonals(model).iter().any(buckling))
+}
+
+/// Braces and struts of a building, frame after frame.
+fn diagonals(model: &Building) -> Vec<Diagonal> {
+    match &model.structure {
+        Structure::Frame(frame) => frame.diagonals.clone(),
+        Structure::Tiers(tiers) => {
+            let of_frames = tiers.frames.iter().flat_map(|own| &own.frame.diagonals);
+            let in_space = tiers.space_frame.iter().flat_map(|own| &own.diagonals);
+            of_frames.chain(in_space).copied().collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// Struts of panels, by the corners of their curves that the greatest compression has passed.
+fn struts(model: &Building, summary: &BuildingSummary) -> Option<Damage> {
+    let mut own = diagonals(model);
+    own.retain(|own| own.place.kind == DiagonalKind::Infill);
+    let parts = summary.parts.iter().filter(|part| part.kind == "infill");
+    let struts: Vec<_> = own.iter().zip(parts).collect();
+    let passed = |of: fn(&BackboneSide) -> f64| {
+        let passed = struts.iter().filter(|(own, part)| {
+            own.hysteresis
+                .is_some_and(|own| part.deformation_min >= of(own.backbone().side(Side::Negative)))
+        });
+        passed.count()
+    };
+    let all = struts.iter().filter(|(own, _)| own.hysteresis.is_some());
+    let all = all.count();
+    (all > 0).then(|| Damage {
+        name: message::struts_cracked(),
+        count: [passed(|curve| curve.cracking.deformation), all],
+        first_s: None,
+        note: message::crushed_of_struts(passed(|curve| curve.yielding.deformation)),
+    })
+}
