@@ -237,7 +237,10 @@ impl Shown {
     pub fn rounded_up(self, si: f64) -> String {
         let decimals = self.decimals(0);
         let steps = if decimals == 0 { 1.0 } else { 100.0 };
-        format!("{:.decimals$}", (self.of(si) * steps - 1e-6).ceil() / steps)
+        format!(
+            "{:.decimals$}",
+            (self.of(si) * steps - 1e-6).ceil() / steps + 0.0
+        )
     }
 
     /// What the user stated: as it is in SI units, with enough decimals in others.

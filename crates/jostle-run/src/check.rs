@@ -738,7 +738,7 @@ fn describe_building(
             let damped = building.damped_at.iter();
             let numbers: Vec<usize> = match &modes[..] {
                 [] if is_isolated => vec![1],
-                [] => damped.clone().map(|(number, _)| *number).collect(),
+                [] => damped.clone().map(|mode| mode.number).collect(),
                 modes => modes.to_vec(),
             };
             let in_plane = !building.is_in_space();
@@ -747,7 +747,7 @@ fn describe_building(
                 true => "sway",
                 false => "lateral",
             };
-            let periods = damped.map(|(_, frequency)| decimals(2.0 * PI / frequency, 4));
+            let periods = damped.map(|mode| decimals(2.0 * PI / mode.frequency, 4));
             let periods: Vec<String> = periods.filter(|_| kind == "sway").collect();
             let modes: Vec<String> = numbers.iter().map(usize::to_string).collect();
             let plural = if modes.len() == 1 { "" } else { "s" };

@@ -63,7 +63,7 @@ fn space_frame(turned: bool, damping: &str) -> String {
         false => (long, short, columns),
     };
     format!(
-        "[[building]]\nname = \"A\"\nkind = \"space-frame\"\nstoreys = 4\nstorey_height = \"3.2 m\"\nlines_x = {x}\nlines_y = {y}\nmass = \"90 t\"\nconcrete = \"C30\"\ncolumn = {{ size = {size} }}\nbeam_x = {{ size = [\"300 mm\", \"500 mm\"] }}\nbeam_y = {{ size = [\"300 mm\", \"500 mm\"] }}\n{damping}"
+        "[[building]]\nname = \"A\"\nkind = \"space-frame\"\nstoreys = 4\nstorey_height = \"3.2 m\"\nlines_x = {x}\nlines_y = {y}\nmass = \"90 t\"\nconcrete = \"C30\"\ncolumn = {{ size = {size} }}\nbeam_x = {{ width = \"300 mm\", depth = \"500 mm\" }}\nbeam_y = {{ width = \"300 mm\", depth = \"500 mm\" }}\n{damping}"
     )
 }
 

@@ -1249,6 +1249,7 @@ messages! {
     gap_needed_at(name, levels, gaps, of_all) = "Gap needed at {name} {levels}: {gaps} {mm}{of_all}.";
     the_greatest_of_combinations(count) = ", the greatest of {count} combinations";
     more_than(width) = "> {width}";
+    at_most_width(width) = "≤ {width}";
     required_gap = "Gaps of rules";
     smallest_gap_and_rules = "Smallest gap of this study without impact, and rules";
     needed_gap_and_rules = "Needed: the smallest gap of this study without an impact and without one at any wider gap. The true value lies between it and the next smaller gap of the study. ABS, SRSS and DDC come from the peak displacements where the buildings can touch, with the widest gap: the greatest of all records and draws, where none of them closes it.";

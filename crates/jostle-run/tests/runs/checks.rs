@@ -7,8 +7,8 @@ use jostle::contact::{SlabMaterial, advised_range};
 use jostle::judgement::{CHECKS, FROM_MODEL, JUDGEMENT, Known, Stated, StatedBuilding, judge};
 use jostle::results::contact_sensitivity::{ContactSensitivity, GapSpread};
 use jostle::results::summary::{
-    AcceptanceSummary, Finding, Grade, ImpactSummary, IsolationSummary, LevelSummary,
-    MemberSummary, SectionSummary,
+    AcceptanceSummary, Finding, Grade, ImpactPlace, ImpactSummary, IsolationSummary, LevelSummary,
+    MemberSummary, RatioPlace, RatioSummary, SectionSummary, StruckSummary,
 };
 use jostle::separation::{Code, CodeInputs};
 use jostle::{GroundMotion, Settings, Summary};
@@ -365,6 +365,48 @@ fn results() -> Vec<(&'static str, Change, f64, f64)> {
             },
             0.0199,
             0.0201,
+        ),
+        (
+            "struck-column",
+            |s, x| {
+                let place = RatioPlace {
+                    at: "foot",
+                    height_m: 0.0,
+                    at_s: 1.0,
+                    demand: 1e5,
+                    demand_across: None,
+                    capacity: 1e5,
+                    compression_n: 0.0,
+                    exceeded_s: None,
+                    impact: Some(ImpactPlace {
+                        between: ["A".into(), "B".into()],
+                        floors: [None, Some(1)],
+                        height_m: 2.0,
+                        start_s: 0.9,
+                    }),
+                };
+                let section = SectionSummary::default();
+                s.buildings[0].members = vec![MemberSummary {
+                    name: "A.column.1.1".into(),
+                    struck: vec![StruckSummary {
+                        height_m: 2.0,
+                        impact_count: 1,
+                        peak_force_n: 1e5,
+                        below: section,
+                        above: section,
+                    }],
+                    ratio: Some(RatioSummary {
+                        rule: "rule",
+                        shear: Some(x),
+                        bending: 0.5,
+                        shear_at: Some(place.clone()),
+                        bending_at: place,
+                    }),
+                    ..MemberSummary::default()
+                }];
+            },
+            0.99,
+            1.01,
         ),
         (
             "elastic-drift",

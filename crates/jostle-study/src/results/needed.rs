@@ -135,8 +135,11 @@ impl Results<'_> {
                 }
             }
         }
+        let narrowest = self.numbers(right).first().copied().unwrap_or(0.0);
         let width = |gap: f64| {
-            if gap.is_finite() {
+            if gap <= narrowest {
+                message::at_most_width(LENGTH.rounded_up(gap))
+            } else if gap.is_finite() {
                 LENGTH.rounded_up(gap)
             } else {
                 message::more_than(LENGTH.rounded_up(widest))
@@ -171,7 +174,7 @@ impl Results<'_> {
             let mut row = vec![intensity(*level), width(*gap)];
             row.extend(of_rules.clone().map(|own| {
                 let point = own.points.iter().find(|point| point[0] == x);
-                point.map_or("–".into(), |point| width(point[1] / gap_size))
+                point.map_or("–".into(), |point| LENGTH.rounded_up(point[1] / gap_size))
             }));
             row
         });

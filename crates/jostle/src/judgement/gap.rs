@@ -92,7 +92,8 @@ pub(super) fn code_gap(known: &Known<'_>, tally: &mut Tally<'_>) {
                 let text = format!(
                     "{place}: this record needs {:.0} mm, more than the {:.0} mm of {}",
                     1e3 * needed,
-                    1e3 * rule.width,
+                    // Up, as tables round it.
+                    (1e3 * rule.width - 1e-6).ceil(),
                     rule.name
                 );
                 (place, text)

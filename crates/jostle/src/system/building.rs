@@ -3,6 +3,7 @@
 use std::ops::Deref;
 use std::sync::Arc;
 
+use super::damping::DampedMode;
 use super::plan_mat::MatInPlan;
 use super::plan_soil::FoundationInPlan;
 use super::plan_storey::PlanStorey;
@@ -62,8 +63,8 @@ pub struct BuildingSystem {
     pub foundation_in_plan: Option<FoundationInPlan>,
     /// The ratio of critical damping that all modes have, where damping is not Rayleigh's \[–\].
     pub modal_damping: Option<f64>,
-    /// Numbers and circular frequencies of the modes at which Rayleigh damping has its ratio; empty without such modes \[–, rad/s\].
-    pub damped_at: Vec<(usize, f64)>,
+    /// The modes at which Rayleigh damping has its ratio; empty without such modes.
+    pub damped_at: Vec<DampedMode>,
     /// Lateral modes, longest period first; empty when the building can move without deforming.
     /// [`crate::eigen::modes`] finds those of all kinds.
     pub modes: Vec<Mode>,

@@ -37,16 +37,12 @@ impl BuildingSystem {
                 let frequencies: Vec<f64> = found.iter().map(|own| own.frequency).collect();
                 // Squares of frequencies, as far as damping in proportion to stiffness acts: not on springs of links.
                 let damped: Vec<f64> = found.iter().map(|own| own.own_stiffness).collect();
-                self.damped_at = found
-                    .iter()
-                    .map(|own| (own.number, own.frequency))
-                    .collect();
-                let beside_undamped = found.iter().any(|own| own.own_stiffness != own.squared());
+                self.damped_at = found;
                 match (&frequencies[..], &damped[..]) {
-                    (&[single], &[own]) if on_mat && beside_undamped => {
+                    (&[single], &[own]) if on_mat && !self.inner_links.is_empty() => {
                         (0.0, 2.0 * ratio * single / own)
                     }
-                    (&[low, high], &[own_low, own_high]) if beside_undamped => {
+                    (&[low, high], &[own_low, own_high]) if !self.inner_links.is_empty() => {
                         let beta = 2.0 * ratio * (high - low) / (own_high - own_low);
                         let alpha = 2.0 * ratio * low - beta * own_low;
                         if alpha >= 0.0 && beta >= 0.0 {
@@ -240,12 +236,12 @@ impl BuildingSystem {
 }
 
 /// A lateral mode, as far as damping needs it.
-#[derive(Clone, Copy)]
-struct DampedMode {
+#[derive(Clone, Copy, Debug)]
+pub struct DampedMode {
     /// Number among the lateral modes of its direction, from 1; 0 before it is chosen.
-    number: usize,
+    pub number: usize,
     /// Circular frequency \[rad/s\].
-    frequency: f64,
+    pub frequency: f64,
     /// φᵀKφ without the springs of links between floors, ω² if there are none \[rad²/s²\].
     own_stiffness: f64,
 }
@@ -264,11 +260,6 @@ impl DampedMode {
             frequency,
             own_stiffness: frequency.powi(2) - links.sum::<f64>(),
         }
-    }
-
-    /// ω² \[rad²/s²\].
-    fn squared(&self) -> f64 {
-        self.frequency.powi(2)
     }
 }
 

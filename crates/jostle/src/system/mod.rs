@@ -21,6 +21,7 @@ use crate::linear::Row;
 use crate::model::{LEVEL_TOLERANCE, WALL};
 
 pub use building::{BuildingSystem, Corner, Direction, Floor, SpringSupport, Track};
+pub use damping::DampedMode;
 pub(crate) use grounds::{GroundsAt, OverStep, RunGrounds};
 pub use plan_mat::MatInPlan;
 pub use plan_soil::FoundationInPlan;
