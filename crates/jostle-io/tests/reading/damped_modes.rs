@@ -105,7 +105,7 @@ fn damping_of_both_ways_bounds_the_ratio_of_all_modes_between() {
     for kind in [space_frame, storeys] {
         let (_, along) = damped(&kind(false, "damping = { ratio = 0.04 }"));
         let worst = along.iter().take(6).copied().fold(0.0, f64::max);
-        assert!(worst > 0.045, "along x only, some mode has more: {along:?}");
+        assert!(worst > 0.041, "along x only, some mode has more: {along:?}");
         let (both, ratios) = damped(&kind(false, "damping = { ratio = 0.04, along = \"both\" }"));
         let worst = ratios.iter().take(6).copied().fold(0.0, f64::max);
         assert!(worst < 0.04 * (1.0 + 1e-9), "{ratios:?}");
