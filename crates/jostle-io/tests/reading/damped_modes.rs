@@ -99,6 +99,32 @@ fn damping_along_y_is_that_along_x_of_the_turned_building() {
     }
 }
 
+/// A soft lowest storey under a plan, where one mode each way has nearly all of the mass.
+fn soft_storeys(turned: bool, damping: &str) -> String {
+    let text = storeys(turned, damping);
+    let start = text.find("{ x = ").expect("a stiffness");
+    let end = start + text[start..].find('}').expect("its end") + 1;
+    let soft = &text[start..end];
+    let stiff = soft.replace(" MN/m", " GN/m").replace(" GN.m", "00 GN.m");
+    text.replace(soft, &format!("[{soft}, {stiff}, {stiff}, {stiff}]"))
+}
+
+/// Above a soft storey modes of sway count across as they do along.
+#[test]
+fn a_soft_storey_is_damped_across_as_along() {
+    let (across, lateral) = damped(&soft_storeys(
+        false,
+        "damping = { ratio = 0.04, along = \"y\" }",
+    ));
+    let (turned, _) = damped(&soft_storeys(true, "damping = { ratio = 0.04 }"));
+    assert_eq!(
+        lateral.len(),
+        2,
+        "one mode each way carries 1 % of the mass"
+    );
+    near(across, turned, 1e-9);
+}
+
 /// Both ways: no mode between the lowest first and the highest third has more than the ratio, and these two have it.
 #[test]
 fn damping_of_both_ways_bounds_the_ratio_of_all_modes_between() {

@@ -49,17 +49,8 @@ pub(crate) fn sway_modes(
 ) -> Result<Vec<Mode>, NotPositive> {
     let equations = &building.equations;
     let masses = equations.mass.iter().filter(|mass| **mass > 0.0).count();
-    // Shapes have a mass of 1 kg.
-    let is_sway = |mode: &Mode| {
-        let along = equations.mass.iter().zip(&equations.driven_mass);
-        let energies = along
-            .zip(&mode.shape)
-            .map(|((mass, driven), own)| match *driven {
-                driven if driven > 0.0 => mass * own * own,
-                _ => 0.0,
-            });
-        mode.is_along() || energies.sum::<f64>() >= 0.5
-    };
+    let is_sway =
+        |mode: &Mode| mode.is_along() || mode.moves_mostly(equations, &equations.driven_mass);
     let mut listed = 8 * count;
     loop {
         let mut found = modes(building, listed)?;

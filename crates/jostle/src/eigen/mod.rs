@@ -13,7 +13,7 @@ mod tridiagonal;
 
 use std::f64::consts::PI;
 
-use crate::structure::AssembledBuilding;
+use crate::structure::{AssembledBuilding, Equations};
 
 pub use dense::modes_dense;
 pub use lateral::lateral_modes;
@@ -64,6 +64,14 @@ impl Mode {
     #[must_use]
     pub fn is_along(&self) -> bool {
         self.effective_mass_ratio_x >= LATERAL_SHARE
+    }
+
+    /// Whether half of its kinetic energy, or more, is that of displacements on which the ground acts through this driven mass \[kg\].
+    pub(crate) fn moves_mostly(&self, equations: &Equations, driven: &[f64]) -> bool {
+        let moved = equations.mass.iter().zip(driven).zip(&self.shape);
+        let moved = moved.filter(|((_, driven), _)| **driven > 0.0);
+        // Shapes have a mass of 1 kg.
+        moved.map(|((mass, _), own)| mass * own * own).sum::<f64>() >= 0.5
     }
 
     /// A mode from ω² and a shape of any scale.

@@ -14,8 +14,8 @@ const FORMULAS: [(f64, f64); 6] = [
 ];
 
 /// First period over the nearest of the periods by the formulas; 1 between them. The formulas are those of buildings that have not
-/// cracked: the period is multiplied by the root of the factor on EI, where the file states one, but not with infill panels. One storey often stands for a whole
-/// building, whose height it does not have.
+/// cracked: the period is multiplied by the root of the factor on EI, where the file states one, but not with infill
+/// panels. One storey often stands for a whole building, whose height it does not have.
 pub(super) fn first_period(known: &Known<'_>, tally: &mut Tally<'_>) {
     let buildings = known.model.buildings.iter().zip(&known.system.buildings);
     for (index, (building, own)) in buildings.enumerate() {

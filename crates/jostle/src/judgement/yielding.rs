@@ -123,7 +123,10 @@ pub(super) fn struck_columns(known: &Known<'_>, tally: &mut Tally<'_>) {
     let Some((summary, _)) = known.results else {
         return;
     };
-    for member in summary.buildings.iter().flat_map(|own| &own.members) {
+    // Columns that fail in this model bear no more than they can.
+    let buildings = summary.buildings.iter();
+    let lasting = buildings.filter(|own| own.shear_failures.is_none());
+    for member in lasting.flat_map(|own| &own.members) {
         let Some(ratio) = &member.ratio else { continue };
         let (Some(times), Some(place)) = (ratio.shear, &ratio.shear_at) else {
             continue;

@@ -88,7 +88,7 @@ impl BuildingSystem {
         let highest = asked.iter().max().copied().unwrap_or(2);
         let lateral = directions.iter().map(|direction| {
             let modes = match direction {
-                Direction::Across => self.modes_across(),
+                Direction::Across => self.modes_across(highest),
                 _ => self.modes_along(highest),
             };
             (*direction, modes)
@@ -143,7 +143,7 @@ impl BuildingSystem {
     }
 
     /// The same across, with motion along and rotation of floors held.
-    fn modes_across(&self) -> Vec<DampedMode> {
+    fn modes_across(&self, count: usize) -> Vec<DampedMode> {
         let equations = &self.equations;
         let is_held = |dof: usize| {
             let mut tracks = self.tracks.iter();
@@ -152,14 +152,25 @@ impl BuildingSystem {
         let massed = (0..equations.len()).filter(|dof| equations.mass[*dof] > 0.0);
         let held: Vec<bool> = massed.map(is_held).collect();
         let modes = modes_dense(&self.structure, |lower| Some(symmetric::held(lower, &held)));
-        let modes = modes.unwrap_or_default().into_iter();
-        let across = modes.filter(|mode| mode.effective_mass_ratio_across >= LATERAL_SHARE);
-        across.map(|mode| DampedMode::new(&mode, self)).collect()
+        let modes = modes.unwrap_or_default();
+        let has_share = |mode: &&Mode| mode.effective_mass_ratio_across >= LATERAL_SHARE;
+        let mut across: Vec<&Mode> = modes.iter().filter(has_share).collect();
+        if self.stands_on_floors_alone() || across.len() < count.min(self.floors.len()) {
+            let is_sway = |mode: &&Mode| mode.moves_mostly(equations, &equations.driven_across);
+            across = modes.iter().filter(is_sway).collect();
+        }
+        let across = across.into_iter();
+        across.map(|mode| DampedMode::new(mode, self)).collect()
+    }
+
+    /// Whether its floors are all that moves: neither joints of frames nor a base.
+    fn stands_on_floors_alone(&self) -> bool {
+        let mut nodes = self.discretization.stick_model.nodes.iter();
+        nodes.all(|node| node.influence == Influence::OF_FLOOR) && self.plan_base.is_empty()
     }
 
     fn modes_with_all_else_held(&self, count: usize) -> Vec<DampedMode> {
-        let mut nodes = self.discretization.stick_model.nodes.iter();
-        if nodes.any(|node| node.influence != Influence::OF_FLOOR) || !self.plan_base.is_empty() {
+        if !self.stands_on_floors_alone() {
             return self.modes_of_frames_along(count);
         }
         let equations = &self.equations;

@@ -200,8 +200,9 @@ impl Table<'_> {
 
     /// Whether neighbours can touch at the mat of an isolated building alone, which has no height above the base.
     fn is_at_mat(&self) -> bool {
-        let mut places = self.neighbours.places.iter();
-        places.all(|place| place.height <= LEVEL_TOLERANCE)
+        let places = &self.neighbours.places;
+        let mut above = places.iter().map(|place| place.height > LEVEL_TOLERANCE);
+        !places.is_empty() && !above.any(|above| above)
     }
 
     /// Whether one side is a wall, such as a property line.
