@@ -225,34 +225,20 @@ function drawCurve() {
   const measure = Number(byId("measure").value);
   const { name, unit } = results[measure];
   const width = Math.max(host.clientWidth, 240);
-  const { height, left, right, top, bottom } = picture;
+  const { height } = picture;
   const lines = curve.lines.filter(Boolean);
   const all = lines.flat().filter((point) => point.y);
   const high = Math.max(...all.map((point) => point.y[measure]), 0) * 1.08 || 1;
   const { from, to } = curve;
-  const px = (x) => left + ((x - from) / (to - from)) * (width - left - right);
-  const py = (y) => height - bottom - (y / high) * (height - top - bottom);
-  Object.assign(picture, { width, px });
   const image = svg("svg", { viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": say("one_over_other", { name, other: curve.path }) });
-  const grid = svg("g", { class: "grid" }, image);
-  const ys = ticks(0, high, 5);
-  for (const value of ys.values) {
-    svg("line", { x1: left, x2: width - right, y1: py(value), y2: py(value), class: value === 0 ? "zero" : "" }, grid);
-    svg("text", { x: left - 7, y: py(value) + 3.5, "text-anchor": "end" }, grid).textContent = fixed(value, ys.decimals);
-  }
-  const xs = ticks(from, to, Math.max(3, width / 110));
-  for (const value of xs.values) {
-    svg("line", { x1: px(value), x2: px(value), y1: top, y2: height - bottom }, grid);
-    svg("text", { x: px(value), y: height - bottom + 15, "text-anchor": "middle" }, grid).textContent = fixed(value, xs.decimals);
-  }
   const over = byId("over").selectedOptions[0]?.textContent ?? curve.path;
-  svg("text", { x: (left + width - right) / 2, y: height - 5, "text-anchor": "middle", class: "axis" }, grid).textContent = `${over} [${curve.unit || "–"}]`;
+  const x = { ends: [from, to], count: Math.max(3, width / 110), name: `${over} [${curve.unit || "–"}]` };
+  const { px, py } = plot(svg("g", { class: "grid" }, image), { width, height, margin: picture, x, y: { ends: [0, high] } });
+  Object.assign(picture, { width, px });
   const path = (points, y) => {
     let text = "";
     let pen = "M";
     for (const point of points) {
-    // Forces come in kN, accelerations in m/s².
-    point.y &&= point.y.map((value, i) => value * results[i].factor);
       if (!point.y && !Number.isFinite(y(point))) { pen = "M"; continue; }
       text += `${pen}${px(point.x).toFixed(1)},${py(y(point)).toFixed(1)}`;
       pen = "L";

@@ -82,14 +82,9 @@ function drawMap() {
     const result = point.y ? counted(point.y[measure], unit) : say("the_run_failed");
     svg("title", {}, box).textContent = `${written(point.x)} ${curve.unit}, ${written(point.z)} ${across.unit}: ${result}`;
   }
-  const grid = svg("g", { class: "grid" }, image);
-  const xs = ticks(curve.from, curve.to, Math.max(3, (width - left - right) / 90));
-  for (const value of xs.values) svg("text", { x: px(value), y: height - bottom + 15, "text-anchor": "middle" }, grid).textContent = fixed(value, xs.decimals);
-  const zs = ticks(across.from, across.to, 6);
-  for (const value of zs.values) svg("text", { x: left - 7, y: py(value) + 3.5, "text-anchor": "end" }, grid).textContent = fixed(value, zs.decimals);
-  svg("text", { x: (left + width - right) / 2, y: height - 6, "text-anchor": "middle", class: "axis" }, grid).textContent = withUnit(nameOf(curve.path), curve.unit);
-  const middle = (top + height - bottom) / 2;
-  svg("text", { x: 14, y: middle, "text-anchor": "middle", class: "axis", transform: `rotate(-90 14 ${middle})` }, grid).textContent = withUnit(nameOf(across.path), across.unit);
+  const numbers = (key, count, at) => ({ ends: [key.from, key.to], count, place: { at }, lines: false, name: withUnit(nameOf(key.path), key.unit) });
+  const x = numbers(curve, Math.max(3, (width - left - right) / 90), px);
+  plot(svg("g", { class: "grid" }, image), { width, height, margin: map, x, y: numbers(across, 6, py) });
   const focused = map.cross && document.activeElement === map.cross;
   drawScale(image, high, unit);
   drawCross(image);

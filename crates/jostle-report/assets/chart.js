@@ -150,19 +150,21 @@ class TimeChart {
     });
   }
 
+  /** Axis of time: what is in sight. */
+  get across() {
+    return axis(this.view.range, [margin.left, this.width - margin.right]);
+  }
+
   x(t) {
-    const [start, end] = this.view.range;
-    return margin.left + ((t - start) / (end - start)) * (this.width - margin.left - margin.right);
+    return this.across.at(t);
   }
 
   time(x) {
-    const [start, end] = this.view.range;
-    return start + ((x - margin.left) / (this.width - margin.left - margin.right)) * (end - start);
+    return this.across.value(x);
   }
 
   y(value) {
-    const [low, high] = this.scale;
-    return this.height - margin.bottom - ((value - low) / (high - low)) * (this.height - margin.top - margin.bottom);
+    return axis(this.scale, [this.height - margin.bottom, margin.top]).at(value);
   }
 
   draw() {
@@ -224,25 +226,9 @@ class TimeChart {
     grid.replaceChildren();
     levels.replaceChildren();
     zone.replaceChildren();
-    const bottom = this.height - margin.bottom;
     const right = this.width - margin.right;
-    const values = ticks(...this.scale, 5);
-    for (const value of values.values) {
-      const y = this.y(value).toFixed(1);
-      const zero = Math.abs(value) < 1e-9 * (this.scale[1] - this.scale[0]);
-      svg("line", { x1: margin.left, x2: right, y1: y, y2: y, class: zero ? "zero" : "" }, grid);
-      svg("text", { x: margin.left - 7, y: this.y(value) + 3.5, "text-anchor": "end" }, grid).textContent =
-        fixed(value, values.decimals);
-    }
-    const times = ticks(...this.view.range, Math.max(3, this.width / 110));
-    for (const t of times.values) {
-      const x = this.x(t);
-      if (x < margin.left - 0.5 || x > right + 0.5) continue;
-      svg("line", { x1: x, x2: x, y1: margin.top, y2: bottom }, grid);
-      const anchor = x > right - 24 ? "end" : "middle";
-      svg("text", { x: Math.min(x, right + 8), y: this.height - 7, "text-anchor": anchor }, grid).textContent =
-        `${fixed(t, times.decimals)} s`;
-    }
+    const seconds = { ends: this.view.range, count: Math.max(3, this.width / 110), text: (t, decimals) => `${fixed(t, decimals)} s` };
+    plot(grid, { width: this.width, height: this.height, margin, x: seconds, y: { ends: this.scale } });
     for (const { value, label, quiet } of this.levels) {
       const y = this.y(value);
       const tone = quiet ? " quiet-level" : "";

@@ -2,16 +2,6 @@
 
 const data = JSON.parse(document.getElementById("page-data").textContent);
 const at = (id) => document.getElementById(id);
-const NS = "http://www.w3.org/2000/svg";
-
-/** An SVG element with attributes, and a text or children. */
-function svg(name, attributes, ...inside) {
-  const node = document.createElementNS(NS, name);
-  for (const [key, value] of Object.entries(attributes)) node.setAttribute(key, value);
-  node.append(...inside);
-  return node;
-}
-
 const curveOf = new Map();
 for (const one of data.curves) curveOf.set([one.pair, one.gap, one.state].join("|"), one);
 const find = (pair, gap, state) => curveOf.get([pair, gap, state].join("|"));
@@ -58,26 +48,26 @@ function drawMap() {
   const high = shown === "factor" ? Math.max(1.2, ...values) : Math.max(shown === "median" ? 0.1 : 1, ...values);
   const [left, top, side] = [64, 26, 64];
   const picture = svg("svg", { viewBox: `0 0 ${left + side * columns.length + 160} ${top + side * rows.length + 46}`, role: "img", "aria-label": SHOWN[shown], style: `max-width:${left + side * columns.length + 160}px` });
-  picture.append(svg("text", { x: 0, y: 14 }, say("classes_storeys_of_class")));
-  rows.forEach((row, r) => picture.append(svg("text", { x: left - 8, y: top + side * (rows.length - r - 0.5) + 4, "text-anchor": "end" }, row)));
-  columns.forEach((column, c) => picture.append(svg("text", { x: left + side * (c + 0.5), y: top + side * rows.length + 18, "text-anchor": "middle" }, column)));
-  picture.append(svg("text", { x: left, y: top + side * rows.length + 38 }, say("classes_storeys_of_neighbour")));
+  svg("text", { x: 0, y: 14 }, picture).textContent = say("classes_storeys_of_class");
+  rows.forEach((row, r) => (svg("text", { x: left - 8, y: top + side * (rows.length - r - 0.5) + 4, "text-anchor": "end" }, picture).textContent = row));
+  columns.forEach((column, c) => svg("text", { x: left + side * (c + 0.5), y: top + side * rows.length + 18, "text-anchor": "middle" }, picture).textContent = column);
+  svg("text", { x: left, y: top + side * rows.length + 38 }, picture).textContent = say("classes_storeys_of_neighbour");
   for (const { pair, index } of pairs) {
     const one = find(index, gap, state);
     const value = one?.[shown];
     const known = value !== null && value !== undefined;
     const share = known ? (value - low) / (high - low) : 0;
     const [x, y] = [left + side * columns.indexOf(pair.beside), top + side * (rows.length - 1 - rows.indexOf(pair.storeys))];
-    const cell = svg("rect", { class: `study-cell${known ? "" : " empty"}${index === chosen ? " linked" : ""}`, x: x + 1, y: y + 1, width: side - 2, height: side - 2, style: `--s:${(100 * share).toFixed(1)}%`, tabindex: 0, role: "button", "aria-label": `${pair.storeys} / ${pair.beside}: ${digits(value)}` });
-    cell.append(svg("title", {}, known ? `${SHOWN[shown]}: ${digits(value)}` : one?.note ?? say("classes_no_curve")));
+    const cell = svg("rect", { class: `study-cell${known ? "" : " empty"}${index === chosen ? " linked" : ""}`, x: x + 1, y: y + 1, width: side - 2, height: side - 2, style: `--s:${(100 * share).toFixed(1)}%`, tabindex: 0, role: "button", "aria-label": `${pair.storeys} / ${pair.beside}: ${digits(value)}` }, picture);
+    svg("title", {}, cell).textContent = known ? `${SHOWN[shown]}: ${digits(value)}` : one?.note ?? say("classes_no_curve");
     const choose = () => { chosen = index; draw(); };
     cell.addEventListener("click", choose);
     cell.addEventListener("keydown", (event) => { if (event.key === "Enter") choose(); });
-    picture.append(cell, svg("text", { class: `study-number${share > 0.5 ? " on-dark" : ""}`, x: x + side / 2, y: y + side / 2 + 4, "text-anchor": "middle" }, digits(value)));
+    svg("text", { class: `study-number${share > 0.5 ? " on-dark" : ""}`, x: x + side / 2, y: y + side / 2 + 4, "text-anchor": "middle" }, picture).textContent = digits(value);
   }
   const bar = left + side * columns.length + 20;
-  for (let i = 0; i < 24; i++) picture.append(svg("rect", { class: "study-cell", x: bar, y: top + (side * rows.length * (23 - i)) / 24, width: 12, height: (side * rows.length) / 24 + 0.3, style: `--s:${((100 * (i + 0.5)) / 24).toFixed(1)}%` }));
-  for (const part of [0, 0.5, 1]) picture.append(svg("text", { x: bar + 18, y: top + side * rows.length * (1 - part) + 4 }, digits(low + part * (high - low))));
+  for (let i = 0; i < 24; i++) svg("rect", { class: "study-cell", x: bar, y: top + (side * rows.length * (23 - i)) / 24, width: 12, height: (side * rows.length) / 24 + 0.3, style: `--s:${((100 * (i + 0.5)) / 24).toFixed(1)}%` }, picture);
+  for (const part of [0, 0.5, 1]) svg("text", { x: bar + 18, y: top + side * rows.length * (1 - part) + 4 }, picture).textContent = digits(low + part * (high - low));
   at("map").replaceChildren(picture);
 }
 
@@ -93,30 +83,23 @@ function drawCurves() {
   const gap = data.gaps[at("gap").value];
   const pair = data.pairs[chosen];
   at("chosen").textContent = say("classes_chosen", { storeys: pair.storeys, class: pair.class, beside: pair.beside, neighbour: pair.neighbour, gap: digits(gap * unitOf("mm").factor) });
-  const [left, top, width, height] = [46, 12, 520, 260];
   const most = data.range[1];
-  const x = (value) => left + (width * value) / most;
-  const y = (value) => top + height * (1 - value);
-  const picture = svg("svg", { viewBox: `0 0 ${left + width + 20} ${top + height + 44}`, role: "img", "aria-label": say("classes_probability"), style: "max-width:640px" });
-  for (const part of [0, 0.25, 0.5, 0.75, 1]) {
-    picture.append(svg("line", { x1: left, x2: left + width, y1: y(part), y2: y(part), stroke: "var(--rule)" }));
-    picture.append(svg("text", { x: left - 6, y: y(part) + 4, "text-anchor": "end" }, part));
-    picture.append(svg("text", { x: x(part * most), y: top + height + 18, "text-anchor": "middle" }, digits(part * most)));
-  }
-  picture.append(svg("text", { x: left + width / 2, y: top + height + 38, "text-anchor": "middle" }, `${data.measure} [g]`));
+  const [width, height, margin] = [586, 316, { left: 46, right: 20, top: 12, bottom: 44 }];
+  const picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": say("classes_probability"), style: "max-width:640px" });
+  const measure = { ends: [0, most], count: 4, name: `${data.measure} [g]`, lines: false };
+  const { px, py } = plot(svg("g", { class: "grid" }, picture), { width, height, margin, x: measure, y: { ends: [0, 1], count: 4 } });
   data.states.forEach((name, state) => {
     const colour = `var(--c${state})`;
     for (const [own, dash] of [[find(chosen, null, state), "5 4"], [find(chosen, gap, state), "none"]]) {
       if (!own) continue;
       if (own.median !== null) {
         const points = Array.from({ length: 121 }, (_, i) => (most * (i + 0.01)) / 120);
-        const line = points.map((value) => `${x(value).toFixed(1)},${y(normal(Math.log(value / own.median) / own.dispersion)).toFixed(1)}`);
-        picture.append(svg("polyline", { points: line.join(" "), fill: "none", stroke: colour, "stroke-width": 2, "stroke-dasharray": dash }));
+        const line = points.map((value) => `${px(value).toFixed(1)},${py(normal(Math.log(value / own.median) / own.dispersion)).toFixed(1)}`);
+        svg("polyline", { points: line.join(" "), fill: "none", stroke: colour, "stroke-width": 2, "stroke-dasharray": dash }, picture);
       }
       for (const [level, cases, reached] of own.counts) {
-        const dot = svg("circle", { cx: x(level), cy: y(reached / cases), r: 3.4, stroke: colour, fill: dash === "none" ? colour : "var(--paper)" });
-        dot.append(svg("title", {}, `${name}: ${reached} / ${cases}`));
-        picture.append(dot);
+        const dot = svg("circle", { cx: px(level), cy: py(reached / cases), r: 3.4, stroke: colour, fill: dash === "none" ? colour : "var(--paper)" }, picture);
+        svg("title", {}, dot).textContent = `${name}: ${reached} / ${cases}`;
       }
     }
   });

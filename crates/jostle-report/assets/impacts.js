@@ -131,11 +131,13 @@ class ImpactPanels {
     const drawing = svg("svg", { viewBox: "0 0 320 230", role: "img", "aria-label": name }, figure);
     const most = (of) => 1.06 * Math.max(...points.map((point) => point[of]), 1e-9);
     const least = Math.min(...points.map(({ force }) => force), 0);
-    const ends = { x: [0, most(across)], y: [1.06 * least, most("force")], xUnit: unit, yUnit: unitOf("kN").name };
-    const { px, py, inside } = smallPlot(drawing, { width: 320, height: 230, margin: LoopChart.margin, ...ends });
+    const x = { ends: [0, most(across)], name: unit };
+    const y = { ends: [1.06 * least, most("force")], name: unitOf("kN").name };
+    const { px, py, box } = plot(svg("g", { class: "grid" }, drawing), { width: 320, height: 230, margin: LoopChart.margin, x, y });
+    const within = inside(drawing, box);
     const d = `M${points.map((point) => `${px(point[across]).toFixed(1)},${py(point.force).toFixed(1)}`).join("L")}`;
-    svg("path", { class: "line", style: this.colour(this.chosen), d }, inside);
-    const dot = svg("circle", { class: "now", r: 4.5 }, inside);
+    svg("path", { class: "line", style: this.colour(this.chosen), d }, within);
+    const dot = svg("circle", { class: "now", r: 4.5 }, within);
     return { dot, px, py, times: points.map(({ time }) => time), across: points.map((point) => point[across]), force: points.map(({ force }) => force) };
   }
 

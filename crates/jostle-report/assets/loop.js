@@ -1,36 +1,5 @@
 // Loops of hinges: force over deformation, with the cursor of the charts over time.
 
-/**
- * Grid and units of a small plot. `x` and `y` are the ends of its axes. Returns what places values, and a group that cuts
- * off what lies outside.
- */
-function smallPlot(host, { width, height, margin: { left, right, top, bottom }, x, y, xUnit, yUnit }) {
-  const [end, floor] = [width - right, height - bottom];
-  const px = (value) => left + ((value - x[0]) / (x[1] - x[0])) * (end - left);
-  const py = (value) => floor - ((value - y[0]) / (y[1] - y[0])) * (floor - top);
-  const zero = (value, [low, high]) => (Math.abs(value) < 1e-9 * (high - low) ? "zero" : "");
-  const grid = svg("g", { class: "grid" }, host);
-  const xs = ticks(...x, 5);
-  for (const value of xs.values) {
-    const at = px(value).toFixed(1);
-    svg("line", { x1: at, x2: at, y1: top, y2: floor, class: zero(value, x) }, grid);
-    svg("text", { x: at, y: floor + 14, "text-anchor": "middle" }, grid).textContent = fixed(value, xs.decimals);
-  }
-  const ys = ticks(...y, 5);
-  for (const value of ys.values) {
-    const at = py(value);
-    svg("line", { x1: left, x2: end, y1: at, y2: at, class: zero(value, y) }, grid);
-    svg("text", { x: left - 5, y: at + 3.5, "text-anchor": "end" }, grid).textContent = fixed(value, ys.decimals);
-  }
-  svg("text", { x: end, y: height - 4, "text-anchor": "end" }, grid).textContent = xUnit;
-  svg("text", { x: left + 4, y: top + 10 }, grid).textContent = yUnit;
-  const id = `plot-clip-${smallPlot.count++}`;
-  svg("rect", { x: left, y: top, width: end - left, height: floor - top }, svg("clipPath", { id }, svg("defs", {}, host)));
-  return { px, py, inside: svg("g", { "clip-path": `url(#${id})` }, host) };
-}
-
-smallPlot.count = 0;
-
 /** One loop. Registered with the charts over time, it draws what they show up to their cursor. */
 class LoopChart {
   constructor(host, view, data) {
@@ -63,7 +32,7 @@ class LoopChart {
 
   static width = 320;
   static height = 250;
-  static margin = { left: 46, right: 10, top: 8, bottom: 32 };
+  static margin = { left: 58, right: 10, top: 8, bottom: 32 };
 
   /** Scales, grid and the lines that never change. */
   frame(dUnit, fUnit) {
@@ -80,14 +49,15 @@ class LoopChart {
       const most = 1.06 * Math.max(moved, greatest(this.y), ...this.backbone.map(([x]) => Math.abs(x)));
       [reach, top] = [most / share, most];
     }
-    const ends = { x: this.ends || [-reach, reach], y: [-top, top], xUnit: dUnit, yUnit: fUnit };
-    const { px, py, inside } = smallPlot(this.svg, { width, height, margin, ...ends });
+    const [x, y] = [{ ends: this.ends || [-reach, reach], name: dUnit }, { ends: [-top, top], name: fUnit }];
+    const { px, py, box } = plot(svg("g", { class: "grid" }, this.svg), { width, height, margin, x, y });
+    const within = inside(this.svg, box);
     Object.assign(this, { px, py });
-    for (const at of this.marks) svg("path", { class: "mark-line", d: `M${px(at).toFixed(1)},${margin.top}V${height - margin.bottom}` }, inside);
-    this.first = svg("path", { class: "backbone" }, inside);
-    this.whole = svg("path", { class: "line whole" }, inside);
-    this.strong = svg("path", { class: "line" }, inside);
-    this.dot = svg("circle", { class: "now", r: 4.5 }, inside);
+    for (const at of this.marks) svg("path", { class: "mark-line", d: `M${px(at).toFixed(1)},${margin.top}V${height - margin.bottom}` }, within);
+    this.first = svg("path", { class: "backbone" }, within);
+    this.whole = svg("path", { class: "line whole" }, within);
+    this.strong = svg("path", { class: "line" }, within);
+    this.dot = svg("circle", { class: "now", r: 4.5 }, within);
   }
 
   /** Texts of all points once, so that a moving cursor only cuts them. */

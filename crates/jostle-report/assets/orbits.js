@@ -48,16 +48,17 @@ class Orbit {
     if (!this.path) return;
     this.svg.setAttribute("aria-label", say("orbit_of", { name: this.select.selectedOptions[0].text }));
     const reach = 1.08 * Math.max(...[this.path, free].filter(Boolean).flatMap(({ x, y }) => [greatest(x), greatest(y)]), 1e-6);
-    const margin = { left: 44, right: 12, top: 14, bottom: 30 };
+    const margin = { left: 56, right: 12, top: 14, bottom: 32 };
     // Both axes to the same scale.
     const [wide, tall] = [Orbit.side - margin.left - margin.right, Orbit.side - margin.top - margin.bottom];
-    const x = [-reach, reach];
-    const y = x.map((end) => (end * tall) / wide);
-    this.plot = smallPlot(this.svg, { width: Orbit.side, height: Orbit.side, margin, x, y, xUnit: `x [${unitOf("mm").name}]`, yUnit: `y [${unitOf("mm").name}]` });
+    const axisOf = (name, share) => ({ ends: [-reach * share, reach * share], name: `${name} [${unitOf("mm").name}]` });
+    const [x, y] = [axisOf("x", 1), axisOf("y", tall / wide)];
+    this.plot = plot(svg("g", { class: "grid" }, this.svg), { width: Orbit.side, height: Orbit.side, margin, x, y });
+    const within = inside(this.svg, this.plot.box);
     const points = ({ x, y }) => x.reduce((text, value, i) => `${text}${i ? "L" : "M"}${this.plot.px(value).toFixed(1)} ${this.plot.py(y[i]).toFixed(1)}`, "");
-    if (free) svg("path", { class: "path-without", d: points(free) }, this.plot.inside);
-    svg("path", { class: "path-run", d: points(this.path) }, this.plot.inside);
-    this.dot = svg("circle", { class: "now", r: 4 }, this.plot.inside);
+    if (free) svg("path", { class: "path-without", d: points(free) }, within);
+    svg("path", { class: "path-run", d: points(this.path) }, within);
+    this.dot = svg("circle", { class: "now", r: 4 }, within);
     this.draw(this.time ?? 0);
   }
 

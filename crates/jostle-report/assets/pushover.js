@@ -1,15 +1,6 @@
 // Deformed shapes with the states of hinges, and where they are on the capacity curve.
 
 const data = JSON.parse(document.getElementById("page-data").textContent);
-const svgNamespace = "http://www.w3.org/2000/svg";
-
-function svg(name, attributes, parent) {
-  const element = document.createElementNS(svgNamespace, name);
-  for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
-  parent?.append(element);
-  return element;
-}
-
 /** Numbers of a packed list: scale · integer, little-endian. */
 function unpack({ scale, data: text }) {
   const view = new DataView(Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer);
@@ -23,11 +14,6 @@ function between(list, value) {
   const span = list[i + 1] - list[i];
   return [i, span > 0 ? Math.min(1, Math.max(0, (value - list[i]) / span)) : 0];
 }
-
-const fixed = (value, decimals) => value.toFixed(decimals).replace("-", "−");
-
-/** An SI value in a unit, with its name. */
-const inUnit = (value, { name, factor, least }, decimals) => `${fixed(value * factor, Math.max(decimals, least))} ${name}`;
 
 const frame = { left: 70, top: 24, width: 380, height: 400 };
 const side = { left: 520, width: 180 };

@@ -1,18 +1,5 @@
 // Charts over period or frequency, with linear or logarithmic axes.
 
-/** Positions and labels of a logarithmic axis. */
-function logTicks(low, high) {
-  const values = [];
-  const crowded = Math.log10(high / low) > 3.5;
-  for (let power = Math.floor(Math.log10(low)); power <= Math.ceil(Math.log10(high)); power++) {
-    for (const m of crowded ? [1] : [1, 2, 5]) {
-      const value = m * 10 ** power;
-      if (value >= low * 0.999 && value <= high * 1.001) values.push(value);
-    }
-  }
-  return values;
-}
-
 /** A short number for an axis or a read-out. */
 function short(value) {
   if (value === 0) return "0";
@@ -80,75 +67,46 @@ class SpectrumChart {
     return [0, high > 0 ? high * 1.06 : 1];
   }
 
-  scale(value, [low, high], logarithmic) {
-    return logarithmic ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low);
-  }
-
-  px(value) {
-    return margin.left + this.scale(value, this.xs, this.axes.x === "log") * (this.width - margin.left - margin.right);
-  }
-
-  py(value) {
-    const inner = this.height - margin.top - margin.bottom;
-    return this.height - margin.bottom - this.scale(value, this.ys, this.axes.y === "log") * inner;
-  }
-
   draw() {
     this.width = Math.max(this.figure.clientWidth, 240);
     this.svg.setAttribute("viewBox", `0 0 ${this.width} ${this.height}`);
     this.svg.replaceChildren();
-    this.xs = this.extent("x", this.axes.x === "log");
-    this.ys = this.extent("y", this.axes.y === "log");
+    const ends = (of) => ({ ends: this.extent(of, this.axes[of] === "log"), log: this.axes[of] === "log" });
+    const x = { ...ends("x"), count: 8, text: (value) => `${short(value)} ${this.xUnit}` };
     const grid = svg("g", { class: "grid" }, this.svg);
-    const [right, bottom] = [this.width - margin.right, this.height - margin.bottom];
-    const steps = (range, logarithmic, count) => (logarithmic ? logTicks(...range) : ticks(...range, count).values);
-    for (const value of steps(this.ys, this.axes.y === "log", 5)) {
-      const y = this.py(value);
-      svg("line", { x1: margin.left, x2: right, y1: y, y2: y }, grid);
-      svg("text", { x: margin.left - 7, y: y + 3.5, "text-anchor": "end" }, grid).textContent = short(value);
-    }
-    for (const value of steps(this.xs, this.axes.x === "log", 8)) {
-      const x = this.px(value);
-      svg("line", { x1: x, x2: x, y1: margin.top, y2: bottom }, grid);
-      const anchor = x > right - 24 ? "end" : "middle";
-      svg("text", { x, y: this.height - 7, "text-anchor": anchor }, grid).textContent = `${short(value)} ${this.xUnit}`;
-    }
+    this.plot = plot(grid, { width: this.width, height: this.height, margin, x, y: { ...ends("y"), text: short } });
+    const { px, py, box } = this.plot;
     for (const value of this.marks) {
-      const x = this.px(value);
-      svg("line", { x1: x, x2: x, y1: margin.top, y2: bottom, class: "level" }, this.svg);
-      svg("text", { x: x + 4, y: margin.top + 12, class: "level-name" }, this.svg).textContent = `${short(value)} ${this.xUnit}`;
+      const at = px(value);
+      svg("line", { x1: at, x2: at, y1: box.top, y2: box.bottom, class: "level" }, this.svg);
+      svg("text", { x: at + 4, y: box.top + 12, class: "level-name" }, this.svg).textContent = `${short(value)} ${this.xUnit}`;
     }
-    const clip = svg("clipPath", { id: (this.clip ??= `spectrum-clip-${SpectrumChart.count++}`) }, this.svg);
-    svg("rect", { x: margin.left, y: margin.top, width: right - margin.left, height: bottom - margin.top }, clip);
-    const lines = svg("g", { "clip-path": `url(#${this.clip})` }, this.svg);
+    const lines = inside(this.svg, box);
     for (const s of this.series) {
       const points = [];
       for (let i = 0; i < s.x.length; i++) {
         const hidden = (this.axes.x === "log" && s.x[i] <= 0) || (this.axes.y === "log" && s.y[i] <= 0);
-        if (!hidden && Number.isFinite(s.y[i])) points.push(`${this.px(s.x[i]).toFixed(2)},${this.py(s.y[i]).toFixed(2)}`);
+        if (!hidden && Number.isFinite(s.y[i])) points.push(`${px(s.x[i]).toFixed(2)},${py(s.y[i]).toFixed(2)}`);
       }
       if (!points.length) continue;
       const line = svg("path", { class: `line${s.dashed ? " dashed" : ""}`, style: `--c:${s.colour}`, d: `M${points.join("L")}` }, lines);
       if (s.thin) line.style.opacity = 0.75;
       if (s.bold) line.style.strokeWidth = 2.6;
     }
-    this.cursor = svg("line", { class: "pointer", y1: margin.top, y2: bottom }, this.svg);
+    this.cursor = svg("line", { class: "pointer", y1: box.top, y2: box.bottom }, this.svg);
     this.read();
   }
 
-  static count = 0;
-
   read() {
-    const inside = this.pointer !== null && this.pointer >= margin.left && this.pointer <= this.width - margin.right;
-    this.cursor.style.display = inside ? "" : "none";
+    const { box } = this.plot;
+    const seen = this.pointer !== null && this.pointer >= box.left && this.pointer <= box.right;
+    this.cursor.style.display = seen ? "" : "none";
     this.place.textContent = "";
     for (const readout of this.readouts) readout.textContent = "";
-    if (!inside) return;
+    if (!seen) return;
     this.cursor.setAttribute("x1", this.pointer);
     this.cursor.setAttribute("x2", this.pointer);
-    const share = (this.pointer - margin.left) / (this.width - margin.left - margin.right);
-    const [low, high] = this.xs;
-    const x = this.axes.x === "log" ? low * (high / low) ** share : low + share * (high - low);
+    const x = this.plot.x.value(this.pointer);
     this.place.textContent = say("at_value_of", { name: this.xName, value: short(x), unit: this.xUnit });
     this.series.forEach((s, i) => {
       this.readouts[i].textContent = x < s.x[0] || x > s.x[s.x.length - 1] ? "–" : short(interpolate(s.x, s.y, x));

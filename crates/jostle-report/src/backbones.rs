@@ -7,6 +7,7 @@ use maud::{Markup, html};
 use crate::format;
 use crate::hinges::outline;
 use crate::message;
+use crate::scale::Scale;
 
 const WIDTH: f64 = 300.0;
 const HEIGHT: f64 = 170.0;
@@ -155,28 +156,18 @@ fn picture(building: usize, name: &str, springs: &[Hysteresis], storeys: bool) -
         true => (format::LENGTH.name(), format::LENGTH.size()),
         false => ("mrad", 1e-3),
     };
-    let per_milli = 1.0 / milli;
-    let x = |d: f64| LEFT + (d + reach) / (2.0 * reach) * (WIDTH - LEFT - RIGHT);
-    let y = |f: f64| HEIGHT - BOTTOM - (f + high) / (2.0 * high) * (HEIGHT - TOP - BOTTOM);
-    let px = |value: f64| format!("{value:.1}");
-    let (xs, x_decimals) = crate::envelope::ticks(-reach * per_milli, reach * per_milli, 5.0);
-    let (ys, y_decimals) = crate::envelope::ticks(-forces.of(high), forces.of(high), 4.0);
+    let x = Scale::new([-reach, reach], [LEFT, WIDTH - RIGHT], milli, 5.0);
+    let y = Scale::new([-high, high], [HEIGHT - BOTTOM, TOP], forces.size(), 4.0);
     html! {
         svg viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) role="img" aria-label=(message::name_force_over_deformation(name, force, deformation)) {
             g.grid {
-                @for value in &xs {
-                    line x1=(px(x(value * milli))) x2=(px(x(value * milli))) y1=(px(TOP)) y2=(px(HEIGHT - BOTTOM)) class=[(*value == 0.0).then_some("zero")] {}
-                    text x=(px(x(value * milli))) y=(px(HEIGHT - BOTTOM + 14.0)) text-anchor="middle" { (format::fixed(*value, x_decimals)) }
-                }
-                @for value in &ys {
-                    line x1=(px(LEFT)) x2=(px(WIDTH - RIGHT)) y1=(px(y(value * forces.size()))) y2=(px(y(value * forces.size()))) class=[(*value == 0.0).then_some("zero")] {}
-                    text x=(px(LEFT - 5.0)) y=(px(y(value * forces.size()) + 3.5)) text-anchor="end" { (format::fixed(*value, y_decimals)) }
-                }
-                text x=(px(WIDTH - RIGHT)) y=(px(HEIGHT - 4.0)) text-anchor="end" { (deformation) }
-                text x=(px(LEFT + 4.0)) y=(px(TOP + 10.0)) { (force) }
+                (x.across([TOP, HEIGHT - BOTTOM]))
+                (y.up([LEFT, WIDTH - RIGHT]))
+                text x=(LEFT + 4.0) y=(TOP + 10.0) { (force) }
+                text x=(WIDTH - RIGHT - 4.0) y=(HEIGHT - BOTTOM - 5.0) text-anchor="end" { (deformation) }
             }
             @for outline in &outlines {
-                @let points: Vec<String> = outline.iter().map(|[d, f]| format!("{},{}", px(x(*d)), px(y(*f)))).collect();
+                @let points: Vec<String> = outline.iter().map(|[d, f]| format!("{:.1},{:.1}", x.at(*d), y.at(*f))).collect();
                 polyline.line style=(crate::document::colour(building)) points=(points.join(" ")) {}
             }
         }

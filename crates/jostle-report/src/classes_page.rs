@@ -6,8 +6,9 @@ use serde_json::Value;
 use crate::document::render_document;
 use crate::message;
 
-const SCRIPTS: [&str; 2] = [
+const SCRIPTS: [&str; 3] = [
     include_str!("../assets/messages.js"),
+    include_str!("../assets/plot.js"),
     include_str!("../assets/classes.js"),
 ];
 const STUDY_STYLE: &str = include_str!("../assets/study.css");

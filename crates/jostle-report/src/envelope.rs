@@ -5,6 +5,7 @@ use jostle::model::Model;
 use maud::{Markup, html};
 
 use crate::message;
+use crate::scale::{Scale, place};
 use crate::{Page, format};
 
 /// Peaks of one building: values from the lowest floor up.
@@ -281,32 +282,29 @@ fn picture(title: &str, unit: &str, [low, top]: [f64; 2], lines: &[Line], page: 
         if low < 0.0 { low - 0.05 * span } else { 0.0 },
         high + 0.05 * span,
     );
-    let x = |value: f64| LEFT + (value - low) / (high - low) * (WIDTH - LEFT - RIGHT);
-    let y =
-        |height: f64| HEIGHT - BOTTOM - (height - foot) / (head - foot) * (HEIGHT - TOP - BOTTOM);
-    let (x_ticks, x_decimals) = ticks(low, high, 5.0);
-    let (y_ticks, y_decimals) = ticks(format::HEIGHT.of(foot), format::HEIGHT.of(head), 6.0);
+    let x = Scale::new([low, high], [LEFT, WIDTH - RIGHT], 1.0, 5.0);
+    let y = Scale::new(
+        [foot, head],
+        [HEIGHT - BOTTOM, TOP],
+        format::HEIGHT.size(),
+        6.0,
+    );
     html! {
         figure.multiple {
             figcaption { (title) " " span.unit { "[" (unit) "]" } }
             svg viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) role="img" aria-label=(message::over_the_height(title)) {
                 g.grid {
-                    @for value in &x_ticks {
-                        line x1=(px(x(*value))) x2=(px(x(*value))) y1=(px(TOP)) y2=(px(HEIGHT - BOTTOM)) class=[(*value == 0.0).then_some("zero")] {}
-                        text x=(px(x(*value))) y=(px(HEIGHT - BOTTOM + 15.0)) text-anchor="middle" { (format::fixed(*value, x_decimals)) }
-                    }
-                    @for value in &y_ticks {
-                        line x1=(px(LEFT)) x2=(px(WIDTH - RIGHT)) y1=(px(y(*value * format::HEIGHT.size()))) y2=(px(y(*value * format::HEIGHT.size()))) {}
-                        text x=(px(LEFT - 6.0)) y=(px(y(*value * format::HEIGHT.size()) + 3.5)) text-anchor="end" { (format::fixed(*value, y_decimals)) @if *value == 0.0 { " " (format::HEIGHT.name()) } }
-                    }
+                    (x.across([TOP, HEIGHT - BOTTOM]))
+                    (y.up([LEFT, WIDTH - RIGHT]))
+                    text x=(LEFT - 6.0) y=(TOP) text-anchor="end" { (format::HEIGHT.name()) }
                 }
                 @for line in lines {
-                    polyline.line.dashed[line.dashed] style=(crate::document::colour(line.building)) points=(path(line, x, y)) {}
+                    polyline.line.dashed[line.dashed] style=(crate::document::colour(line.building)) points=(path(line, &x, &y)) {}
                 }
                 @for line in lines.iter().filter(|line| !line.dashed) {
                     @for (value, height) in &line.points {
                         @if *height > line.points[0].1 && value.is_finite() {
-                            circle.dot style=(crate::document::colour(line.building)) cx=(px(x(*value))) cy=(px(y(*height))) r="5" {
+                            circle.dot style=(crate::document::colour(line.building)) cx=(place(x.at(*value))) cy=(place(y.at(*height))) r="5" {
                                 title {
                                     (page.model.buildings.get(line.building).map_or("", |b| b.name.as_str())) ", "
                                     (format::in_unit(format::HEIGHT, *height, 2)) " " (format::HEIGHT.name()) ": " (format::significant(*value, 4)) " " (unit) ", " (line.meaning)
@@ -320,47 +318,17 @@ fn picture(title: &str, unit: &str, [low, top]: [f64; 2], lines: &[Line], page: 
     }
 }
 
-fn path(line: &Line, x: impl Fn(f64) -> f64, y: impl Fn(f64) -> f64) -> String {
+fn path(line: &Line, x: &Scale, y: &Scale) -> String {
     let points = line.points.iter().filter(|(value, _)| value.is_finite());
     let texts: Vec<String> = points
-        .map(|(value, height)| format!("{},{}", px(x(*value)), px(y(*height))))
+        .map(|(value, height)| format!("{:.1},{:.1}", x.at(*value), y.at(*height)))
         .collect();
     texts.join(" ")
-}
-
-fn px(value: f64) -> String {
-    format!("{value:.1}")
-}
-
-/// Round values between `low` and `high`, about `count` of them, and the decimals they need.
-pub(crate) fn ticks(low: f64, high: f64, count: f64) -> (Vec<f64>, usize) {
-    let raw = (high - low) / count;
-    if !raw.is_finite() || raw <= 0.0 {
-        return (vec![0.0], 0);
-    }
-    let power = 10f64.powf(raw.log10().floor());
-    let step = [1.0, 2.0, 5.0, 10.0]
-        .into_iter()
-        .map(|m| m * power)
-        .find(|step| *step >= raw * 0.999)
-        .unwrap_or(10.0 * power);
-    let (first, last) = ((low / step).ceil() as i64, (high / step).floor() as i64);
-    let decimals = (-step.log10().floor()).max(0.0) as usize;
-    ((first..=last).map(|i| i as f64 * step).collect(), decimals)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn ticks_are_round() {
-        assert_eq!(
-            ticks(-0.12, 0.1, 5.0),
-            (vec![-0.1, -0.05, 0.0, 0.05, 0.1], 2)
-        );
-        assert_eq!(ticks(0.0, 0.0, 5.0), (vec![0.0], 0));
-    }
 
     #[test]
     fn drift_is_constant_within_a_storey() {

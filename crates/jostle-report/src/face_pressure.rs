@@ -5,6 +5,7 @@ use jostle::results::summary::ContactSummary;
 use maud::{Markup, html};
 
 use crate::message;
+use crate::scale::Scale;
 use crate::site_places::part_of;
 use crate::{Page, format};
 
@@ -90,10 +91,14 @@ fn figure(contact: &ContactSummary, names: &[String; 2], sides: &[String; 2]) ->
     let total = plan.points.iter().fold(0.0, |sum, point| sum + point.force);
     let mean = format::LINE_LOAD.of(total / length);
     let most = pressures.iter().map(|p| p[1]).fold(mean, f64::max);
-    let (marks, decimals) = crate::envelope::ticks(0.0, most.max(1e-9), 4.0);
-    let top = marks.last().copied().unwrap_or(most).max(most);
-    let px = |s: f64| LEFT + (WIDTH - LEFT - RIGHT) * s / length;
-    let py = |p: f64| HEIGHT - BOTTOM - (HEIGHT - TOP - BOTTOM) * p / top;
+    let x = Scale::new(
+        [0.0, length],
+        [LEFT, WIDTH - RIGHT],
+        format::HEIGHT.size(),
+        6.0,
+    );
+    let y = Scale::new([0.0, most.max(1e-9)], [HEIGHT - BOTTOM, TOP], 1.0, 4.0);
+    let (px, py) = (|value: f64| x.at(value), |value: f64| y.at(value));
     let line: Vec<String> = pressures
         .iter()
         .map(|[s, p]| format!("{:.1},{:.1}", px(*s), py(*p)))
@@ -107,7 +112,6 @@ fn figure(contact: &ContactSummary, names: &[String; 2], sides: &[String; 2]) ->
         py(0.0)
     );
     let centre = plan.points.centre.map(place);
-    let (stations, digits) = crate::envelope::ticks(0.0, format::HEIGHT.of(length), 6.0);
     html! {
         figure.static-plot.pressure {
             figcaption {
@@ -121,14 +125,8 @@ fn figure(contact: &ContactSummary, names: &[String; 2], sides: &[String; 2]) ->
             }
             svg viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) role="img" aria-label=(message::force_per_length_along()) {
                 g.grid {
-                    @for mark in &marks {
-                        @let y = format!("{:.1}", py(*mark));
-                        line x1=(LEFT) x2=(WIDTH - RIGHT) y1=(y) y2=(y) {}
-                        text x=(LEFT - 6.0) y=(format!("{:.1}", py(*mark) + 4.0)) text-anchor="end" { (format::fixed(*mark, decimals)) }
-                    }
-                    @for station in stations.iter().filter(|s| **s <= format::HEIGHT.of(length) * (1.0 + 1e-9)) {
-                        text x=(format!("{:.1}", px(*station * format::HEIGHT.size()))) y=(HEIGHT - BOTTOM + 15.0) text-anchor="middle" { (format::fixed(*station, digits)) }
-                    }
+                    (y.up([LEFT, WIDTH - RIGHT]))
+                    (x.numbers_at(HEIGHT - BOTTOM + 15.0))
                 }
                 polygon.pressed points=(area) {}
                 polyline.pressed-line points=(line.join(" ")) {}

@@ -40,6 +40,7 @@ mod payload;
 mod plan_motion;
 mod pushover;
 mod rules;
+mod scale;
 mod section;
 mod selection;
 mod shear_failures;

@@ -23,8 +23,9 @@ pub struct MotionPage<'a> {
     pub measures: &'a Measures,
 }
 
-const SCRIPTS: [&str; 5] = [
+const SCRIPTS: [&str; 6] = [
     include_str!("../assets/messages.js"),
+    include_str!("../assets/plot.js"),
     include_str!("../assets/data.js"),
     include_str!("../assets/chart.js"),
     include_str!("../assets/spectrum_chart.js"),

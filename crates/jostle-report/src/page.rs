@@ -15,8 +15,9 @@ use crate::{
 };
 
 /// The scripts, in the order of their dependence; together they are one module.
-pub(crate) const SCRIPTS: [&str; 10] = [
+pub(crate) const SCRIPTS: [&str; 11] = [
     include_str!("../assets/messages.js"),
+    include_str!("../assets/plot.js"),
     include_str!("../assets/data.js"),
     include_str!("../assets/chart.js"),
     include_str!("../assets/hinges.js"),

@@ -7,6 +7,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 use crate::document::{POLICY, STYLE, theme_button, theme_script};
 use crate::format::{FORCE, HEIGHT, LENGTH, MOMENT, STRESS, fixed, in_unit, significant};
 use crate::message;
+use crate::scale::Scale;
 
 /// Plot area: left, top, width, height.
 const AREA: [f64; 4] = [64.0, 14.0, 420.0, 260.0];
@@ -134,17 +135,6 @@ fn drawing(section: &Section) -> Markup {
     }
 }
 
-/// A step of one, two or five times a power of ten, five or so of which make up the largest value.
-fn round_step(largest: f64) -> f64 {
-    let rough = largest / 5.0;
-    let power = 10f64.powf(rough.log10().floor());
-    [1.0, 2.0, 5.0]
-        .into_iter()
-        .map(|factor| factor * power)
-        .find(|step| *step >= rough)
-        .unwrap_or(10.0 * power)
-}
-
 fn plot(survey: &SectionSurvey, analysis: &Analysis, side: Side) -> Markup {
     let (curve, fit) = (&analysis.curves[side.index()], &analysis.fits[side.index()]);
     let largest = |of: fn(&Corner) -> f64| curve.points.iter().map(of).fold(1e-12, f64::max);
@@ -153,12 +143,9 @@ fn plot(survey: &SectionSurvey, analysis: &Analysis, side: Side) -> Markup {
         1.12 * largest(|point| point.force).max(fit.yielding.force),
     );
     let [left, top, width, height] = AREA;
-    let place = |corner: &Corner| {
-        [
-            left + corner.deformation / far * width,
-            top + height - corner.force / high * height,
-        ]
-    };
+    let x = Scale::new([0.0, far], [left, left + width], 1e-3, 5.0);
+    let y = Scale::new([0.0, high], [top + height, top], MOMENT.size(), 5.0);
+    let place = |corner: &Corner| [x.at(corner.deformation), y.at(corner.force)];
     let path = |points: &[Corner]| {
         let text: Vec<String> = points
             .iter()
@@ -170,23 +157,11 @@ fn plot(survey: &SectionSurvey, analysis: &Analysis, side: Side) -> Markup {
         format!("M{}", text.join(" L"))
     };
     let fitted = [Corner::default(), fit.cracking, fit.yielding, fit.ultimate];
-    let ticks = |largest: f64| {
-        let step = round_step(largest);
-        (0..=(largest / step).floor() as i32).map(move |n| f64::from(n) * step)
-    };
     html! {
         svg viewBox="0 0 500 320" role="img" aria-label={ (message::moment_against_curvature(side_name(survey, side))) } {
             g class="grid" {
-                @for moment in ticks(MOMENT.of(high)) {
-                    @let [_, y] = place(&Corner { deformation: 0.0, force: moment * MOMENT.size() });
-                    line x1=(left) x2=(left + width) y1=(y) y2=(y) {}
-                    text x=(left - 8.0) y=(y + 4.0) text-anchor="end" { (significant_tick(moment)) }
-                }
-                @for curvature in ticks(far * 1e3) {
-                    @let [x, _] = place(&Corner { deformation: curvature * 1e-3, force: 0.0 });
-                    line x1=(x) x2=(x) y1=(top) y2=(top + height) {}
-                    text x=(x) y=(top + height + 18.0) text-anchor="middle" { (significant_tick(curvature)) }
-                }
+                (x.across([top, top + height]))
+                (y.up([left, left + width]))
                 text x=(left + width / 2.0) y=(top + height + 38.0) text-anchor="middle" { (message::curvature_1_km()) }
                 text x="14" y=(top + height / 2.0) text-anchor="middle" transform={ "rotate(-90 14 " (top + height / 2.0) ")" } { (message::moment_kn_m()) }
             }
@@ -203,21 +178,5 @@ fn plot(survey: &SectionSurvey, analysis: &Analysis, side: Side) -> Markup {
                 }
             }
         }
-    }
-}
-
-fn significant_tick(value: f64) -> String {
-    crate::format::plain(value, 3)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn ticks_are_round() {
-        assert_eq!(round_step(430.0), 100.0);
-        assert_eq!(round_step(26.0), 10.0);
-        assert!((round_step(0.9) - 0.2).abs() < 1e-12);
     }
 }

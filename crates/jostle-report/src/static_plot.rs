@@ -3,8 +3,8 @@
 use jostle::linear::sort_by;
 use maud::{Markup, html};
 
-use crate::format;
 use crate::message;
+use crate::scale::{Scale, place};
 
 /// A plot of lines over a common axis.
 pub(crate) struct Plot {
@@ -55,32 +55,23 @@ impl Plot {
         if !(x[0] < x[1] && y[0].is_finite() && y[1].is_finite()) {
             return html! { figure.static-plot { figcaption { (message::nothing_to_show(&self.title)) } } };
         }
-        let ys = ticks(y[0].min(0.0), y[1].max(0.0), 5.0);
-        let y = [ys.first(), ys.last()].map(|end| end.copied().unwrap_or(0.0));
-        let xs = match self.logarithmic {
-            true => decades(x[0], x[1]),
-            false => ticks(x[0], x[1], 7.0),
+        let across = [LEFT, WIDTH - RIGHT];
+        let x = match self.logarithmic {
+            true => Scale::logarithmic(x, across),
+            false => Scale::new(x, across, 1.0, 7.0),
         };
-        let along = |value: f64| match self.logarithmic {
-            true => (value / x[0]).ln() / (x[1] / x[0]).ln(),
-            false => (value - x[0]) / (x[1] - x[0]),
-        };
-        let px = |value: f64| LEFT + (WIDTH - LEFT - RIGHT) * along(value);
-        let py = |value: f64| {
-            let share = (value - y[0]) / (y[1] - y[0]);
-            height - BOTTOM - (height - TOP - BOTTOM) * share
-        };
+        let y = [y[0].min(0.0), y[1].max(0.0)];
+        let y = Scale::rounded(y, [height - BOTTOM, TOP], 1.0, 5.0);
         let path = |line: &Line| {
             let mut text = String::new();
-            for [x, y] in thinned(&line.points) {
-                if !self.logarithmic || x > 0.0 {
+            for [along, value] in thinned(&line.points) {
+                if !self.logarithmic || along > 0.0 {
                     let letter = if text.is_empty() { 'M' } else { 'L' };
-                    text += &format!("{letter}{:.1} {:.1}", px(x), py(y));
+                    text += &format!("{letter}{:.1} {:.1}", x.at(along), y.at(value));
                 }
             }
             text
         };
-        let inside = |value: &&f64| (-1e-9..=1.0 + 1e-9).contains(&along(**value));
         html! {
             figure.static-plot {
                 figcaption {
@@ -93,15 +84,13 @@ impl Plot {
                 }
                 svg viewBox=(format!("0 0 {WIDTH} {height:.0}")) role="img" aria-label=(self.title) {
                     g.grid {
-                        @for y in &ys { line.zero[*y == 0.0] x1=(LEFT) x2=(WIDTH - RIGHT) y1=(round(py(*y))) y2=(round(py(*y))) {} }
-                        @for x in xs.iter().filter(inside) { line x1=(round(px(*x))) x2=(round(px(*x))) y1=(TOP) y2=(round(height - BOTTOM)) {} }
+                        (y.up(across))
+                        (x.across([TOP, height - BOTTOM]))
                     }
-                    @for y in &ys { text x=(LEFT - 6.0) y=(round(py(*y) + 4.0)) text-anchor="end" { (number(*y)) } }
-                    @for x in xs.iter().filter(inside) { text x=(round(px(*x))) y=(round(height - BOTTOM + 14.0)) text-anchor="middle" { (number(*x)) } }
                     @for line in &self.lines {
                         path.line.dashed[line.dashed] d=(path(line)) style=(colour(line.colour)) { title { (line.name) } }
                     }
-                    text x=(LEFT) y=(round(height - 5.0)) { "→ " (self.x_label) "   ↑ " (self.y_label) }
+                    text x=(LEFT) y=(place(height - 5.0)) { "→ " (self.x_label) "   ↑ " (self.y_label) }
                 }
             }
         }
@@ -111,47 +100,6 @@ impl Plot {
 /// The style attribute with a colour by its number, as buildings have them.
 pub(crate) fn colour(number: usize) -> String {
     format!("--c:var(--c{})", number % 7)
-}
-
-fn round(value: f64) -> String {
-    format!("{value:.1}")
-}
-
-/// A number of an axis.
-fn number(value: f64) -> String {
-    if value == 0.0 {
-        return "0".into();
-    }
-    format::plain(value, 4)
-}
-
-/// Round numbers from at or below `low` to at or above `high`, in about `parts` parts.
-fn ticks(low: f64, high: f64, parts: f64) -> Vec<f64> {
-    let usable = high > low;
-    if !usable {
-        return vec![low, low + 1.0];
-    }
-    let rough = (high - low) / parts;
-    let power = 10f64.powf(rough.log10().floor());
-    let steps = [1.0, 2.0, 5.0, 10.0].map(|step| step * power);
-    let step = steps
-        .into_iter()
-        .find(|step| *step >= rough)
-        .unwrap_or(rough);
-    let (first, last) = ((low / step + 1e-9).floor(), (high / step - 1e-9).ceil());
-    let count = (last - first) as usize;
-    (0..=count)
-        .map(|index| step * (first + index as f64))
-        .collect()
-}
-
-/// 1, 2 and 5 in every decade within a range.
-fn decades(low: f64, high: f64) -> Vec<f64> {
-    let first = low.log10().floor() as i32;
-    let last = high.log10().ceil() as i32;
-    let all = (first..=last).flat_map(|power| [1.0, 2.0, 5.0].map(|one| one * 10f64.powi(power)));
-    all.filter(|value| (low * (1.0 - 1e-9)..=high * (1.0 + 1e-9)).contains(value))
-        .collect()
 }
 
 /// A line thinned to a number of points that paper can show.
@@ -179,13 +127,6 @@ pub(crate) fn thinned_to(points: &[[f64; 2]], most: usize) -> Vec<[f64; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn axes_have_round_numbers() {
-        assert_eq!(ticks(-3.1, 4.2, 5.0), [-4.0, -2.0, 0.0, 2.0, 4.0, 6.0]);
-        assert_eq!(ticks(0.0, 10.0, 5.0), [0.0, 2.0, 4.0, 6.0, 8.0, 10.0]);
-        assert_eq!(decades(0.02, 4.0), [0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0]);
-    }
 
     #[test]
     fn thinning_keeps_the_peaks() {

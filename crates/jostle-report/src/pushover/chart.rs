@@ -6,6 +6,7 @@ use maud::{Markup, html};
 
 use crate::format;
 use crate::message;
+use crate::scale::{Scale, name_upwards};
 
 /// Plot area: left, top, width, height.
 const AREA: [f64; 4] = [70.0, 30.0, 580.0, 320.0];
@@ -38,20 +39,21 @@ impl Chart {
         }
     }
 
-    /// Left edge, lower edge, and picture units per metre and newton.
-    pub(super) fn scales(&self) -> [f64; 4] {
+    /// Scales of roof displacements and base shears.
+    pub(super) fn scales(&self) -> [Scale; 2] {
         let [left, top, width, height] = AREA;
+        let [roof, shear] = self.size;
+        let (roof, across) = ([0.0, roof], [left, left + width]);
+        let (shear, up) = ([0.0, shear], [top + height, top]);
         [
-            left,
-            top + height,
-            width / self.size[0],
-            height / self.size[1],
+            Scale::new(roof, across, format::LENGTH.size(), 7.0),
+            Scale::new(shear, up, format::FORCE.size(), 6.0),
         ]
     }
 
     fn place(&self, roof: f64, shear: f64) -> [f64; 2] {
-        let [left, bottom, x, y] = self.scales();
-        [left + x * roof, bottom - y * shear]
+        let [x, y] = self.scales();
+        [x.at(roof), y.at(shear)]
     }
 
     fn path(&self, points: impl Iterator<Item = [f64; 2]>) -> String {
@@ -67,31 +69,22 @@ impl Chart {
         let Some(first) = one.curves.first() else {
             return html! {};
         };
-        let [roof, shear] = self.size;
+        let ([roof, shear], bottom) = (self.size, top + height);
+        let [x, y] = self.scales();
+        // The same in percent of the weight and of the height.
+        let weight = [0.0, shear / first.weight];
+        let weight = Scale::new(weight, [bottom, top], 0.01, 6.0);
+        let drift = Scale::new([0.0, roof / first.height], [left, left + width], 0.01, 7.0);
         html! {
             svg.capacity viewBox="0 0 720 410" role="img" aria-label={ (message::base_shear_of_against(&one.building.name)) } {
                 g.grid {
-                    @for value in ticks(format::LENGTH.of(roof), 7.0) {
-                        @let x = self.place(value * format::LENGTH.size(), 0.0)[0];
-                        line x1=(x) x2=(x) y1=(top) y2=(top + height) {}
-                        text.axis x=(x) y=(top + height + 18.0) text-anchor="middle" { (format::plain(value, 4)) }
-                    }
-                    @for value in ticks(format::FORCE.of(shear), 6.0) {
-                        @let y = self.place(0.0, value * format::FORCE.size())[1];
-                        line x1=(left) x2=(left + width) y1=(y) y2=(y) {}
-                        text.axis x=(left - 8.0) y=(y + 4.0) text-anchor="end" { (format::plain(value, 6)) }
-                    }
-                    @for value in ticks(100.0 * shear / first.weight, 6.0) {
-                        @let y = self.place(0.0, value * first.weight / 100.0)[1];
-                        text.axis x=(left + width + 8.0) y=(y + 4.0) { (format::plain(value, 4)) }
-                    }
-                    @for value in ticks(100.0 * roof / first.height, 7.0) {
-                        @let x = self.place(value * first.height / 100.0, 0.0)[0];
-                        text.axis x=(x) y=(top - 8.0) text-anchor="middle" { (format::plain(value, 4)) " %" }
-                    }
-                    text.axis x=(left + width / 2.0) y=(top + height + 40.0) text-anchor="middle" { (message::roof_displacement_mm_above()) }
-                    text.axis x="0" y="0" transform={ "translate(14 " (top + height / 2.0) ") rotate(-90)" } text-anchor="middle" { (message::base_shear_kn()) }
-                    text.axis x="0" y="0" transform={ "translate(708 " (top + height / 2.0) ") rotate(-90)" } text-anchor="middle" { (message::of_weight()) }
+                    (x.across([top, bottom]))
+                    (y.up([left, left + width]))
+                    (weight.numbers_beside(left + width + 8.0, "start"))
+                    (drift.numbers_at(top - 8.0))
+                    text x=(left + width / 2.0) y=(top + height + 40.0) text-anchor="middle" { (message::roof_displacement_mm_above()) }
+                    (name_upwards(message::base_shear_kn(), 14.0, top + height / 2.0))
+                    (name_upwards(message::of_weight(), 708.0, top + height / 2.0))
                 }
                 @for (index, curve) in one.curves.iter().enumerate() { (self.curve(one, index, curve)) }
                 circle.here data-role="here" r="7" cx=(left) cy=(top + height) {}
@@ -165,37 +158,5 @@ impl Chart {
                 text.said x=(format!("{:.1}", x + dx)) y=(format!("{:.1}", y + dy)) text-anchor=(anchor) { (name) }
             }
         }
-    }
-}
-
-/// Round values from zero to an end, about `count` of them.
-pub(super) fn ticks(end: f64, count: f64) -> Vec<f64> {
-    let raw = end / count;
-    if !(raw.is_finite() && raw > 0.0) {
-        return vec![0.0];
-    }
-    let power = 10_f64.powf(raw.log10().floor());
-    let step = [1.0, 2.0, 5.0, 10.0]
-        .into_iter()
-        .map(|digit| digit * power)
-        .find(|step| *step >= raw)
-        .unwrap_or(raw);
-    (0..=(end / step + 1e-9) as usize)
-        .map(|k| k as f64 * step)
-        .collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn ticks_are_round_and_end_inside() {
-        assert_eq!(
-            ticks(320.0, 7.0),
-            [0.0, 50.0, 100.0, 150.0, 200.0, 250.0, 300.0]
-        );
-        assert_eq!(ticks(0.0, 7.0), [0.0]);
-        assert_eq!(ticks(f64::NAN, 7.0), [0.0]);
     }
 }

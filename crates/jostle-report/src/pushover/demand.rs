@@ -6,9 +6,9 @@ use jostle_motion::{
 };
 use maud::{Markup, html};
 
-use super::chart::ticks;
 use crate::format;
 use crate::message;
+use crate::scale::{Scale, name_upwards};
 
 /// What a building is asked to withstand.
 #[derive(Clone, Copy, Debug)]
@@ -187,7 +187,9 @@ fn picture(index: usize, name: &str, wanted: &[[f64; 2]], capacities: &[Capacity
         .map(|point| point[1])
         .fold(1e-9, f64::max);
     let high = 1.06 * high;
-    let place = |[x, y]: [f64; 2]| [left + width * x / far, bottom - height * y / high];
+    let x = Scale::new([0.0, far], [left, left + width], format::LENGTH.size(), 7.0);
+    let y = Scale::new([0.0, high], [bottom, top], format::ACCELERATION.size(), 6.0);
+    let place = |point: [f64; 2]| [x.at(point[0]), y.at(point[1])];
     let path = |points: &[[f64; 2]]| {
         let text: Vec<String> = points
             .iter()
@@ -209,18 +211,10 @@ fn picture(index: usize, name: &str, wanted: &[[f64; 2]], capacities: &[Capacity
         svg.capacity viewBox="0 0 720 400" role="img" aria-label={ (message::spectral_acceleration_of_against_spectral(name)) } {
             clipPath id={ "adrs-clip-" (index) } { rect x=(left) y=(top) width=(width) height=(height) {} }
             g.grid {
-                @for value in ticks(format::LENGTH.of(far), 7.0) {
-                    @let x = place([value * format::LENGTH.size(), 0.0])[0];
-                    line x1=(x) x2=(x) y1=(top) y2=(bottom) {}
-                    text.axis x=(x) y=(bottom + 18.0) text-anchor="middle" { (format::plain(value, 4)) }
-                }
-                @for value in ticks(format::ACCELERATION.of(high), 6.0) {
-                    @let y = place([0.0, value * format::ACCELERATION.size()])[1];
-                    line x1=(left) x2=(left + width) y1=(y) y2=(y) {}
-                    text.axis x=(left - 8.0) y=(y + 4.0) text-anchor="end" { (format::plain(value, 4)) }
-                }
-                text.axis x=(left + width / 2.0) y=(bottom + 40.0) text-anchor="middle" { (message::spectral_displacement_mm()) }
-                text.axis x="0" y="0" transform={ "translate(14 " (top + height / 2.0) ") rotate(-90)" } text-anchor="middle" { (message::spectral_acceleration_m_s()) }
+                (x.across([top, bottom]))
+                (y.up([left, left + width]))
+                text x=(left + width / 2.0) y=(bottom + 40.0) text-anchor="middle" { (message::spectral_displacement_mm()) }
+                (name_upwards(message::spectral_acceleration_m_s(), 14.0, top + height / 2.0))
             }
             @for period in LINES {
                 @let stiffness = (std::f64::consts::TAU / period).powi(2);

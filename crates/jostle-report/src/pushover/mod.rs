@@ -15,8 +15,9 @@ use chart::Chart;
 pub use demand::Demand;
 
 const OWN_STYLE: &str = include_str!("../../assets/pushover.css");
-const SCRIPTS: [&str; 2] = [
+const SCRIPTS: [&str; 3] = [
     include_str!("../../assets/messages.js"),
+    include_str!("../../assets/plot.js"),
     include_str!("../../assets/pushover.js"),
 ];
 

@@ -30,7 +30,7 @@ fn building(one: &PushedBuilding, chart: &Chart) -> Value {
     let height = system.floors.last().map_or(1.0, |floor| floor.height);
     let members = stick_model.members.iter().map(|member| member.ends);
     let springs = stick_model.springs.iter().map(|spring| spring.ends);
-    let [left, bottom, x, y] = chart.scales();
+    let [roof, shear] = chart.scales();
     json!({
         "name": system.name,
         "nodes": { "x": x_of_nodes, "y": y_of_nodes.collect::<Vec<_>>() },
@@ -41,7 +41,7 @@ fn building(one: &PushedBuilding, chart: &Chart) -> Value {
         "width": width,
         "height": height,
         "drift": one.curves.iter().map(|curve| curve.settings.drift).fold(1e-4, f64::max),
-        "chart": { "left": left, "bottom": bottom, "x": x, "y": y },
+        "chart": { "left": roof.at(0.0), "bottom": shear.at(0.0), "x": roof.per_unit(), "y": -shear.per_unit() },
         "curves": one.curves.iter().map(|curve| self::curve(one, curve)).collect::<Vec<_>>(),
     })
 }

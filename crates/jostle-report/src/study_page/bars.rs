@@ -3,9 +3,8 @@
 use maud::{Markup, html};
 
 use super::{Axis, number};
-use crate::envelope::ticks;
-use crate::format;
 use crate::message;
+use crate::scale::Scale;
 
 /// A ranking.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,10 +53,10 @@ pub(super) fn figure(bars: &Bars) -> Markup {
         all().fold(bars.centre, f64::max),
     );
     let span = if high > low { high - low } else { 1.0 };
-    let px = |value: f64| LEFT + (WIDTH - LEFT - RIGHT) * (value - low) / span;
+    let x = Scale::new([low, low + span], [LEFT, WIDTH - RIGHT], 1.0, 5.0);
+    let px = |value: f64| x.at(value);
     let below = TOP + ROW * bars.bars.len() as f64;
     let height = below + BOTTOM;
-    let (marks, decimals) = ticks(low, low + span, 5.0);
     let base = message::base_centre_value(number(bars.centre), &bars.value.unit);
     let base = base.trim_end();
     // Kept within the picture.
@@ -75,11 +74,7 @@ pub(super) fn figure(bars: &Bars) -> Markup {
             }
             svg viewBox=(format!("0 0 {WIDTH} {height}")) role="img" aria-label=(bars.title) {
                 g.grid {
-                    @for mark in &marks {
-                        @let x = format!("{:.1}", px(*mark));
-                        line x1=(x) x2=(x) y1=(TOP) y2=(below) {}
-                        text x=(x) y=(below + 14.0) text-anchor="middle" { (format::fixed(*mark, decimals)) }
-                    }
+                    (x.across([TOP, below]))
                 }
                 @for (row, bar) in bars.bars.iter().enumerate() {
                     @let y = TOP + ROW * row as f64 + 4.0;

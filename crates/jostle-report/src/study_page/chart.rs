@@ -4,6 +4,7 @@ use maud::{Markup, html};
 
 use super::{Axis, number};
 use crate::message;
+use crate::scale::{Scale, name_upwards};
 
 /// Lines over an axis.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,31 +69,13 @@ pub enum Stroke {
 const WIDTH: f64 = 520.0;
 const HEIGHT: f64 = 300.0;
 const LEFT: f64 = 66.0;
-const RIGHT: f64 = 12.0;
+const RIGHT: f64 = 20.0;
 const TOP: f64 = 10.0;
 const BOTTOM: f64 = 40.0;
-/// Width of a letter.
-const LETTER: f64 = 6.6;
 /// Colours of the style sheet.
 const COLOURS: usize = 7;
 /// Series in a legend at most.
 const LEGEND: usize = 14;
-
-/// Round numbers that divide 0..=`reach` into about five parts, and the last of them at or above `reach`.
-fn ticks(reach: f64) -> Vec<f64> {
-    if !(reach.is_finite() && reach > 0.0) {
-        return vec![0.0, 1.0];
-    }
-    let rough = reach / 4.5;
-    let power = 10f64.powf(rough.log10().floor());
-    let steps = [1.0, 2.0, 2.5, 5.0, 10.0].map(|step| step * power);
-    let step = steps
-        .into_iter()
-        .find(|step| *step >= rough)
-        .unwrap_or(rough);
-    let count = (reach / step - 1e-9).ceil() as usize;
-    (0..=count).map(|index| step * index as f64).collect()
-}
 
 pub(super) fn figure(chart: &Chart) -> Markup {
     let points = || chart.series.iter().flat_map(|series| &series.points);
@@ -103,13 +86,9 @@ pub(super) fn figure(chart: &Chart) -> Markup {
         .chain(bands().map(|band| band[1]))
         .chain(chart.levels.iter().map(|level| level.value))
         .fold(chart.reach, f64::max);
-    let (xs, ys) = (ticks(most_x), ticks(most_y));
-    let (end_x, end_y) = (
-        xs.last().copied().unwrap_or(1.0),
-        ys.last().copied().unwrap_or(1.0),
-    );
-    let px = move |x: f64| LEFT + (WIDTH - LEFT - RIGHT) * x / end_x;
-    let py = move |y: f64| HEIGHT - BOTTOM - (HEIGHT - TOP - BOTTOM) * y / end_y;
+    let x = Scale::rounded([0.0, most_x], [LEFT, WIDTH - RIGHT], 1.0, 4.5);
+    let y = Scale::rounded([0.0, most_y], [HEIGHT - BOTTOM, TOP], 1.0, 4.5);
+    let (px, py) = (|value: f64| x.at(value), |value: f64| y.at(value));
     let path = |points: &[[f64; 2]]| {
         let mut text = String::new();
         for (index, [x, y]) in points.iter().enumerate() {
@@ -158,15 +137,8 @@ pub(super) fn figure(chart: &Chart) -> Markup {
             }
             svg viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) role="img" aria-label=(label) {
                 g.grid {
-                    @for y in &ys { line x1=(LEFT) x2=(WIDTH - RIGHT) y1=(py(*y)) y2=(py(*y)) {} }
-                    @for x in &xs { line x1=(px(*x)) x2=(px(*x)) y1=(TOP) y2=(HEIGHT - BOTTOM) {} }
-                }
-                @for y in &ys { text x=(LEFT - 6.0) y=(py(*y) + 4.0) text-anchor="end" { (number(*y)) } }
-                @for x in &xs {
-                    @let name = number(*x);
-                    // The last one is kept within the picture.
-                    @let half = 0.5 * LETTER * name.chars().count() as f64;
-                    text x=(px(*x).min(WIDTH - half)) y=(HEIGHT - BOTTOM + 15.0) text-anchor="middle" { (name) }
+                    (y.up([LEFT, WIDTH - RIGHT]))
+                    (x.across([TOP, HEIGHT - BOTTOM]))
                 }
                 @for series in &chart.series {
                     @if series.band.len() == series.points.len() && series.points.len() > 1 {
@@ -197,25 +169,8 @@ pub(super) fn figure(chart: &Chart) -> Markup {
                     text.study-level-name x=(WIDTH - RIGHT - 4.0) y=(py(level.value) - 4.0) text-anchor="end" { (level.name) }
                 }
                 text x=(0.5 * (LEFT + WIDTH - RIGHT)) y=(HEIGHT - 6.0) text-anchor="middle" { (chart.x.label()) }
-                text x="0" y="0" transform={ "translate(12 " (0.5 * (TOP + HEIGHT - BOTTOM)) ") rotate(-90)" } text-anchor="middle" { (chart.y.label()) }
+                (name_upwards(chart.y.label(), 12.0, 0.5 * (TOP + HEIGHT - BOTTOM)))
             }
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn ticks_are_round_and_reach_the_greatest_value() {
-        assert_eq!(ticks(10.0), [0.0, 2.5, 5.0, 7.5, 10.0]);
-        assert_eq!(ticks(0.97).last(), Some(&1.0));
-        assert_eq!(ticks(0.0), [0.0, 1.0]);
-        for reach in [1e-3, 0.3, 7.0, 4321.0] {
-            let all = ticks(reach);
-            assert!(all.len() >= 4 && all.len() <= 7, "{all:?}");
-            assert!(all.last().is_some_and(|last| *last >= reach * 0.999_999));
         }
     }
 }
