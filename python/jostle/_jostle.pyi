@@ -122,6 +122,7 @@ def size(
     records: Sequence[str],
     pga: str | None,
     over: str,
+    both_signs: bool,
     numbers: tuple[int, int, float],
     folder: str | os.PathLike[str] | None = None,
     jobs: int | None = None,

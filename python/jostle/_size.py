@@ -105,6 +105,7 @@ def size(
     motions: Sequence[Motion | str | os.PathLike[str]] | None = None,
     pga: Quantity | None = None,
     over: str = "worst",
+    both_signs: bool = False,
     seed: int = 0,
     trials: int = 600,
     tolerance: float = 1e-4,
@@ -124,6 +125,7 @@ def size(
         motions: other ground motions: objects or names; by default those of the model.
         pga: scales the motions to this peak.
         over: ``"worst"`` or ``"mean"`` of several records.
+        both_signs: runs every motion with both signs; each counts as two records.
         seed: seed of the search.
         trials: most trials, at least 10.
         tolerance: relative convergence tolerance.
@@ -174,6 +176,7 @@ def size(
             [],
             None if pga is None else option_text("pga", pga),
             over,
+            both_signs,
             (seed, trials, float(tolerance)),
             folder,
             jobs,

@@ -224,7 +224,7 @@ fn sets(found: &[CriticalGap]) -> Vec<([String; 2], [f64; 3], usize)> {
     pairs.dedup();
     let of = |pair: [String; 2]| {
         let gaps = found.iter().filter(|gap| gap.between == pair);
-        let both = gaps.map(|gap| gap.gap_m.max(gap.reversed_gap_m.unwrap_or(0.0)));
+        let both = gaps.map(|gap| gap.of_both_signs_m());
         let widths: Vec<f64> = both.collect();
         let n = widths.len() as f64;
         let mean = widths.iter().sum::<f64>() / n;

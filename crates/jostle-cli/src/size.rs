@@ -38,6 +38,9 @@ pub(crate) struct SizeArgs {
     /// Scale the motions to this peak ground acceleration
     #[arg(long, value_name = "QUANTITY")]
     pga: Option<String>,
+    /// Run every motion with both signs: each counts as two records
+    #[arg(long)]
+    both_signs: bool,
     /// Of several records, the worst counts, or their mean
     #[arg(long, value_name = "RULE", default_value = "worst", value_parser = Over::NAMES)]
     over: String,
@@ -76,6 +79,7 @@ pub(crate) fn size(args: &SizeArgs) -> Result<(), Failure> {
         minimise: args.minimise.clone(),
         records: args.record.clone(),
         pga: args.pga.clone(),
+        both_signs: args.both_signs,
         over: Over::from_name(&args.over).unwrap_or(Over::Worst),
         seed: args.seed,
         trials: args.trials,

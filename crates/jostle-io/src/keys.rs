@@ -595,8 +595,8 @@ use Dimension as D;
 use Kind::{
     Choice, ChoiceOrTable, Component, ContactStiffness, Count, CountPerSpan, Counts, Flag,
     FlagOrChoices, FlagOrTexts, FloorPairs, GradeOr, LinkDamping, Modes, Neighbours, NumberOrTable,
-    PerContact, PerStorey, Quantities, Quantity, TablePerStorey, Tables, Text, TextOrTable,
-    TextOrTexts, WordOr, WordOrTable,
+    OneOrMore, PerContact, PerStorey, Quantities, Quantity, TablePerStorey, Tables, Text,
+    TextOrTable, TextOrTexts, WordOr, WordOrTable,
 };
 use Section as S;
 
@@ -622,7 +622,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Motion, "period", Quantity(D::Time), "Period of the analytic motion.").usual("a period", 0.02, 20.0),
     default(S::Motion, "centre", Quantity(D::Time), "1.5 periods", "Time at which the Ricker pulse peaks.").usual("a time", 0.01, 600.0),
     optional(S::Motion, "pga", Quantity(D::Acceleration), "Scale the motion to this peak acceleration.").range(PEAK_ACCELERATION),
-    default(S::Motion, "scale", Quantity(D::Dimensionless), "1", "Multiply the motion by this factor, not 0.").usual("a factor on a motion", 1e-3, 1e3).signed(),
+    default(S::Motion, "scale", OneOrMore(D::Dimensionless), "1", "Multiply the motion by this factor, not 0; a list has one factor for each of several records, with its components.").usual("a factor on a motion", 1e-3, 1e3).signed(),
     optional(S::Motion, "match", Kind::Table(S::Match), "Scale the motion so that its response spectrum matches another."),
     default(S::Motion, "governing", Choice(&GoverningRule::NAMES), "the code of match, else \"maximum\"", "Rule for the governing value of several records: gb50011, en1998 and asce7 take the mean or the greatest by their number."),
     default(S::Motion, "reverse", Flag, "false", "Change the sign of the motion."),

@@ -501,6 +501,11 @@ fn with_record(old: Option<&MotionSpec>, record: &str) -> MotionSpec {
                     options: RecordOptions::default(),
                 },
                 duration: old.duration.filter(|_| was_record),
+                // Factors belong to the records of the list.
+                scaling: match &old.scaling {
+                    Scaling::FactorOfEach(_) => Scaling::AsRecorded,
+                    other => other.clone(),
+                },
                 ..old.clone()
             }
         }

@@ -165,6 +165,8 @@ pub enum Scaling {
     Pga(f64),
     /// By this factor \[–\].
     Factor(f64),
+    /// Each of several records by a factor of its own \[–\].
+    FactorOfEach(Vec<f64>),
     /// So that its response spectrum agrees with another.
     Match(Box<MatchSpec>),
 }
@@ -314,6 +316,9 @@ impl MotionSpec {
         let index = self.records().iter().position(|name| name == record)?;
         let mut one = self.clone();
         one.source = one.source.one_of_several(index);
+        if let Scaling::FactorOfEach(factors) = &one.scaling {
+            one.scaling = factors.get(index).copied().map(Scaling::Factor)?;
+        }
         if let Some(across) = one.bearing.as_mut().and_then(|own| own.across.as_mut()) {
             across.source = across.source.one_of_several(index);
         }
@@ -377,6 +382,8 @@ impl MotionSpec {
         motion.scale = match &self.scaling {
             Scaling::AsRecorded => 1.0,
             Scaling::Factor(factor) => *factor,
+            // A run takes one record of several.
+            Scaling::FactorOfEach(factors) => factors.first().copied().unwrap_or(1.0),
             Scaling::Match(wanted) => match_scale(&motion, wanted)?,
             Scaling::Pga(_) if peak == 0.0 => {
                 return Err(MotionError::Zero { name: motion.name });

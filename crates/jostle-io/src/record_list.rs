@@ -51,8 +51,8 @@ pub(crate) fn keep(root: &mut Node, index: usize) {
     }
 }
 
-/// Keys of `[motion]` that may list records.
-const COMPONENTS: [&str; 3] = ["record", "across", "vertical"];
+/// Keys of `[motion]` that may have an entry for each record.
+const COMPONENTS: [&str; 4] = ["record", "across", "vertical", "scale"];
 
 fn child<'n>(node: &'n mut Node, key: &str) -> Option<&'n mut Node> {
     let Value::Table(table) = &mut node.value else {

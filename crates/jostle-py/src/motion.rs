@@ -277,7 +277,9 @@ impl Motion {
                     Scaling::Pga(-pga * factor)
                 }
                 // What the match came to, from now on without it.
-                Scaling::Match(_) => Scaling::Factor(self.motion.scale.abs() * factor),
+                Scaling::Match(_) | Scaling::FactorOfEach(_) => {
+                    Scaling::Factor(self.motion.scale.abs() * factor)
+                }
             };
         }
         spec.reverse ^= reverse;
@@ -344,7 +346,7 @@ impl Motion {
             Scaling::AsRecorded => (None, None),
             Scaling::Pga(pga) => (Some(pga), None),
             Scaling::Factor(factor) => (None, Some(factor)),
-            Scaling::Match(_) => (None, Some(self.motion.scale.abs())),
+            Scaling::Match(_) | Scaling::FactorOfEach(_) => (None, Some(self.motion.scale.abs())),
         };
         let name = self.motion.name.clone();
         (

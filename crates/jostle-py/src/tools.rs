@@ -67,7 +67,7 @@ pub(crate) struct Sized(SizeResults);
 
 /// Searches; `request` has the names and values of the command line. `observer` is called with finished and most trials.
 #[pyfunction]
-#[pyo3(signature = (base, vary, keep, minimise, records, pga, over, numbers, folder=None, jobs=None, force=false, observer=None))]
+#[pyo3(signature = (base, vary, keep, minimise, records, pga, over, both_signs, numbers, folder=None, jobs=None, force=false, observer=None))]
 #[allow(
     clippy::too_many_arguments,
     reason = "they are those of the Python function"
@@ -81,6 +81,7 @@ pub(crate) fn size(
     records: Vec<String>,
     pga: Option<String>,
     over: &str,
+    both_signs: bool,
     numbers: (u64, usize, f64),
     folder: Option<PathBuf>,
     jobs: Option<usize>,
@@ -94,6 +95,7 @@ pub(crate) fn size(
         minimise,
         records,
         pga,
+        both_signs,
         over: Over::from_name(over).ok_or_else(|| {
             let names = Over::NAMES.join(", ");
             argument_error(format!("over: expected one of {names}, found {over:?}"))

@@ -39,7 +39,7 @@ impl Ran {
             others.push((
                 variant,
                 model.gaps.iter().map(|gap| gap.law.stiffness).collect(),
-                prepared.run_variant(&words, Stage::ContactSensitivity, observer)?,
+                prepared.run_variant(&words, false, Stage::ContactSensitivity, observer)?,
             ));
         }
         let own = self.prepared.input.model.gaps.first();

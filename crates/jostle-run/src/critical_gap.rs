@@ -67,9 +67,20 @@ pub struct CriticalGap {
     pub rules: Vec<RuleGap>,
     /// Rules that cannot be applied, and what they need.
     pub left_out: Vec<LeftOutRule>,
-    /// Force and impacts over the gap, from zero to `gap_m`; only if asked for.
+    /// Force and impacts over the gap, from zero to the smallest gap without pounding of both signs; only if asked for.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub curve: Vec<GapPoint>,
+    /// The same under the motion reversed; only if that is asked for too.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub reversed_curve: Vec<GapPoint>,
+}
+
+impl CriticalGap {
+    /// Smallest gap found without an impact under the motion and, where that was asked for, its reverse \[m\].
+    #[must_use]
+    pub fn of_both_signs_m(&self) -> f64 {
+        self.gap_m.max(self.reversed_gap_m.unwrap_or(0.0))
+    }
 }
 
 /// A rule that cannot be applied.
@@ -520,20 +531,20 @@ impl Search<'_> {
             let widths: Vec<f64> = rules.iter().map(|rule| rule.gap_m).collect();
             known = run_all(&mut signs, &widths);
         }
+        let free_of_both = reversed_closing.unwrap_or(0.0).max(bracket.free);
         let curve: Vec<f64> = match settings.curve {
             0 => Vec::new(),
             count => {
                 let share = 1.0 / (count.max(2) - 1) as f64;
-                let widths = (0..count).map(|i| share * i as f64 * bracket.free);
+                let widths = (0..count).map(|i| share * i as f64 * free_of_both);
                 widths.collect()
             }
         };
-        known = known.and_then(|()| run_all(&mut signs[..1], &curve));
+        known = known.and_then(|()| run_all(&mut signs, &curve));
         let stopped = match known {
             Err(GapError::Stopped) => true,
             known => known.map(|()| false)?,
         };
-        let free_of_both = reversed_closing.unwrap_or(0.0).max(bracket.free);
         for rule in &mut rules {
             rule.ratio = (bracket.free > 0.0).then(|| rule.gap_m / bracket.free);
             rule.ratio_of_both_signs = (free_of_both > 0.0).then(|| rule.gap_m / free_of_both);
@@ -550,6 +561,12 @@ impl Search<'_> {
                 rule.reversed_peak_force_n = Some(led.peak_force_n);
             }
         }
+        // A part of a curve would be taken for all of it.
+        let points = |sign: usize| {
+            let sign = signs.get(sign).filter(|_| !stopped);
+            let points = sign.map(|sign| curve.iter().filter_map(|width| sign.known_at(*width)));
+            points.into_iter().flatten().collect()
+        };
         let found = CriticalGap {
             between,
             motion: self.motion.name.clone(),
@@ -572,15 +589,8 @@ impl Search<'_> {
                     needs: rule.needs,
                 })
                 .collect(),
-            // A part of a curve would be taken for all of it.
-            curve: if stopped {
-                Vec::new()
-            } else {
-                let points = curve.iter();
-                points
-                    .filter_map(|width| signs[0].known_at(*width))
-                    .collect()
-            },
+            curve: points(0),
+            reversed_curve: points(1),
         };
         Ok((found, stopped))
     }

@@ -20,14 +20,14 @@ const TABLE: &str = "gap_curve.csv";
 
 /// First line of the table.
 const HEAD: &str =
-    "left,right,motion,pga_m_s2,width_m,impact_count,peak_force_n,first_impact_s,met\n";
+    "left,right,motion,pga_m_s2,width_m,impact_count,peak_force_n,first_impact_s,met,reversed\n";
 
 /// The curves of all gaps and motions as a table: one row per width, cells without a value empty.
 #[must_use]
 pub fn gap_curve_csv(found: &[CriticalGap]) -> String {
     let mut text = HEAD.to_owned();
     for gap in found {
-        for point in &gap.curve {
+        for (point, is_reversed) in points(gap) {
             let cells = [
                 quoted(&gap.between[0]),
                 quoted(&gap.between[1]),
@@ -40,12 +40,19 @@ pub fn gap_curve_csv(found: &[CriticalGap]) -> String {
                     .first_impact_s
                     .map_or(String::new(), |t| t.to_string()),
                 point.met.map_or(String::new(), |met| met.to_string()),
+                is_reversed.to_string(),
             ];
             text += &cells.join(",");
             text.push('\n');
         }
     }
     text
+}
+
+/// Points of the curves of both signs of the motion, and whether they are of the reverse.
+fn points(gap: &CriticalGap) -> impl Iterator<Item = (&crate::GapPoint, bool)> {
+    let reversed = gap.reversed_curve.iter().map(|point| (point, true));
+    gap.curve.iter().map(|point| (point, false)).chain(reversed)
 }
 
 /// Files of earlier curves in a folder, which new ones replace.
@@ -117,20 +124,37 @@ fn headlines(found: &[CriticalGap]) -> Vec<String> {
 
 fn headline(gap: &CriticalGap) -> String {
     let pair = gap.between.join(message::and());
-    let most = gap
-        .curve
-        .iter()
-        .max_by(|a, b| a.peak_force_n.total_cmp(&b.peak_force_n));
-    let strongest = most.filter(|point| point.impact_count > 0).map(|point| {
-        message::the_greatest_force_kn_comes(kn(point.peak_force_n), mm(point.width_m))
+    let most = points(gap).max_by(|a, b| a.0.peak_force_n.total_cmp(&b.0.peak_force_n));
+    let strongest = most.filter(|(point, _)| point.impact_count > 0);
+    let strongest = strongest.map(|(point, is_reversed)| {
+        message::the_greatest_force_kn_comes(
+            kn(point.peak_force_n),
+            mm(point.width_m),
+            with_sign(is_reversed),
+        )
     });
+    let worse = gap
+        .reversed_gap_m
+        .map_or("", |other| match other > gap.gap_m {
+            true => message::the_motion_reversed(),
+            false => message::either_sign_of_the_motion(),
+        });
     message::under_with_cm_s_do(
         &gap.motion,
         GROUND_ACCELERATION.number(gap.pga_m_s2, 1),
         &pair,
-        mm(gap.gap_m),
+        LENGTH.rounded_up(gap.of_both_signs_m()),
+        worse,
         strongest.unwrap_or_default(),
     )
+}
+
+/// Words for the sign of a motion.
+fn with_sign(is_reversed: bool) -> &'static str {
+    match is_reversed {
+        true => message::the_motion_reversed(),
+        false => "",
+    }
 }
 
 fn axis(name: &str, unit: &str) -> Axis {
@@ -143,33 +167,34 @@ fn axis(name: &str, unit: &str) -> Axis {
 /// Charts of one pair of neighbours, one line for each motion, and its rules.
 fn sections_of(pair: &[String; 2], gaps: &[&CriticalGap]) -> Vec<Section> {
     let chart = |y: Axis, of: &dyn Fn(&crate::GapPoint) -> f64, dots: bool| {
-        let mut series: Vec<Series> = gaps
-            .iter()
-            .enumerate()
-            .map(|(colour, gap)| Series {
-                name: gap.motion.clone(),
-                points: gap
-                    .curve
+        let lines = gaps.iter().enumerate().flat_map(|(colour, gap)| {
+            [(&gap.curve, false), (&gap.reversed_curve, true)].map(|(curve, is_reversed)| Series {
+                name: format!("{}{}", gap.motion, with_sign(is_reversed)),
+                points: curve
                     .iter()
                     .map(|p| [LENGTH.of(p.width_m), of(p)])
                     .collect(),
                 band: Vec::new(),
-                stroke: Stroke::Line,
+                stroke: match is_reversed {
+                    true => Stroke::Dashed,
+                    false => Stroke::Line,
+                },
                 colour,
             })
-            .collect();
+        });
+        let mut series: Vec<Series> = lines.filter(|line| !line.points.is_empty()).collect();
         if dots {
             for (index, gap) in gaps.iter().enumerate() {
                 let rules = rows_of_rules(&gap.rules, |rule| (&rule.rule, rule.gap_m));
                 let narrow = rules.into_iter();
-                let narrow = narrow.filter(|(_, rule)| rule.gap_m <= gap.gap_m);
+                let narrow = narrow.filter(|(_, rule)| rule.gap_m <= gap.of_both_signs_m());
                 // Rules that require the same share a dot.
                 let mut dots: Vec<(String, [f64; 2])> = Vec::new();
                 for (name, rule) in narrow {
-                    let Some(force) = rule.peak_force_n else {
+                    let Some(worse) = rule.worse_outcome() else {
                         continue;
                     };
-                    let point = [LENGTH.of(rule.gap_m), FORCE.of(force)];
+                    let point = [LENGTH.of(rule.gap_m), FORCE.of(worse.peak_force_n)];
                     match dots.iter_mut().find(|(_, known)| *known == point) {
                         Some((names, _)) => *names = format!("{names}, {name}"),
                         None => dots.push((name, point)),
@@ -196,8 +221,8 @@ fn sections_of(pair: &[String; 2], gaps: &[&CriticalGap]) -> Vec<Section> {
     };
     let unmet: usize = gaps
         .iter()
-        .flat_map(|gap| &gap.curve)
-        .filter(|point| point.met == Some(false))
+        .flat_map(|gap| points(gap))
+        .filter(|(point, _)| point.met == Some(false))
         .count();
     let warning = if unmet > 0 {
         message::did_not_meet_the_tolerance(counted(unmet, message::point()))
@@ -243,7 +268,9 @@ fn sections_of(pair: &[String; 2], gaps: &[&CriticalGap]) -> Vec<Section> {
         });
         sections.push(Section {
             title: message::rules_under(&gap.motion),
-            remark: message::smallest_gap_without_pounding_mm(mm(gap.gap_m)),
+            remark: message::smallest_gap_without_pounding_mm(
+                LENGTH.rounded_up(gap.of_both_signs_m()),
+            ),
             table: Some((heads.map(Into::into).to_vec(), rows.collect())),
             ..Section::default()
         });

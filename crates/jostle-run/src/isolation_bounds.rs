@@ -16,8 +16,10 @@ impl Ran {
     pub fn run_isolation_bounds(&mut self, observer: &mut Observer<'_>) {
         let model = &self.prepared.input.model;
         if has_bounds(model) && self.outcome.end == RunEnd::Completed {
-            let summary = self.prepared.summary(&self.outcome, None, self.wall);
-            self.isolation_bounds = Some(at_bounds(&self.prepared, &summary, observer));
+            let without = self.without_contact.as_ref();
+            let summary = self.prepared.summary(&self.outcome, without, self.wall);
+            let apart = without.is_some();
+            self.isolation_bounds = Some(at_bounds(&self.prepared, &summary, apart, observer));
         }
     }
 }
@@ -34,13 +36,14 @@ fn has_bounds(model: &Model) -> bool {
 fn at_bounds(
     prepared: &Prepared,
     nominal: &Summary,
+    apart: bool,
     observer: &mut Observer<'_>,
 ) -> Result<IsolationBounds, String> {
     let mut one = |upper: bool| {
         let words = BOUNDS[usize::from(upper)];
         let model = scaled(&prepared.input.model, upper);
         match prepared.with_model(model, words, System::assemble)? {
-            Some(other) => other.run_variant(words, Stage::IsolationBounds, observer),
+            Some(other) => other.run_variant(words, apart, Stage::IsolationBounds, observer),
             None => Ok(nominal.clone()),
         }
     };
@@ -74,6 +77,7 @@ fn compare(runs: [&Summary; 3]) -> IsolationBounds {
             stroke_m: isolated(stroke),
             force_n: isolated(force),
             drift: Bounded::new(own.map(BuildingSummary::greatest_drift)),
+            storey_shear_n: Bounded::new(own.map(storey_shear)),
         }
     };
     let gap = |index: usize| {
@@ -83,12 +87,30 @@ fn compare(runs: [&Summary; 3]) -> IsolationBounds {
             between: own[0].between.clone(),
             peak_force_n: of(|gap| gap.peak_force_n),
             impact_count: of(|gap| gap.impact_count as f64),
+            closing_without_contact_m: needed(own),
         }
     };
     IsolationBounds {
         buildings: (0..runs[0].buildings.len()).map(building).collect(),
         gaps: (0..runs[0].gaps.len()).map(gap).collect(),
     }
+}
+
+/// Gap needed, where all three runs know it.
+fn needed(gaps: [&GapSummary; 3]) -> Option<Bounded> {
+    let [nominal, lower, upper] = gaps.map(|gap| gap.closing_without_contact_m);
+    Some(Bounded::new([nominal?, lower?, upper?]))
+}
+
+/// Greatest shear of a storey, along x or across.
+fn storey_shear(building: &BuildingSummary) -> f64 {
+    let shears = building.floors.iter().map(|floor| {
+        let across = floor
+            .in_plan
+            .map_or(0.0, |plan| plan.storey_shear_across_peak_n);
+        floor.response.storey_shear_peak_n.max(across)
+    });
+    shears.fold(0.0, f64::max)
 }
 
 fn stroke(building: &BuildingSummary) -> f64 {

@@ -686,6 +686,9 @@ fn write_bounds(text: &mut String, bounds: &IsolationBounds) -> std::fmt::Result
             line(name, "force", force, &|x| FORCE.text(x, 1))?;
         }
         line(name, "drift", &own.drift, &drift)?;
+        line(name, "storey shear", &own.storey_shear_n, &|x| {
+            FORCE.text(x, 1)
+        })?;
     }
     for own in &bounds.gaps {
         let [left, right] = &own.between;
@@ -695,6 +698,10 @@ fn write_bounds(text: &mut String, bounds: &IsolationBounds) -> std::fmt::Result
             &own.peak_force_n,
             &|x| FORCE.text(x, 1),
         )?;
+        if let Some(needed) = &own.closing_without_contact_m {
+            let name = format!("{left} ↔ {right}");
+            line(&name, "gap needed", needed, &|x| LENGTH.text(x, 1))?;
+        }
     }
     Ok(())
 }

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use jostle::{Model, ModelFault, Plan, RunEnd, Summary, System};
+use jostle::{Model, ModelFault, Plan, RunEnd, Settings, Summary, System};
 
 use crate::observer::{Observer, Stage};
-use crate::prepared::Prepared;
+use crate::prepared::{Prepared, without_contact};
 
 impl Prepared {
     /// The same with another model, which `assemble` puts together; `None` if it is the same model. `words` say what is different.
@@ -35,18 +35,25 @@ impl Prepared {
         }))
     }
 
-    /// The numbers of a run of it, or why there are none.
+    /// The numbers of a run of it, or why there are none; `apart` says whether it is also run without contact.
     pub(crate) fn run_variant(
         &self,
         words: &str,
+        apart: bool,
         stage: Stage,
         observer: &mut Observer<'_>,
     ) -> Result<Summary, String> {
-        let outcome = self.step(self.settings(false), |progress| observer(stage, progress));
-        match &outcome.end {
-            RunEnd::Completed => Ok(self.summary(&outcome, None, 0.0)),
-            RunEnd::Stopped => Err("they were interrupted".to_owned()),
-            RunEnd::Failed(error) => Err(format!("{words}: {error}")),
-        }
+        let mut run = |settings: Settings| {
+            let outcome = self.step(settings, |progress| observer(stage, progress));
+            match &outcome.end {
+                RunEnd::Completed => Ok(outcome),
+                RunEnd::Stopped => Err("they were interrupted".to_owned()),
+                RunEnd::Failed(error) => Err(format!("{words}: {error}")),
+            }
+        };
+        let settings = self.settings(false);
+        let outcome = run(settings)?;
+        let without = apart.then(|| run(without_contact(settings))).transpose()?;
+        Ok(self.summary(&outcome, without.as_ref(), 0.0))
     }
 }

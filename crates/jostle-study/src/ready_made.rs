@@ -1,6 +1,7 @@
 //! Ready-made studies: each is written for the model that it varies, around the values of the model.
 
 mod angles;
+mod brackets;
 mod factors;
 
 use std::path::Path;
@@ -76,6 +77,9 @@ const RECORDS: &str = "values = [\"el-centro-1940-ns\", \"nanjing-artificial\"]"
 /// Peaks and gaps of Zhang et al. (2019).
 const PUBLISHED_PEAKS: &str = r#"values = ["35 cm/s2", "70 cm/s2", "220 cm/s2", "400 cm/s2"]"#;
 const PUBLISHED_GAPS: &str = r#"values = ["2 mm", "5 mm", "10 mm", "15 mm", "20 mm", "30 mm", "40 mm", "60 mm", "80 mm", "100 mm", "150 mm", "220 mm", "300 mm"]"#;
+
+/// Multiples of the gaps of the model in the study of fragility.
+const HALF_TO_TWICE: [f64; 3] = [0.5, 1.0, 2.0];
 
 /// Names of the ready-made studies.
 #[must_use]
@@ -177,8 +181,13 @@ fn wanted(name: &str, tree: &ModelTree, input: &Input, notes: &mut Vec<String>) 
         }
         "fragility" => {
             let mut blocks: Vec<Block> = [
-                factors::widths(input, &[0.5, 1.0, 2.0], notes),
-                factors::shaking(tree, input, &multiples(0.2, 0.2, 10), notes),
+                factors::widths(input, &HALF_TO_TWICE, notes),
+                factors::shaking(
+                    tree,
+                    input,
+                    &brackets::shaking(input, &HALF_TO_TWICE),
+                    notes,
+                ),
             ]
             .into_iter()
             .flatten()

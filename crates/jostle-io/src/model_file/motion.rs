@@ -73,11 +73,11 @@ pub(crate) fn read_in(
         ("across", across.map(|own| &own.source)),
         ("vertical", vertical.and_then(|own| own.source.as_ref())),
     ];
+    let records = source.as_ref().map_or(1, MotionSource::count);
     for (key, component) in components {
-        let records = source.as_ref().map_or(1, MotionSource::count);
         check_count(reader, &view, key, component, records);
     }
-    let scaling = scaling(reader, &view, files);
+    let scaling = scaling(reader, &view, files, records);
     let reverse = reader
         .get(&view, "reverse")
         .and_then(|field| reader.flag(&field));
@@ -105,7 +105,7 @@ pub(super) fn read_own(
         refuse(reader, view, RECORD_KEYS, "the record of [motion]");
         None
     };
-    let scaling = scaling(reader, view, files);
+    let scaling = scaling(reader, view, files, 1);
     let reverse = reader
         .get(view, "reverse")
         .and_then(|field| reader.flag(&field));
@@ -451,7 +451,19 @@ fn required<'n>(
     Some((field, value))
 }
 
-fn scaling(reader: &mut Reader<'_>, view: &View<'_>, files: &Files) -> Scaling {
+/// A factor on a motion.
+fn factor(reader: &mut Reader<'_>, field: &Field<'_>) -> Option<f64> {
+    let factor = reader.quantity(field, Dimension::Dimensionless)?;
+    if factor == 0.0 {
+        *reader.bad(field, "must not be 0, with which nothing shakes") =
+            Some("give a factor other than 0, or leave scale out".into());
+        return None;
+    }
+    Some(factor)
+}
+
+/// How a motion with so many records is scaled.
+fn scaling(reader: &mut Reader<'_>, view: &View<'_>, files: &Files, records: usize) -> Scaling {
     let given = ["pga", "scale", "match"].map(|key| reader.get(view, key));
     let mut first = None;
     for field in given.iter().flatten() {
@@ -466,13 +478,23 @@ fn scaling(reader: &mut Reader<'_>, view: &View<'_>, files: &Files) -> Scaling {
     }
     let [pga, scale, wanted] = given;
     let factor = scale.and_then(|field| {
-        let factor = reader.quantity(&field, Dimension::Dimensionless)?;
-        if factor == 0.0 {
-            *reader.bad(&field, "must not be 0, with which nothing shakes") =
-                Some("give a factor other than 0, or leave scale out".into());
+        let Some(entries) = field.entries() else {
+            return factor(reader, &field).map(Scaling::Factor);
+        };
+        if entries.len() != records || records < 2 {
+            let problem = match records {
+                1 => "is a list, but there is one record".to_owned(),
+                _ => format!("has {} entries for {records} records", entries.len()),
+            };
+            *reader.bad(&field, problem) =
+                Some("give one factor, or one for each record of the list".into());
             return None;
         }
-        Some(Scaling::Factor(factor))
+        let factors = entries.iter().map(|entry| factor(reader, entry));
+        let factors: Vec<Option<f64>> = factors.collect();
+        Some(Scaling::FactorOfEach(
+            factors.into_iter().collect::<Option<_>>()?,
+        ))
     });
     let peak = pga
         .and_then(|field| reader.positive(&field, Dimension::Acceleration))

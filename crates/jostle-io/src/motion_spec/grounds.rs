@@ -158,7 +158,10 @@ impl GroundsSpec {
         let follows = match (&own.scaling, &own.source) {
             (Scaling::AsRecorded | Scaling::Factor(_), None) => true,
             (Scaling::AsRecorded, Some(source)) => !source.states_its_size(),
-            (Scaling::Factor(_) | Scaling::Pga(_) | Scaling::Match(_), _) => false,
+            (
+                Scaling::Factor(_) | Scaling::FactorOfEach(_) | Scaling::Pga(_) | Scaling::Match(_),
+                _,
+            ) => false,
         };
         if follows {
             motion.scale *= common.scale;

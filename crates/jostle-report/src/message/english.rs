@@ -546,6 +546,8 @@ messages! {
     drift_percent(name) = "{name}: peak drift [%]";
     peak_force_between_kn(between) = "{between}: peak contact force [{kN}]";
     impacts_between(between) = "{between}: impacts";
+    storey_shear_of_kn(name) = "{name}: greatest storey shear [{kN}]";
+    gap_needed_between_mm(between) = "{between}: gap needed [{mm}]";
     all_bearings_at_one_bound = "Three runs: all bearings at their nominal properties, at their lower and at their upper bounds. The envelope is the greatest of the three. The rest of this report shows the nominal run.";
     all_checks_are_passed = "No check found anything.";
     silenced_checks(names) = "Silenced in the model file: {names}.";
@@ -926,12 +928,14 @@ messages! {
     // jostle-run/gap_page
     force_over_gap = "Force over gap";
     one_row_per_width = "one row per width";
-    the_greatest_force_kn_comes(peak_force, width) = " The greatest force, {peak_force} {kN}, comes at a gap of {width} {mm}.";
-    under_with_cm_s_do(motion, pga, pair, gap, strongest) = "Under {motion} with {pga} {cm/s²}, {pair} do not touch from {gap} {mm} on.{strongest}";
+    the_greatest_force_kn_comes(peak_force, width, sign) = " The greatest force, {peak_force} {kN}, comes at a gap of {width} {mm}{sign}.";
+    the_motion_reversed = " with the motion reversed";
+    either_sign_of_the_motion = ", either sign of the motion";
+    under_with_cm_s_do(motion, pga, pair, gap, sign, strongest) = "Under {motion} with {pga} {cm/s²}: no impact between {pair} for gaps of {gap} {mm} or more{sign}.{strongest}";
     one_record_is_no_design_value = "One record gives no design value: codes require 3, 7 or 11 records.";
     did_not_meet_the_tolerance(unmet) = " {unmet} did not meet the tolerance (column met).";
     point = "point";
-    greatest_contact_force_and_number(warning) = "Greatest contact force and number of impacts over the width of the gap, all other gaps out of reach. Dots: rules that require less than needed. Where neighbouring points jump, a slightly different gap leads to other impacts.{warning}";
+    greatest_contact_force_and_number(warning) = "Greatest contact force and number of impacts over the width of the gap, all other gaps out of reach. Dashed: the motion reversed. Dots: rules that require less than needed. Where neighbouring points jump, a slightly different gap leads to other impacts.{warning}";
     greatest_contact_force = "greatest contact force";
     gap_mm = "required gap [{mm}]";
     smallest = "÷ smallest";
@@ -1190,7 +1194,8 @@ messages! {
     // jostle-study: suite
     suite_of_no_gap(records) = "{records} records, no gap.";
     suite_pounds(pounding, records) = "The buildings pound under {pounding} of {records} records.";
-    greatest_of(name) = "{name}, greatest";
+    governing_of(name, statistic) = "{name}, {statistic}";
+    greatest_value_of_record(value, record) = "greatest {value}, {record}";
     peak_displacement_over_height = "Peak displacement";
     peak_storey_drift_over_height = "Peak storey drift";
     peak_drift_of_corners_over_height = "Peak storey drift of corners";
@@ -1232,6 +1237,8 @@ messages! {
     median_head = "median";
     limits_head = "limits";
     fragility_of(event) = "Fragility: {event}";
+    pounding_event = "pounding";
+    fragility_in_words(event, intensity, medians) = "Fragility of {event}, median {intensity}: {medians}.";
     bands_hold(method, percent, fits, left_out) = "{method} Bands hold {percent} % of {fits} resampled fits.{left_out}";
     bands_of_few_records(method, percent, fits, records, left_out) = "{method} Bands hold {percent} % of {fits} resampled fits with {records} distinct record(s): how much other records would differ is not in them, which is usually the greatest part. Take seven records or more.{left_out}";
     median_outside_of_intensities = "the median lies outside of the intensities computed";

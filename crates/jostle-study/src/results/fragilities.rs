@@ -70,6 +70,7 @@ impl Results<'_> {
             )?;
             let left_out = left_out(wanted, &fitted);
             self.said.extend(left_out.clone());
+            self.said.push(in_words(wanted, &fitted));
             sections.push(section(wanted, &fitted, left_out.as_deref()));
         }
         Ok(sections)
@@ -171,6 +172,38 @@ fn cloud_parts(method: FragilityMethod, data: &[(f64, f64)]) -> Option<ModifiedC
         }),
         FragilityMethod::ModifiedCloud => fit_modified_cloud(data).ok(),
     }
+}
+
+/// The event of curves in words.
+fn event(wanted: &FragilityWanted) -> String {
+    if wanted.demand == "impact_count" && wanted.threshold == 0.0 {
+        return message::pounding_event().to_owned();
+    }
+    let (demand, size) = words::axis(&wanted.demand);
+    let threshold = size * wanted.threshold;
+    let text = format!("{} above {threshold} {}", demand.name, demand.unit);
+    text.trim().to_owned()
+}
+
+/// Medians of all curves in a sentence, or why there are none.
+fn in_words(wanted: &FragilityWanted, fitted: &[Fitted]) -> String {
+    let (axis, size) = words::axis(&wanted.intensity);
+    let each = fitted.iter().map(|one| {
+        let found = match &one.curve {
+            Ok(curve) => {
+                let fit = curve.equivalent();
+                let median = jostle_report::with_unit(size * fit.median, &axis.unit);
+                format!("{median} (β {:.2})", fit.dispersion)
+            }
+            Err(error) => error.to_string(),
+        };
+        match one.name.is_empty() {
+            true => found,
+            false => format!("{}: {found}", one.name),
+        }
+    });
+    let each = each.collect::<Vec<_>>().join("; ");
+    message::fragility_in_words(event(wanted), &axis.name, each)
 }
 
 /// Cases that the plain cloud omits, in a sentence; `None` if there are none.
@@ -331,19 +364,7 @@ fn points(wanted: &FragilityWanted, fitted: &[Fitted]) -> Vec<(String, Values)> 
 
 fn section(wanted: &FragilityWanted, fitted: &[Fitted], left_out: Option<&str>) -> Section {
     let (x, size) = words::axis(&wanted.intensity);
-    let (demand, demand_size) = words::axis(&wanted.demand);
-    let event = if wanted.demand == "impact_count" && wanted.threshold == 0.0 {
-        "pounding".to_owned()
-    } else {
-        format!(
-            "{} above {} {}",
-            demand.name,
-            demand_size * wanted.threshold,
-            demand.unit
-        )
-        .trim()
-        .to_owned()
-    };
+    let event = event(wanted);
     let mut series = Vec::new();
     for (colour, one) in fitted.iter().enumerate() {
         let name = if one.name.is_empty() {

@@ -5,7 +5,7 @@ use jostle_io::{FactorValues, ModelTree, PathError};
 use jostle_run::{CaseCache, CaseError};
 
 use super::expression::{Expression, Relation, Source};
-use super::{Over, SizeProblem};
+use super::{Over, Shaking, SizeProblem};
 use crate::design::{Choice, value_of};
 use crate::measures::measures;
 use crate::row::Status;
@@ -54,31 +54,54 @@ impl SizeProblem {
         self.places.iter().map(one).collect()
     }
 
-    /// Runs one trial under all records; `None` if it was stopped.
+    /// Runs one trial under all motions; `None` if it was stopped.
     pub(super) fn evaluate(
         &self,
         cache: &CaseCache,
         point: &[f64],
         stop: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<Evaluated>, StudyError> {
+        self.under_all(cache, point, &self.shaking, stop)
+    }
+
+    /// Runs one trial under every motion with its sign changed.
+    pub(super) fn evaluate_reversed(
+        &self,
+        cache: &CaseCache,
+        point: &[f64],
+        stop: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<Evaluated>, StudyError> {
+        let other = self.shaking.iter().map(|shaking| Shaking {
+            reversed: !shaking.reversed,
+            ..shaking.clone()
+        });
+        self.under_all(cache, point, &other.collect::<Vec<_>>(), stop)
+    }
+
+    fn under_all(
+        &self,
+        cache: &CaseCache,
+        point: &[f64],
+        shaking: &[Shaking],
+        stop: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<Evaluated>, StudyError> {
         use rayon::prelude::*;
-        let records: Vec<usize> = (0..self.records.len()).collect();
-        let found: Vec<_> = records
+        let found: Vec<_> = shaking
             .par_iter()
-            .map(|record| self.under(cache, point, *record, stop))
+            .map(|shaking| self.under(cache, point, shaking, stop))
             .collect();
         let mut all = Evaluated {
             status: Status::Completed,
             reason: String::new(),
             quantities: Vec::new(),
         };
-        for (one, record) in found.into_iter().zip(&self.records) {
+        for (one, shaking) in found.into_iter().zip(shaking) {
             let Some(one) = one? else { return Ok(None) };
             if one.status != Status::Completed && all.status == Status::Completed {
                 all.status = one.status;
-                all.reason = match &record[..] {
+                all.reason = match &shaking.name[..] {
                     "" => one.reason,
-                    record => format!("{record}: {}", one.reason),
+                    name => format!("{name}: {}", one.reason),
                 };
             }
             all.quantities.extend(one.quantities);
@@ -90,7 +113,7 @@ impl SizeProblem {
         &self,
         cache: &CaseCache,
         point: &[f64],
-        record: usize,
+        shaking: &Shaking,
         stop: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<Evaluated>, StudyError> {
         let failed = |reason: String| Evaluated {
@@ -98,9 +121,9 @@ impl SizeProblem {
             reason,
             quantities: vec![None; self.quantities.len()],
         };
-        let tree = self.tree(point, record).map_err(CaseError::from);
+        let tree = self.tree(point, shaking.record).map_err(CaseError::from);
         let input = tree.and_then(|tree| tree.input().map_err(CaseError::from));
-        let prepared = match input.and_then(|input| cache.assemble(input)) {
+        let mut prepared = match input.and_then(|input| cache.assemble(input)) {
             Ok(prepared) => prepared,
             Err(error) => {
                 let line = error.to_string();
@@ -108,6 +131,9 @@ impl SizeProblem {
                 return Ok(Some(failed(line.unwrap_or_default().trim().to_owned())));
             }
         };
+        if shaking.reversed {
+            prepared.motion = prepared.motion.reversed();
+        }
         let outcome = prepared.step(prepared.settings(false), |_| {
             if stop() {
                 std::ops::ControlFlow::Break(())
@@ -151,8 +177,8 @@ impl SizeProblem {
         }))
     }
 
-    /// The value of an expression over all records; `worst` says which of two values is worse.
-    fn over_records(
+    /// The value of an expression over all motions; `worst` says which of two values is worse.
+    fn over_all(
         &self,
         expression: &Expression,
         quantities: &[Option<f64>],
@@ -173,7 +199,7 @@ impl SizeProblem {
 
     /// Objective, left sides of the conditions, and the sum by which these are missed.
     pub(super) fn judge(&self, found: &Evaluated) -> (Option<f64>, Vec<Option<f64>>, f64) {
-        let objective = self.over_records(&self.objective, &found.quantities, |a, b| a > b);
+        let objective = self.over_all(&self.objective, &found.quantities, |a, b| a > b);
         let lefts: Vec<Option<f64>> = self
             .conditions
             .iter()
@@ -183,7 +209,7 @@ impl SizeProblem {
                     Relation::AtLeast | Relation::Above => a < b,
                     Relation::Equal => condition.violation(a) > condition.violation(b),
                 };
-                self.over_records(&condition.left, &found.quantities, worse)
+                self.over_all(&condition.left, &found.quantities, worse)
             })
             .collect();
         let mut missed = 0.0;

@@ -8,6 +8,7 @@
 
 mod bracket;
 mod evaluate;
+mod evolution;
 mod expression;
 mod page;
 mod results;
@@ -72,6 +73,8 @@ pub struct SizeRequest {
     pub records: Vec<String>,
     /// Peak ground acceleration instead of that of the model, as typed.
     pub pga: Option<String>,
+    /// Whether every motion counts with either sign, as another record.
+    pub both_signs: bool,
     /// How values of several records become one.
     pub over: Over,
     /// Seed of the search.
@@ -91,6 +94,7 @@ impl Default for SizeRequest {
             minimise: String::new(),
             records: Vec::new(),
             pga: None,
+            both_signs: false,
             over: Over::Worst,
             seed: 0,
             trials: 600,
@@ -109,14 +113,45 @@ pub struct SizeProblem {
     quantities: Vec<(String, Source)>,
     /// Position of every variable among the factors of the study.
     places: Vec<usize>,
-    /// Names of the records; one empty name if the model has one motion.
-    records: Vec<String>,
+    /// Motions of a trial.
+    shaking: Vec<Shaking>,
     over: Over,
     seed: u64,
     trials: usize,
     tolerance: f64,
     /// Identity of the problem: 64 characters.
     fingerprint: String,
+}
+
+/// One motion of a trial.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Shaking {
+    /// Its name, with its sign where both are run; empty if there is one motion.
+    name: String,
+    /// Its record.
+    record: usize,
+    /// Whether it has the other sign.
+    reversed: bool,
+}
+
+/// Motions of a trial: every record, and then every record reversed if both signs are wanted.
+fn shaking(records: &[String], both_signs: bool) -> Vec<Shaking> {
+    let signs: &[bool] = if both_signs { &[false, true] } else { &[false] };
+    let all = signs.iter().flat_map(|&reversed| {
+        records
+            .iter()
+            .enumerate()
+            .map(move |(record, name)| Shaking {
+                name: match (reversed, &name[..]) {
+                    (false, name) => name.to_owned(),
+                    (true, "") => "reversed".to_owned(),
+                    (true, name) => format!("{name} reversed"),
+                },
+                record,
+                reversed,
+            })
+    });
+    all.collect()
 }
 
 /// Where a search stands.
@@ -225,7 +260,7 @@ impl SizeProblem {
             conditions,
             quantities,
             places,
-            records,
+            shaking: shaking(&records, request.both_signs),
             over: request.over,
             seed: request.seed,
             trials: request.trials,
@@ -235,6 +270,11 @@ impl SizeProblem {
         problem.check_ends()?;
         problem.fingerprint = problem.identity(request);
         Ok(problem)
+    }
+
+    /// Whether every motion is run with both signs.
+    fn has_both_signs(&self) -> bool {
+        self.shaking.iter().any(|shaking| shaking.reversed)
     }
 
     /// Things the user should know about the model.
@@ -282,6 +322,7 @@ impl SizeProblem {
             &tolerance,
             request.pga.as_deref().unwrap_or_default(),
         ];
+        texts.extend(request.both_signs.then_some("both signs"));
         texts.extend(request.records.iter().map(String::as_str));
         texts.extend(request.keep.iter().map(String::as_str));
         for text in texts {

@@ -43,8 +43,8 @@ impl SizeResults {
         for condition in &self.conditions {
             facts.insert(1, (message::kept_word().into(), in_words(&condition.text)));
         }
-        if self.records.len() > 1 {
-            let records = format!("{}, {}", self.records.len(), self.over);
+        if self.motions.len() > 1 {
+            let records = format!("{}, {}", self.motions.len(), self.over);
             facts.push((message::records_fact().into(), records));
         }
         let mut sections = Vec::new();

@@ -58,7 +58,9 @@ pub struct SizeResults {
     pub(super) inputs: Vec<(String, String)>,
     /// Names of the quantities in use.
     quantities: Vec<String>,
-    pub(super) records: Vec<String>,
+    pub(super) motions: Vec<String>,
+    /// The best trial under all motions with the other sign; `None` where both signs were searched, or no trial keeps the conditions.
+    pub reversed: Option<Trial>,
     pub(super) over: &'static str,
     pub(super) seed: u64,
     fingerprint: String,
@@ -132,7 +134,10 @@ impl SizeResults {
                 .iter()
                 .map(|(name, _)| name.clone())
                 .collect(),
-            records: problem.records.clone(),
+            motions: (problem.shaking.iter())
+                .map(|shaking| shaking.name.clone())
+                .collect(),
+            reversed: None,
             over: problem.over.name(),
             seed: problem.seed,
             fingerprint: problem.fingerprint.clone(),
@@ -224,7 +229,7 @@ impl SizeResults {
             "keeps".into(),
             whole(&|_, trial| Some(i32::from(trial.keeps()))),
         ));
-        for (record, label) in self.records.iter().enumerate() {
+        for (record, label) in self.motions.iter().enumerate() {
             for (index, name) in self.quantities.iter().enumerate() {
                 let place = record * self.quantities.len() + index;
                 let values = number(&|trial| *trial.quantities.get(place)?);
@@ -265,12 +270,17 @@ impl SizeResults {
             "minimise": self.objective.text,
             "keep": self.conditions.iter().map(|c| &c.text).collect::<Vec<_>>(),
             "vary": self.inputs.iter().map(|(name, _)| name).collect::<Vec<_>>(),
-            "records": self.records.iter().filter(|name| !name.is_empty()).collect::<Vec<_>>(),
+            "records": self.motions.iter().filter(|name| !name.is_empty()).collect::<Vec<_>>(),
             "over": self.over,
             "seed": self.seed,
             "trials": self.trials.len(),
             "converged": self.converged,
             "best": self.best().map(values),
+            "reversed": self.reversed.as_ref().map(|trial| json!({
+                "objective": trial.objective,
+                "kept": trial.kept,
+                "keeps": trial.keeps(),
+            })),
             "trade_off": fronts.collect::<Vec<_>>(),
         })
     }

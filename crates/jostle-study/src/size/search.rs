@@ -8,28 +8,20 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use jostle::linear::sort_by;
 use jostle_run::CaseCache;
-use metaheuristics_nature::methods::de::{De, Strategy};
-use metaheuristics_nature::{Bounded, ObjFunc, Solver};
 
-use super::bracket;
 use super::evaluate::{Evaluated, Merit, WORST};
+use super::evolution::{self, Member};
 use super::results::{SizeResults, Trial};
 use super::trials::Store;
-use super::{SizeProblem, SizeProgress};
+use super::{SizeProblem, SizeProgress, bracket};
 use crate::study::StudyError;
 
-/// Weight of differences and probability of a crossed coordinate, as Storn and Price suggest \[–\].
-const WEIGHT: f64 = 0.6;
-const CROSSED: f64 = 0.9;
-/// Members of a generation: these, and so many more for every varied key.
-const MEMBERS: [usize; 2] = [6, 6];
 /// Points nearer than this part of the bounds are one \[–\].
 const SAME_POINT: f64 = 1e-9;
 
 /// What all threads share.
 struct Shared {
     problem: SizeProblem,
-    bounds: Vec<[f64; 2]>,
     cache: CaseCache,
     /// Finished trials, by the bits of their points.
     known: Mutex<Known>,
@@ -50,23 +42,6 @@ struct Known {
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// The function that is minimised.
-struct Objective(Arc<Shared>);
-
-impl Bounded for Objective {
-    fn bound(&self) -> &[[f64; 2]] {
-        &self.0.bounds
-    }
-}
-
-impl ObjFunc for Objective {
-    type Ys = Merit;
-
-    fn fitness(&self, point: &[f64]) -> Merit {
-        self.0.trial(point)
-    }
 }
 
 fn bits(point: &[f64]) -> Vec<u64> {
@@ -139,19 +114,19 @@ impl Shared {
 
     /// Whether the search is at its end: every member keeps the conditions and their objectives hardly differ, or all members
     /// stand at one point.
-    fn converged(&self, points: &[Vec<f64>], merits: &[Merit]) -> bool {
+    fn converged(&self, members: &[Member]) -> bool {
         let spread = |axis: usize| {
-            let values = points.iter().map(|point| point[axis]);
+            let values = members.iter().map(|(point, _)| point[axis]);
             let low = values.clone().fold(f64::INFINITY, f64::min);
             values.fold(f64::NEG_INFINITY, f64::max) - low
         };
-        if (0..self.bounds.len()).all(|axis| spread(axis) < SAME_POINT) {
+        if (0..self.problem.variables.len()).all(|axis| spread(axis) < SAME_POINT) {
             return true;
         }
-        if merits.iter().any(|(missed, _)| *missed > 0.0) {
+        if members.iter().any(|(_, (missed, _))| *missed > 0.0) {
             return false;
         }
-        let objectives = merits.iter().map(|(_, objective)| *objective);
+        let objectives = members.iter().map(|(_, (_, objective))| *objective);
         let least = objectives.clone().fold(f64::INFINITY, f64::min);
         let most = objectives.fold(f64::NEG_INFINITY, f64::max);
         most - least <= self.problem.tolerance * least.abs()
@@ -183,9 +158,7 @@ pub(super) fn search(
     };
     let kept = trials.len();
     let count = problem.variables.len();
-    let members = MEMBERS[0] + MEMBERS[1] * count;
-    let shared = Arc::new(Shared {
-        bounds: vec![[0.0, 1.0]; count],
+    let shared = Shared {
         cache: CaseCache::default(),
         known: Mutex::new(Known {
             trials,
@@ -198,38 +171,26 @@ pub(super) fn search(
         failure: Mutex::new(None),
         progress,
         problem,
-    });
+    };
     let mut converged = false;
     let go_on = || {
         shared.generation.fetch_add(1, Ordering::SeqCst);
         !shared.stop.load(Ordering::Relaxed) && lock(&shared.failure).is_none()
     };
-    let single = count == 1;
-    if single {
-        let (trials, tolerance) = (shared.problem.trials, shared.problem.tolerance);
-        let trial = |point: f64| shared.trial(&[point]);
-        converged = pool.install(|| bracket::search(trials, tolerance, trial, go_on));
-    }
-    pool.install(|| {
-        if single {
-            return;
+    let (most, tolerance) = (shared.problem.trials, shared.problem.tolerance);
+    pool.install(|| match count {
+        1 => {
+            let trial = |point: f64| shared.trial(&[point]);
+            converged = bracket::search(most, tolerance, trial, go_on);
         }
-        let watched = Arc::clone(&shared);
-        let converged = &mut converged;
-        let method = De::new().strategy(Strategy::C2F3).f(WEIGHT).cross(CROSSED);
-        let _ = Solver::build(method, Objective(Arc::clone(&shared)))
-            .seed(shared.problem.seed)
-            .pop_num(members)
-            .task(move |state| {
-                *converged = watched.converged(&state.pool, &state.pool_y);
-                let used = lock(&watched.known).used;
-                watched.generation.fetch_add(1, Ordering::SeqCst);
-                *converged
-                    || used + members > watched.problem.trials.max(members)
-                    || watched.stop.load(Ordering::Relaxed)
-                    || lock(&watched.failure).is_some()
-            })
-            .solve();
+        keys => {
+            let trial = |point: &[f64]| shared.trial(point);
+            evolution::search(keys, shared.problem.seed, trial, |members| {
+                converged = shared.converged(members);
+                let used = lock(&shared.known).used;
+                !converged && used + members.len() <= most.max(members.len()) && go_on()
+            });
+        }
     });
     if let Some(error) = lock(&shared.failure).take() {
         return Err(error);
@@ -254,7 +215,14 @@ pub(super) fn search(
         })
         .collect();
     sort_by(&mut trials, Trial::order);
-    let results = SizeResults::new(problem, trials, converged && !stopped, stopped, kept);
+    let mut results = SizeResults::new(problem, trials, converged && !stopped, stopped, kept);
+    // Records have two signs, and no earthquake tells which one a site sees.
+    if let Some(best) = results.best().filter(|_| !problem.has_both_signs()) {
+        let (generation, point) = (best.generation, best.point.clone());
+        let stop = || shared.stop.load(Ordering::Relaxed);
+        let found = pool.install(|| problem.evaluate_reversed(&shared.cache, &point, &stop))?;
+        results.reversed = found.map(|found| Trial::new(problem, generation, point, found));
+    }
     if let Some(folder) = folder {
         results.write(folder)?;
     }

@@ -151,8 +151,9 @@ impl SizeResults {
                 keeping.trim_start_matches(" with ")
             )),
         }
+        sentences.extend(self.under_the_other_sign());
         sentences.push(if self.converged {
-            format!("The search ended by itself after {} trials.", self.trials.len())
+            format!("Converged after {} trials.", self.trials.len())
         } else if self.stopped {
             format!("The search was stopped after {} trials.", self.trials.len())
         } else {
@@ -162,6 +163,26 @@ impl SizeResults {
             )
         });
         sentences
+    }
+
+    /// What the best trial leads to under the motions with the other sign.
+    fn under_the_other_sign(&self) -> Option<String> {
+        let trial = self.reversed.as_ref()?;
+        if trial.keeps() {
+            return (!self.conditions.is_empty())
+                .then(|| "With the motion reversed it is met as well.".to_owned());
+        }
+        let violated = self.conditions.iter().zip(&trial.kept);
+        let violated = violated
+            .filter(|(condition, left)| left.is_none_or(|left| condition.violation(left) > 0.0));
+        let violated = violated.map(|(condition, left)| {
+            let left = left.map_or_else(|| "–".into(), |left| number(left, &condition.left.suffix));
+            format!("{} {left}", in_words(&condition.left.text))
+        });
+        Some(format!(
+            "Violated with the motion reversed: {}. --both-signs searches for both.",
+            violated.collect::<Vec<_>>().join(", ")
+        ))
     }
 
     /// The results as text. `page` is named at the end.
@@ -174,13 +195,15 @@ impl SizeResults {
         }
         if let Some(best) = self.best() {
             text.push('\n');
-            for ((name, _), (_, value)) in self.inputs.iter().zip(&best.inputs) {
+            // A minimised key stands in the first sentence.
+            let (inputs, objective) = (self.inputs.iter(), &self.objective.text);
+            let others = inputs
+                .zip(&best.inputs)
+                .filter(|((name, _), _)| name != objective);
+            for ((name, _), (_, value)) in others {
                 let _ = writeln!(text, "  {name:<28} {}", rounded(value));
             }
-            let is_key = self
-                .inputs
-                .iter()
-                .any(|(name, _)| *name == self.objective.text);
+            let is_key = self.inputs.iter().any(|(name, _)| name == objective);
             if !is_key {
                 let objective = best.objective.unwrap_or(f64::NAN);
                 let objective = number(objective, &self.objective.suffix);

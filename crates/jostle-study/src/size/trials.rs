@@ -69,7 +69,7 @@ impl Store {
             )));
         };
         let count = problem.variables.len();
-        let values = problem.quantities.len() * problem.records.len();
+        let values = problem.quantities.len() * problem.shaking.len();
         let read = |row: Row| {
             let point: Option<Vec<f64>> = row.numbers.iter().take(count).copied().collect();
             let quantities: Vec<Option<f64>> = row.numbers.get(count..)?.to_vec();

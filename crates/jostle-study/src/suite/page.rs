@@ -161,30 +161,38 @@ impl SuiteResults {
         message::suite_pounds(pounding, done.len())
     }
 
-    /// The greatest of what decides, each over all gaps or buildings: force, gap, drift, damage.
+    /// Governing values of what decides, each the greatest of all gaps or buildings: force, gap, drift, damage.
     fn tiles(&self) -> Vec<[String; 3]> {
-        const ENDS: [&str; 6] = [
-            ".peak_force_n",
-            ".closing_without_contact_m",
-            ".drift_peak",
-            ".hinges_yielded",
-            ".ductility",
-            ".residual_drift_peak",
+        // Ends of names of one kind: the greatest of them has the tile.
+        const KINDS: [&[&str]; 8] = [
+            &[".peak_force_n"],
+            &[".closing_without_contact_m"],
+            &[".drift_peak", ".drift_across_peak", ".drift_corner_peak"],
+            &[".stroke_peak_m"],
+            &[".storey_shear_peak_n"],
+            &[".hinges_yielded"],
+            &[".ductility"],
+            &[".residual_drift_peak"],
         ];
+        let statistic = self.governing.statistic.name();
         let all = headlines(self);
-        let greatest = ENDS.iter().filter_map(|end| {
-            let own = all
-                .iter()
-                .filter(|(_, quantity)| quantity.name.ends_with(end) && quantity.maximum > 0.0);
-            own.max_by(|a, b| a.1.maximum.total_cmp(&b.1.maximum))
+        let greatest = KINDS.iter().filter_map(|ends| {
+            let of_kind = all.iter().filter(|(_, quantity)| {
+                ends.iter().any(|end| quantity.name.ends_with(end)) && quantity.maximum > 0.0
+            });
+            of_kind.max_by(|a, b| a.1.governing.total_cmp(&b.1.governing))
         });
         let tiles = greatest.map(|(name, quantity)| {
             let form = shown(&quantity.name);
-            let value = form.number(quantity.maximum);
+            let with_unit = |value: f64| {
+                let text = format!("{} {}", form.number(value), form.unit);
+                text.trim_end().to_owned()
+            };
+            let record = self.records[quantity.maximum_record].motion();
             [
-                message::greatest_of(name),
-                format!("{value} {}", form.unit).trim_end().to_owned(),
-                self.records[quantity.maximum_record].motion().to_owned(),
+                message::governing_of(name, statistic),
+                with_unit(quantity.governing),
+                message::greatest_value_of_record(with_unit(quantity.maximum), record),
             ]
         });
         tiles.collect()

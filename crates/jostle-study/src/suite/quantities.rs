@@ -109,6 +109,24 @@ pub(super) fn quantities(summary: &Value) -> Vec<Quantity> {
                 apart_in_plan[key].as_f64(),
             );
         }
+        let isolation = &building["isolation"];
+        let in_plan = &isolation["in_plan"];
+        let mat = ["displacement_max_m", "displacement_min_m"]
+            .into_iter()
+            .filter_map(|key| isolation[key].as_f64().map(f64::abs));
+        let stroke = in_plan["stroke_peak_m"].as_f64();
+        add(
+            format!("{name}.stroke_peak_m"),
+            stroke.or_else(|| mat.max_by(f64::total_cmp)),
+        );
+        let bearings = ["force_peak_n", "force_across_peak_n"];
+        let bearings = [isolation, in_plan]
+            .into_iter()
+            .flat_map(|owner| bearings.map(|key| owner[key].as_f64()));
+        add(
+            format!("{name}.bearing_force_peak_n"),
+            bearings.flatten().max_by(f64::total_cmp),
+        );
         let capacity = &building["capacity"];
         add(
             format!("{name}.capacity_ratio"),
@@ -154,6 +172,28 @@ pub(super) fn quantities(summary: &Value) -> Vec<Quantity> {
                     add(format!("{place}{middle}.{own}"), owner[key].as_f64());
                 }
             }
+        }
+    }
+    // Over the range of the properties of bearings: the greatest of nominal, lower and upper.
+    let bounds = &summary["isolation_bounds"];
+    for building in list(bounds, "buildings") {
+        let name = building["name"].as_str().unwrap_or_default();
+        for (key, of_range) in [
+            ("stroke_m", "stroke_peak_m"),
+            ("force_n", "bearing_force_peak_n"),
+            ("drift", "drift_peak"),
+            ("storey_shear_n", "storey_shear_peak_n"),
+        ] {
+            let envelope = building[key]["envelope"].as_f64();
+            add(format!("{name}.range.{of_range}"), envelope);
+        }
+    }
+    for gap in list(bounds, "gaps") {
+        let between = list(gap, "between").filter_map(Value::as_str);
+        let pair = between.collect::<Vec<_>>().join("-");
+        for key in ["peak_force_n", "closing_without_contact_m"] {
+            let envelope = gap[key]["envelope"].as_f64();
+            add(format!("{pair}.range.{key}"), envelope);
         }
     }
     all

@@ -61,7 +61,7 @@ impl Shown {
 
 /// Quantities of the tables on screen and page, with their names in words: of every gap, then of every building.
 pub(super) fn headlines(results: &SuiteResults) -> Vec<(String, &QuantityStatistics)> {
-    const ENDS: [(&str, &str); 17] = [
+    const ENDS: [(&str, &str); 20] = [
         (".peak_force_n", "peak force"),
         (".impact_count", "impacts"),
         (".closing_peak_m", "peak closing"),
@@ -69,6 +69,8 @@ pub(super) fn headlines(results: &SuiteResults) -> Vec<(String, &QuantityStatist
             ".closing_without_contact_m",
             "gap needed, sign as in the model",
         ),
+        (".stroke_peak_m", "stroke of bearings"),
+        (".bearing_force_peak_n", "force of bearings"),
         (".roof_displacement_peak_m", "roof displacement"),
         (".corner_displacement_peak_m", "displacement of corners"),
         (".drift_peak", "storey drift"),
@@ -85,6 +87,7 @@ pub(super) fn headlines(results: &SuiteResults) -> Vec<(String, &QuantityStatist
         (".ductility", "ductility"),
         (".capacity_ratio", "demand over capacity of members"),
         (".residual_drift_peak", "residual drift"),
+        (".storey_shear_peak_n", "storey shear"),
     ];
     // Peaks that are those along x, where a building has others.
     const ALONG: [&str; 4] = [
@@ -103,7 +106,11 @@ pub(super) fn headlines(results: &SuiteResults) -> Vec<(String, &QuantityStatist
                 true => " along x",
                 false => "",
             };
-            plain.then(|| format!("{owner}, {words}{along}"))
+            let (owner, range) = match owner.strip_suffix(".range") {
+                Some(owner) => (owner, ", over the range of the bearings"),
+                None => (owner, ""),
+            };
+            plain.then(|| format!("{owner}, {words}{along}{range}"))
         })?;
         Some((owned, quantity))
     });

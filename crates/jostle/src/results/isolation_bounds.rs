@@ -48,6 +48,8 @@ pub struct BoundedBuilding {
     pub force_n: Option<Bounded>,
     /// Drift ratio of any storey \[–\].
     pub drift: Bounded,
+    /// Shear of any storey; of an isolated building, of those above the mat \[N\].
+    pub storey_shear_n: Bounded,
 }
 
 /// A gap over the range.
@@ -59,4 +61,6 @@ pub struct BoundedGap {
     pub peak_force_n: Bounded,
     /// Impacts.
     pub impact_count: Bounded,
+    /// Greatest closing without contact, the gap needed; `None` where no run without contact was made \[m\].
+    pub closing_without_contact_m: Option<Bounded>,
 }

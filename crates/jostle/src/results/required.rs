@@ -1,11 +1,33 @@
 //! What rules and codes require of the gaps of a run.
 
 use super::summary::{BuildingSummary, ContactSummary, FloorSummary, Summary};
-use crate::model::{Damping, Model};
+use crate::model::{Building, Damping, LEVEL_TOLERANCE, Model};
 use crate::separation::{
     CodeInputs, Neighbours, Place, Requirements, Side, ddc_coefficient, floors_are_level,
     peak_at_height, required_gaps,
 };
+
+/// Height \[m\] and number of storeys above the ground: the highest floor that lies no higher than the base of the neighbour or the
+/// datum, whichever is higher, if the building begins below that; else its base.
+fn above_ground(building: &Building, neighbour: Option<f64>) -> (f64, usize) {
+    let base = building.base.elevation;
+    let street = neighbour.unwrap_or(0.0).max(0.0);
+    let heights = building.floor_heights();
+    let is_below = |height: &&f64| base + **height <= street + LEVEL_TOLERANCE;
+    let basement = match base < street {
+        true => heights.iter().take_while(is_below).count(),
+        false => 0,
+    };
+    // What lies all below the street stands on its base.
+    let basement = if basement < heights.len() {
+        basement
+    } else {
+        0
+    };
+    let ground = basement.checked_sub(1).map_or(0.0, |floor| heights[floor]);
+    let top = heights.last().copied().unwrap_or(0.0);
+    (top - ground, heights.len() - basement)
+}
 
 impl Summary {
     /// What every rule requires of a gap of the model.
@@ -30,15 +52,17 @@ impl Summary {
                 peaks,
             })
         });
-        let sides = model.buildings_beside(of_gap.between).map(|building| {
-            let building = building?;
+        let beside = model.buildings_beside(of_gap.between);
+        let sides = [0, 1].map(|side| {
+            let building = beside[side]?;
             let own = &model.buildings[building];
-            let heights = own.floor_heights();
+            let neighbour = beside[1 - side].map(|other| model.buildings[other].base.elevation);
+            let (height, storeys) = above_ground(own, neighbour);
             Some(Side {
                 building,
                 name: own.name.clone(),
-                height: heights.last().copied().unwrap_or(0.0),
-                storeys: heights.len(),
+                height,
+                storeys,
                 yields: own.may_yield(),
             })
         });

@@ -39,9 +39,9 @@ pub struct Side {
     pub building: usize,
     /// Name of the building.
     pub name: String,
-    /// Height above the base \[m\].
+    /// Height above the ground, without basements \[m\].
     pub height: f64,
-    /// Storeys.
+    /// Storeys above the ground.
     pub storeys: usize,
     /// Whether anything in it may yield, so that its displacements are inelastic.
     pub yields: bool,

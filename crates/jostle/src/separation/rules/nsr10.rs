@@ -23,12 +23,23 @@ impl Table<'_> {
             _ => 0.0,
         });
         let hazard_words = HazardZone::NAMES[hazard as usize];
+        let mut used = vec![format!("hazard = {hazard_words}"), words];
+        used.extend(self.neighbours.sides.iter().flatten().map(|side| {
+            let storeys = match side.storeys {
+                1 => "1 storey".to_owned(),
+                count => format!("{count} storeys"),
+            };
+            format!(
+                "{}: {storeys}, {:.1} m above ground",
+                side.name, side.height
+            )
+        }));
         self.add(
             "NSR-10",
             Some(Code::Nsr10),
             "NSR-10 §A.6.5.2.3, table A.6.5-1: the new building beside a neighbour on the line; the greater of both as the new one",
             setbacks[0].max(setbacks[1]),
-            vec![format!("hazard = {hazard_words}"), words],
+            used,
         );
         self.set_setbacks(setbacks);
     }
