@@ -1011,7 +1011,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Isolation, "post_yield", Quantity(D::Dimensionless), "lead-rubber: ratio of post-yield to initial stiffness, at least 0 and below 1.").usual("a ratio of stiffnesses", 1e-6, 1.0).signed(),
     optional(S::Isolation, "displacement", Quantity(D::Length), "high-damping-rubber: amplitude of the test that gave stiffness and damping_ratio.").usual("a displacement of bearings", 0.01, 3.0),
     optional(S::Isolation, "yield_displacement", Quantity(D::Length), "high-damping-rubber: displacement at which it yields, about 0.05 to 0.1 of the height of the rubber.").usual("a yield displacement of bearings", 1e-3, 0.3),
-    optional(S::Isolation, "radius", Kind::OneOrMore(D::Length), "friction-pendulum: radius of the sliding surface. double-, triple-friction-pendulum: effective radii (radius less the height of the slider) of the two or four surfaces, from one bowl to the other.").usual("a radius of a pendulum", 0.1, 20.0),
+    optional(S::Isolation, "radius", OneOrMore(D::Length), "friction-pendulum: radius of the sliding surface. double-, triple-friction-pendulum: effective radii (radius less the height of the slider) of the two or four surfaces, from one bowl to the other.").usual("a radius of a pendulum", 0.1, 20.0),
     optional(S::Isolation, "friction", Kind::NumbersOrTable(S::IsolationFriction), "friction-pendulum: coefficient of friction, or its change with speed. double-, triple-friction-pendulum: one of each surface.").usual("a coefficient of friction", 1e-3, 1.0),
     optional(S::Isolation, "capacity", Quantities(D::Length), "double-, triple-friction-pendulum: how far the slider moves on each surface to its rim.").usual("a travel on a surface", 0.01, 3.0),
     optional(S::Isolation, "bounds", Kind::Table(S::IsolationBounds), "Lower and upper bound of the properties of the bearings. `jostle run` then runs both bounds as well and reports the envelope."),
@@ -1291,7 +1291,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Output, "floor_spectra", Kind::FlagTextsOrTable(S::FloorSpectra), "false", "Response spectra of floors, with and without contact: true for every floor, a list of floors such as [\"J1.floor.5\"] or buildings such as [\"J1\"], or a table."),
 
     default(S::FloorSpectra, "floors", TextOrTexts, "every floor", "Floors such as \"J1.floor.5\", counted from 1, or all floors of a building, \"J1\"."),
-    default(S::FloorSpectra, "damping", Kind::OneOrMore(D::Dimensionless), "0.05", "Damping ratio of the oscillators, from 0 to below 1: one value or a list.").usual("a damping ratio", 1e-4, 1.0),
+    default(S::FloorSpectra, "damping", OneOrMore(D::Dimensionless), "0.05", "Damping ratio of the oscillators, from 0 to below 1: one value or a list.").usual("a damping ratio", 1e-4, 1.0),
     default(S::FloorSpectra, "periods", Quantities(D::Time), "100 from 0.02 s to 4 s", "Periods of the oscillators; 0 is the rigid one.").usual("a period", 1e-3, 20.0),
     default(S::FloorSpectra, "low_pass", Quantity(D::Frequency), "\"25 Hz\"", "Corner frequency of the filter of the filtered peak acceleration.").usual("a frequency", 0.1, 1e3),
     default(S::FloorSpectra, "order", Count, "4", "Order of this Butterworth filter, which runs forwards and backwards: 2, 4, 6 or 8."),

@@ -280,7 +280,14 @@ fn roofs(summary: &Summary) -> Vec<Tile> {
 fn motion(summary: &Summary) -> String {
     let pga = summary.motion.pga_m_s2;
     message::under_the_motion(
-        &summary.motion.name,
+        match (&summary.motion.across, summary.motion.pga_across_m_s2) {
+            (Some(across), Some(peak)) => message::name_and_across(
+                &summary.motion.name,
+                across,
+                format::short(format::ACCELERATION, peak, 3),
+            ),
+            _ => summary.motion.name.clone(),
+        },
         format::short(format::ACCELERATION, pga, 3),
         format::significant(pga / format::STANDARD_GRAVITY * 100.0, 3),
         format::significant(summary.energy.worst_imbalance, 2),

@@ -65,6 +65,10 @@ fn write_all(
         motion.pga_m_s2 / jostle_io::STANDARD_GRAVITY,
         motion.duration_s
     )?;
+    if let (Some(across), Some(peak)) = (&motion.across, motion.pga_across_m_s2) {
+        let peak = GROUND_ACCELERATION.text(peak, 1);
+        writeln!(text, "{across} at a right angle, peak {peak}")?;
+    }
     if let Some(reason) = &summary.ended_early {
         writeln!(
             text,
@@ -76,6 +80,7 @@ fn write_all(
     write_buildings(text, &summary.buildings, corner)?;
     write_in_plan(text, &summary.buildings)?;
     write_isolation(text, summary)?;
+    write_storey_shears(text, &summary.buildings)?;
     write_foundations(text, summary)?;
     write_damage(text, &input.model.buildings, &summary.buildings)?;
     write_shear_failures(text, &summary.buildings)?;
@@ -337,6 +342,30 @@ fn write_foundations(text: &mut String, summary: &Summary) -> std::fmt::Result {
     Ok(())
 }
 
+/// A storey shear is named if it exceeds this multiple of the base shear \[–\].
+const BEYOND_BASE_SHEAR: f64 = 1.02;
+
+/// Storeys whose shear exceeds that of the base, one line for each building: an impact, the soil beside a basement or bearings are
+/// between them.
+fn write_storey_shears(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::Result {
+    for building in buildings {
+        let storeys = building.floors.iter().filter(|floor| floor.floor > 0);
+        let shears = storeys.map(|floor| (floor.response.storey_shear_peak_n, floor.floor));
+        let worst = shears.max_by(|a, b| a.0.total_cmp(&b.0));
+        let base = building.response.base_shear_peak_n;
+        if let Some((shear, storey)) = worst.filter(|(shear, _)| *shear > BEYOND_BASE_SHEAR * base)
+        {
+            writeln!(
+                text,
+                "\nstorey shear of {}: up to {} in storey {storey}, more than at the base",
+                building.name,
+                FORCE.text(shear, 0),
+            )?;
+        }
+    }
+    Ok(())
+}
+
 /// Bearings and walls, one line each.
 fn write_isolation(text: &mut String, summary: &Summary) -> std::fmt::Result {
     for building in &summary.buildings {
@@ -346,15 +375,10 @@ fn write_isolation(text: &mut String, summary: &Summary) -> std::fmt::Result {
         let stop = own.stop_force_peak_n.map_or_else(String::new, |force| {
             format!(", {} on a stop", FORCE.text(force, 0))
         });
-        // Where the mat strikes a wall, storeys above bear more than the bearings.
-        let above = building.floors.first().map_or_else(String::new, |lowest| {
-            let shear = FORCE.text(lowest.response.storey_shear_peak_n, 0);
-            format!(", {shear} in the storey above")
-        });
         if let Some(plan) = &own.in_plan {
             writeln!(
                 text,
-                "\nmat of {}: bearing {} of {} moves {}, {} in the bearings along x and {} across{stop}{above}, {} at the end",
+                "\nmat of {}: bearing {} of {} moves {}, {} in the bearings along x and {} across{stop}, {} at the end",
                 building.name,
                 plan.stroke_bearing,
                 plan.bearings,
@@ -367,7 +391,7 @@ fn write_isolation(text: &mut String, summary: &Summary) -> std::fmt::Result {
         }
         writeln!(
             text,
-            "\nmat of {}: {}, {} in the bearings{stop}{above}, {} at the end",
+            "\nmat of {}: {}, {} in the bearings{stop}, {} at the end",
             building.name,
             LENGTH.text(own.displacement_peak_m(), 1),
             FORCE.text(own.force_peak_n, 0),

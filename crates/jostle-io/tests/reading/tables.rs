@@ -94,6 +94,8 @@ fn summary() -> Summary {
             points: 0,
             step_s: 0.0,
             pga_m_s2: 1.0,
+            across: None,
+            pga_across_m_s2: None,
             scale: 1.0,
             duration_s: 1.0,
         },

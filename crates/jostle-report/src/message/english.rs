@@ -522,6 +522,7 @@ messages! {
     times_its_capacity(ratio) = "{ratio} × capacity";
     struck_up_to(times, force) = "struck {times} ×, up to {force}";
     peak_ground_acceleration = "Peak ground acceleration";
+    name_and_across(name, across, peak) = "{name} (across {across}, peak {peak})";
     under_the_motion(name, peak, percent, imbalance) = "Under {name}, peak {peak} ({percent} % g). Energy imbalance {imbalance}.";
     roof_of(name) = "Roof of {name}";
     damage_of(what, name) = "{what}, {name}";

@@ -110,6 +110,7 @@ impl Summary {
             .enumerate()
             .map(|(index, gap)| gap_summary(index, gap, run))
             .collect();
+        let across = motion.across();
         Self {
             title: model.title.clone(),
             jostle: env!("CARGO_PKG_VERSION").to_owned(),
@@ -119,6 +120,8 @@ impl Summary {
                 points: motion.points(),
                 step_s: motion.step().unwrap_or(0.0),
                 pga_m_s2: motion.peak(),
+                across: across.map(|across| across.name.clone()),
+                pga_across_m_s2: across.map(GroundMotion::peak),
                 scale: motion.scale,
                 duration_s: motion.duration,
             },

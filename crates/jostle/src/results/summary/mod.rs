@@ -154,6 +154,12 @@ pub struct MotionSummary {
     pub step_s: f64,
     /// Peak as used \[m/s²\].
     pub pga_m_s2: f64,
+    /// Name of the motion at a right angle to it; `None` if there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub across: Option<String>,
+    /// Its peak as used \[m/s²\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pga_across_m_s2: Option<f64>,
     /// Factor on the record, negative when reversed \[–\].
     pub scale: f64,
     /// Length of the analysis \[s\].
@@ -167,6 +173,7 @@ impl MotionSummary {
         Quantity::<Self>::whole("points", "values of the record; 0 for analytic waves", |m| m.points),
         Quantity::<Self>::real("step_s", Unit::S, "time step of the record; 0 for analytic waves", |m| m.step_s),
         Quantity::<Self>::real("pga_m_s2", Unit::M_S2, "peak ground acceleration, after scaling", |m| m.pga_m_s2).in_study(),
+        Quantity::<Self>::optional("pga_across_m_s2", Unit::M_S2, "peak of the motion across, after scaling", |m| m.pga_across_m_s2),
         Quantity::<Self>::real("scale", Unit::NONE, "factor on the record, negative if reversed", |m| m.scale),
         Quantity::<Self>::real("duration_s", Unit::S, "length of the analysis", |m| m.duration_s),
     ];
