@@ -133,18 +133,14 @@ fn headline(gap: &CriticalGap) -> String {
             with_sign(is_reversed),
         )
     });
-    let worse = gap
-        .reversed_gap_m
-        .map_or("", |other| match other > gap.gap_m {
-            true => message::the_motion_reversed(),
-            false => message::either_sign_of_the_motion(),
-        });
+    let signs = gap.reversed_gap_m;
+    let signs = signs.map_or("", |_| message::either_sign_of_the_motion());
     message::under_with_cm_s_do(
         &gap.motion,
         GROUND_ACCELERATION.number(gap.pga_m_s2, 1),
         &pair,
         LENGTH.rounded_up(gap.of_both_signs_m()),
-        worse,
+        signs,
         strongest.unwrap_or_default(),
     )
 }
@@ -169,7 +165,10 @@ fn sections_of(pair: &[String; 2], gaps: &[&CriticalGap]) -> Vec<Section> {
     let chart = |y: Axis, of: &dyn Fn(&crate::GapPoint) -> f64, dots: bool| {
         let lines = gaps.iter().enumerate().flat_map(|(colour, gap)| {
             [(&gap.curve, false), (&gap.reversed_curve, true)].map(|(curve, is_reversed)| Series {
-                name: format!("{}{}", gap.motion, with_sign(is_reversed)),
+                name: match is_reversed {
+                    true => message::motion_reversed(&gap.motion),
+                    false => gap.motion.clone(),
+                },
                 points: curve
                     .iter()
                     .map(|p| [LENGTH.of(p.width_m), of(p)])

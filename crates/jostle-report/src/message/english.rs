@@ -931,6 +931,7 @@ messages! {
     one_row_per_width = "one row per width";
     the_greatest_force_kn_comes(peak_force, width, sign) = " The greatest force, {peak_force} {kN}, comes at a gap of {width} {mm}{sign}.";
     the_motion_reversed = " with the motion reversed";
+    motion_reversed(motion) = "{motion}, reversed";
     either_sign_of_the_motion = ", either sign of the motion";
     under_with_cm_s_do(motion, pga, pair, gap, sign, strongest) = "Under {motion} with {pga} {cm/s²}: no impact between {pair} for gaps of {gap} {mm} or more{sign}.{strongest}";
     one_record_is_no_design_value = "One record gives no design value: codes require 3, 7 or 11 records.";

@@ -26,7 +26,7 @@ pub struct SuitePage {
     pub checks: Vec<Finding>,
     /// Records, in their order.
     pub records: Vec<SuiteRow>,
-    /// Name with unit, mean, standard deviation, 16 to 84 %, greatest value, its record, governing value.
+    /// Name with unit, governing value, mean, standard deviation, 16 to 84 %, greatest value, its record.
     pub quantities: Vec<Vec<String>>,
     /// `mean` or `maximum`: which column governs.
     pub statistic: &'static str,
@@ -60,12 +60,12 @@ fn record_columns() -> [(&'static str, &'static str); 5] {
 }
 fn quantity_columns() -> [&'static str; 6] {
     [
+        message::governing(),
         message::mean(),
         message::standard_deviation(),
         message::percentiles_16_to_84(),
         message::greatest(),
         message::of_record(),
-        message::governing(),
     ]
 }
 
@@ -128,7 +128,7 @@ pub fn render_suite(page: &SuitePage) -> String {
 }
 
 fn quantities(page: &SuitePage) -> Markup {
-    let governs = if page.statistic == "mean" { 1 } else { 4 };
+    let governs = if page.statistic == "mean" { 2 } else { 5 };
     html! {
         section #governing {
             h2 { (message::governing_values()) }
@@ -144,8 +144,8 @@ fn quantities(page: &SuitePage) -> Markup {
                             tr {
                                 @for (index, cell) in row.iter().enumerate() {
                                     @if index == 0 { th scope="row" { (cell) } }
-                                    @else if index + 1 == row.len() { td.number { b { (cell) } } }
-                                    @else if index == 5 { td { (cell) } }
+                                    @else if index == 1 { td.number { b { (cell) } } }
+                                    @else if index == 6 { td { (cell) } }
                                     @else { td.number.governs[index == governs] { (cell) } }
                                 }
                             }

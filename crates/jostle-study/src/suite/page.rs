@@ -192,13 +192,16 @@ impl SuiteResults {
             [
                 message::governing_of(name, statistic),
                 with_unit(quantity.governing),
-                message::greatest_value_of_record(with_unit(quantity.maximum), record),
+                match quantity.governing == quantity.maximum {
+                    true => record.to_owned(),
+                    false => message::greatest_value_of_record(with_unit(quantity.maximum), record),
+                },
             ]
         });
         tiles.collect()
     }
 
-    /// Name, mean, deviation, 16 and 84 %, greatest with its record, governing.
+    /// Name, governing, mean, deviation, 16 and 84 %, greatest with its record.
     fn quantity_rows(&self) -> Vec<Vec<String>> {
         let lines = headlines(self).into_iter().map(|(name, quantity)| {
             let form = shown(&quantity.name);
@@ -209,6 +212,7 @@ impl SuiteResults {
             let deviation = quantity.standard_deviation;
             vec![
                 unit,
+                form.number(quantity.governing),
                 form.number(quantity.mean),
                 deviation.map_or("–".into(), |value| form.number(value)),
                 format!(
@@ -218,7 +222,6 @@ impl SuiteResults {
                 ),
                 form.number(quantity.maximum),
                 self.records[quantity.maximum_record].motion().to_owned(),
-                form.number(quantity.governing),
             ]
         });
         lines.collect()
@@ -304,9 +307,14 @@ fn line(xs: &[f64], ys: &[f64], stroke: Stroke, colour: usize, name: &str) -> Se
 
 /// Peaks of one building over its height; `None` if no record has them.
 fn over_height(runs: &[&Value], building: usize, peak: &Peak) -> Option<Chart> {
+    // A mat has no storey below it.
+    let has_it = |floor: &&Value| !peak.of_storey || floor["floor"].as_u64() != Some(0);
     let floors: Vec<Vec<&Value>> = runs
         .iter()
-        .map(|run| list(&run["buildings"][building], "floors").collect())
+        .map(|run| {
+            let floors = list(&run["buildings"][building], "floors");
+            floors.filter(has_it).collect()
+        })
         .collect();
     let heights: Vec<f64> = floors
         .first()?

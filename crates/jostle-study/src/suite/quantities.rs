@@ -176,7 +176,8 @@ pub(super) fn quantities(summary: &Value) -> Vec<Quantity> {
     }
     // Over the range of the properties of bearings: the greatest of nominal, lower and upper.
     let bounds = &summary["isolation_bounds"];
-    for building in list(bounds, "buildings") {
+    let isolated = || list(bounds, "buildings").filter(|building| !building["stroke_m"].is_null());
+    for building in isolated() {
         let name = building["name"].as_str().unwrap_or_default();
         for (key, of_range) in [
             ("stroke_m", "stroke_peak_m"),
@@ -189,8 +190,15 @@ pub(super) fn quantities(summary: &Value) -> Vec<Quantity> {
         }
     }
     for gap in list(bounds, "gaps") {
-        let between = list(gap, "between").filter_map(Value::as_str);
-        let pair = between.collect::<Vec<_>>().join("-");
+        let between: Vec<&str> = list(gap, "between").filter_map(Value::as_str).collect();
+        let is_beside = |building: &Value| {
+            let name = building["name"].as_str().unwrap_or_default();
+            between.contains(&name)
+        };
+        if !isolated().any(is_beside) {
+            continue;
+        }
+        let pair = between.join("-");
         for key in ["peak_force_n", "closing_without_contact_m"] {
             let envelope = gap[key]["envelope"].as_f64();
             add(format!("{pair}.range.{key}"), envelope);

@@ -65,10 +65,7 @@ pub(super) fn headlines(results: &SuiteResults) -> Vec<(String, &QuantityStatist
         (".peak_force_n", "peak force"),
         (".impact_count", "impacts"),
         (".closing_peak_m", "peak closing"),
-        (
-            ".closing_without_contact_m",
-            "gap needed, sign as in the model",
-        ),
+        (".closing_without_contact_m", "gap needed"),
         (".stroke_peak_m", "stroke of bearings"),
         (".bearing_force_peak_n", "force of bearings"),
         (".roof_displacement_peak_m", "roof displacement"),
@@ -107,7 +104,7 @@ pub(super) fn headlines(results: &SuiteResults) -> Vec<(String, &QuantityStatist
                 false => "",
             };
             let (owner, range) = match owner.strip_suffix(".range") {
-                Some(owner) => (owner, ", over the range of the bearings"),
+                Some(owner) => (owner, ", range of bearings"),
                 None => (owner, ""),
             };
             plain.then(|| format!("{owner}, {words}{along}{range}"))
@@ -236,7 +233,7 @@ impl SuiteResults {
     fn write_quantities(&self, text: &mut String) -> std::fmt::Result {
         let lines = headlines(self);
         let width = lines.iter().map(|(name, _)| name.chars().count());
-        let width = width.fold(20, usize::max).min(44);
+        let width = width.fold(20, usize::max).min(60);
         writeln!(
             text,
             "\n{:width$}  {:>20}  {:>34}  {:>15}",
