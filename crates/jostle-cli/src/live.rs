@@ -80,7 +80,8 @@ pub(crate) fn module(asked: Option<&Path>) -> Result<Vec<u8>, Failure> {
     read.map_err(|error| {
         Failure::Input(format!(
             "--export needs the engine as WebAssembly, and {MODULE} beside the program {error}\n\
-             build it in a copy of the source with packaging/wasm, and name it with --module target/wasm/{MODULE}"
+             take it from the archive of a release, or build it in a copy of the source with packaging/wasm; \
+             name it with --module FILE"
         ))
     })
 }

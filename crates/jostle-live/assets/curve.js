@@ -289,10 +289,10 @@ function drawMarks(image, px) {
     .map((mark) => ({ ...mark, x: mark.width / perUnit }))
     .filter((mark) => mark.x >= curve.from && mark.x <= curve.to)
     .sort((a, b) => a.x - b.x);
-  const ends = [];
   const group = svg("g", { class: "code-marks" }, image);
   // Marks at one place share a letter.
   const places = seen.filter((mark, i) => i === 0 || px(mark.x) - px(seen[i - 1].x) > 0.5).map(({ x }) => x);
+  const clusters = [];
   for (const mark of seen) {
     const x = px(mark.x);
     const place = places.findLastIndex((one) => one <= mark.x);
@@ -302,11 +302,13 @@ function drawMarks(image, px) {
     svg("title", {}, line).textContent = say("mark_of_a_rule", { name: mark.name, width: shown, source: mark.source });
     html("li", mark.needed ? "needed" : "", `${letter} ${mark.name}: ${shown} ${unitOf("mm").name}`, list);
     svg("line", { x1: x, x2: x, y1: picture.top - 4, y2: picture.height - picture.bottom }, line);
-    if (ends.some((end) => end.letter === letter)) continue;
-    let row = 0;
-    while (ends.some((end) => end.row === row && x - end.x < 12)) row += 1;
-    ends.push({ letter, row, x });
-    svg("text", { x: x + 2, y: picture.top + 8 + 12 * row }, line).textContent = letter;
+    const near = clusters.at(-1);
+    if (near && x - near.x < 16) near.last = letter;
+    else clusters.push({ x, first: letter, last: letter });
+  }
+  // Letters of lines that stand close together: the first and the last of them.
+  for (const { x, first, last } of clusters) {
+    svg("text", { x: x + 2, y: picture.top + 8 }, group).textContent = first === last ? first : `${first}–${last}`;
   }
 }
 

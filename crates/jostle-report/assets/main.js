@@ -93,7 +93,7 @@ function showInstant(t, following) {
   byId("scrub").value = t;
   byId("scrub").setAttribute("aria-valuetext", say("seconds", { seconds: fixed(t, 2) }));
   const force = forces.reduce((sum, f) => sum + (f.time.length ? Math.max(0, interpolate(f.time, f.values, t)) : 0), 0);
-  byId("force-now").lastChild.textContent = force > 1 ? inUnit(force, unitOf("kN"), 0) : "";
+  byId("force-now").lastChild.textContent = force > 1 ? inThreeDigits(force, unitOf("kN")) : "";
   byId("force-now").firstChild.hidden = !(force > 1);
 }
 

@@ -16,6 +16,9 @@ function readable(value) {
 /** An SI value in a unit, with its name. */
 const inUnit = (value, { name, factor, least }, decimals) => `${fixed(value * factor, Math.max(decimals, least))} ${name}`;
 
+/** An SI value in a unit with three digits, as far as histories on pages are exact. */
+const inThreeDigits = (value, { name, factor }) => `${fixed(Number((value * factor).toPrecision(3)), 0)} ${name}`;
+
 /** Round values between two ends, about `count` of them, and the decimals they need. */
 function ticks(low, high, count) {
   const raw = (high - low) / count;

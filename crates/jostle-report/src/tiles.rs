@@ -1,5 +1,6 @@
 //! The answers of a run, at the head of its page: how sure they are, how much gap, what is hurt, where, and what is left.
 
+use jostle::results::contact_sensitivity::GapSpread;
 use jostle::results::summary::{FloorSummary, GapSummary, MemberSummary, StruckSummary, Summary};
 use maud::{Markup, html};
 
@@ -42,7 +43,15 @@ pub(crate) fn tiles(page: &Page) -> Markup {
 fn accuracy(summary: &Summary) -> Markup {
     let words = summary.promise.in_words();
     let words = words.strip_prefix("accuracy: ").unwrap_or(&words);
-    html! { p.quiet #accuracy { b { (message::accuracy()) " " } (words) "." } }
+    // The law of contact is an assumption whose effect no step can show.
+    let struck = summary.gaps.iter().any(|gap| gap.impact_count > 0);
+    let unknown = struck && summary.contact_sensitivity.is_none();
+    html! {
+        p.quiet #accuracy {
+            b { (message::accuracy()) " " } (words) "."
+            @if unknown { " " (message::contact_law_is_not_included()) }
+        }
+    }
 }
 
 fn tile(name: impl Into<String>, value: impl Into<String>, note: impl Into<String>) -> Tile {
@@ -236,12 +245,12 @@ fn impacts(summary: &Summary) -> Vec<Tile> {
     let force = hardest.map_or(0.0, |(_, contact)| contact.peak_force_n);
     let first = summary.gaps.iter().filter_map(|gap| gap.first_impact_s);
     let first = first.min_by(f64::total_cmp);
+    let mut at = hardest.map_or_else(String::new, |(gap, contact)| place(gap, contact));
+    if let Some([least, most]) = force_range(summary) {
+        at = message::with_force_range(at, format::force(least), format::force(most));
+    }
     let mut tiles = vec![
-        tile(
-            message::peak_force_title(),
-            format::force(force),
-            hardest.map_or_else(String::new, |(gap, contact)| place(gap, contact)),
-        ),
+        tile(message::peak_force_title(), format::force(force), at),
         tile(
             message::impacts_title(),
             format::fixed(count as f64, 0),
@@ -254,6 +263,16 @@ fn impacts(summary: &Summary) -> Vec<Tile> {
         tiles.push(closing(gap, ""));
     }
     tiles
+}
+
+/// Least and greatest peak force of all gaps with other laws of contact, where they were run \[N\].
+fn force_range(summary: &Summary) -> Option<[f64; 2]> {
+    let gaps = &summary.contact_sensitivity.as_ref()?.gaps;
+    let most = |of: fn(&GapSpread) -> f64| gaps.iter().map(of).fold(0.0, f64::max);
+    Some([
+        most(|gap| gap.peak_force_min_n),
+        most(|gap| gap.peak_force_max_n),
+    ])
 }
 
 /// Roof displacements of few buildings.

@@ -507,6 +507,8 @@ messages! {
     the_animation_and_the_time = "The animation and the time charts need JavaScript.";
     the_run_ended_early = "The run ended early:";
     peak_force_title = "Peak force";
+    with_force_range(place, least, most) = "{place}; {least} to {most} with other contact laws";
+    contact_law_is_not_included = "The contact law is not included: --sensitivity shows its effect.";
     first_at(instant) = "first at {instant}";
     none = "none";
     peak_closing_title(pair) = "Peak closing{pair}";
@@ -855,7 +857,8 @@ messages! {
     // study_page
     study = "Study";
     maps = "Maps";
-    every_cell_is_one_case = "Every cell is one case, or the mean of several; move the pointer over it for its number. A frame marks cases with histories: click to open them.";
+    every_cell_is_one_case = "Every cell is one case, or the mean of several. A frame marks cases with histories.";
+    numbers_and_histories_of_cells = "Move the pointer over a cell for its number; click on a framed one for its histories.";
     runs = "Runs";
     case_case(case) = "Case {case}";
     any_other_case_with_histories = "Any other case, with histories and animation:";

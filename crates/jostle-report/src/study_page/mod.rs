@@ -133,7 +133,7 @@ fn maps(page: &StudyPage) -> Markup {
     html! {
         section #maps {
             h2 { (message::maps()) }
-            p.quiet { (message::every_cell_is_one_case()) }
+            p.quiet { (message::every_cell_is_one_case()) " " span.screen { (message::numbers_and_histories_of_cells()) } }
             @for (heading, maps) in &page.maps {
                 @if !heading.is_empty() { h3 { (heading) } }
                 div.study-maps { @for map in maps { (heat_map::figure(map)) } }

@@ -6,10 +6,13 @@ use crate::separation::codes::ntc2018_joint;
 impl Table<'_> {
     pub(super) fn ntc2018(&mut self) {
         let acceleration = match self.inputs.ground_acceleration {
-            Some(given) => (given, format!("a_g S = {given:.3} m/s²")),
+            Some(given) => (given, format!("a_g S = {:.3} g", given / GRAVITY)),
             None => {
                 let peak = self.neighbours.peak_ground_acceleration;
-                let words = format!("a_g S = {peak:.3} m/s² (default: peak of the motion)");
+                let words = format!(
+                    "a_g S = {:.3} g (default: peak of the motion)",
+                    peak / GRAVITY
+                );
                 (peak, words)
             }
         };
