@@ -20,7 +20,7 @@ pub(super) fn shaking(input: &Input, widths: &[f64]) -> Vec<f64> {
         let widest = widths.iter().copied().fold(0.0, f64::max);
         [BEYOND[0] * narrowest * least, BEYOND[1] * widest * most]
     });
-    let ratio = (to / from).ln() / f64::from(COUNT - 1);
+    let ratio = libm::log(to / from) / f64::from(COUNT - 1);
     let all = (0..COUNT).map(|k| from * libm::exp(ratio * f64::from(k)));
     all.map(two_digits).collect()
 }
