@@ -5,9 +5,9 @@ use jostle_io::Input;
 use jostle_run::CaseCache;
 
 /// Intensities of a study.
-const COUNT: i32 = 12;
+const COUNT: i32 = 20;
 /// From this part of the intensity at which the narrowest gap closes to that multiple of it at which the widest does.
-const BEYOND: [f64; 2] = [0.4, 2.5];
+const BEYOND: [f64; 2] = [0.5, 2.0];
 /// Where nothing is known: a fifth of the shaking of the model to twice that.
 const USUAL: [f64; 2] = [0.2, 2.0];
 
