@@ -752,6 +752,35 @@ mod tests {
         }
     }
 
+    /// Curves reach to where neither sign of the motion leads to an impact.
+    #[test]
+    fn curves_have_both_signs() {
+        let mut input = builtin_model("paper").unwrap_or_else(|error| panic!("{error}"));
+        if let Some(motion) = &mut input.motion {
+            motion.duration = Some(6.0);
+        }
+        let motion = input
+            .ground_motion()
+            .unwrap_or_else(|error| panic!("{error}"));
+        let settings = GapSettings {
+            outcomes: false,
+            curve: 4,
+            ..GapSettings::default()
+        };
+        let found = critical_gaps(&input.model, &motion, &settings, &|| false);
+        let gap = found.unwrap_or_else(|error| panic!("{error}")).remove(0);
+        let other = critical_gaps(&input.model, &motion.reversed(), &settings, &|| false);
+        let other = other.unwrap_or_else(|error| panic!("{error}")).remove(0);
+        assert_eq!(gap.of_both_signs_m(), other.of_both_signs_m());
+        for curve in [&gap.curve, &gap.reversed_curve] {
+            assert_eq!(curve.len(), 4);
+            assert!(curve[0].impact_count > 0 && curve[3].impact_count == 0);
+            assert!((curve[3].width_m / gap.of_both_signs_m() - 1.0).abs() < 1e-12);
+        }
+        let forces = |curve: &[GapPoint]| curve.iter().map(|p| p.peak_force_n).collect::<Vec<_>>();
+        assert_eq!(forces(&gap.reversed_curve), forces(&other.curve));
+    }
+
     /// A search that is stopped keeps the smallest gap, and the outcomes that are known; before that there is nothing.
     #[test]
     fn a_stopped_search_keeps_what_it_found() {

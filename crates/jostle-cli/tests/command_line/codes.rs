@@ -168,6 +168,30 @@ fn the_report_shows_the_codes() {
     assert!(!page.contains("TBDY 2018"));
 }
 
+/// Shares of heights count from the ground: a storey below the base of the neighbour is a basement.
+#[test]
+fn basements_are_no_part_of_the_height() {
+    let folder = folder();
+    let setback = |elevation: &str| {
+        let text = TOWERS.replacen(
+            "kind = \"shear\"",
+            &format!("kind = \"shear\"\nelevation = \"{elevation}\""),
+            1,
+        );
+        std::fs::write(folder.path().join("base.toml"), text).expect("written");
+        let found = json(
+            folder.path(),
+            &["gap", "base.toml", "--no-outcomes", "--json"],
+        );
+        rules_of(&found)("NSR-10")["setbacks_m"][0]
+            .as_f64()
+            .expect("a setback")
+    };
+    // Three storeys of 3.2 m: 1 % of all of them beside slabs at other heights, nothing for two.
+    assert!((setback("-0.9 m") - 0.096).abs() < 1e-12);
+    assert!(setback("-3.2 m").abs() < 1e-12);
+}
+
 /// One building beside a wall: EN 1998-1 §4.4.2.7(2)a asks for its own displacement, without the 0.7 for level floors, and
 /// NSR-10 for 1 % of the height of three storeys beside a neighbour with slabs at any height.
 #[test]

@@ -198,6 +198,41 @@ fn components_are_listed_beside_their_records() {
     }
 }
 
+/// A list of factors has one for each record, with its components.
+#[test]
+fn records_of_a_list_have_factors_of_their_own() {
+    let read = |motion: &str| {
+        let text = format!("[motion]\n{motion}\n{TOWER}");
+        read_model_text("m.toml", &text, Format::Toml, Path::new("")).map_err(|e| e.to_string())
+    };
+    let pair = "record = [\"el-centro-1940-ns\", \"nanjing-artificial\"]";
+    let each = read(&format!("{pair}\nscale = [1.25, 0.8]"))
+        .expect("two factors")
+        .each_record();
+    let scales: Vec<f64> = each
+        .iter()
+        .map(|input| input.ground_motion().expect("a motion").scale)
+        .collect();
+    assert_eq!(scales, [1.25, 0.8]);
+    for (wrong, part) in [
+        (
+            format!("{pair}\nscale = [1, 2, 3]"),
+            "motion.scale: has 3 entries for 2 records",
+        ),
+        (
+            format!("{pair}\nscale = [1, 0]"),
+            "motion.scale[1]: must not be 0",
+        ),
+        (
+            "record = \"el-centro-1940-ns\"\nscale = [1]".to_owned(),
+            "motion.scale: is a list, but there is one record",
+        ),
+    ] {
+        let error = read(&wrong).expect_err("a fault");
+        assert!(error.contains(part), "{error}");
+    }
+}
+
 #[test]
 fn of_several_records_a_run_takes_one() {
     let read = |motion: &str| {

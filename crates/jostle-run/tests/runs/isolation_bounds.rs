@@ -54,19 +54,24 @@ fn run(text: &str) -> Summary {
     let settings = prepared.settings(false);
     let mut observer = |_, _| ControlFlow::Continue(());
     let mut ran = prepared.run(settings, &mut observer);
+    ran.run_without_contact(settings, &mut observer);
     ran.run_isolation_bounds(&mut observer);
     ran.summary()
 }
 
-/// Stroke, force, drift and contact force of a run.
-fn peaks(summary: &Summary) -> [f64; 4] {
+/// Stroke, force, drift, contact force, gap needed and greatest storey shear of a run.
+fn peaks(summary: &Summary) -> [f64; 6] {
     let building = &summary.buildings[0];
     let isolation = building.isolation.as_ref().expect("bearings");
+    let shears = building.floors.above.iter();
+    let shears = shears.map(|floor| floor.response.storey_shear_peak_n);
     [
         isolation.displacement_peak_m(),
         isolation.force_peak_n,
         building.response.drift_peak,
         summary.gaps[0].peak_force_n,
+        summary.gaps[0].closing_without_contact_m.expect("a gap"),
+        shears.fold(0.0, f64::max),
     ]
 }
 
@@ -99,11 +104,13 @@ fn bounds_are_runs_with_properties_multiplied_by_hand() {
         let summary = run(&model(&format!("{own}, bounds = {{ {bounds} }}"), ""));
         let found = summary.isolation_bounds.as_ref().expect("bounds were run");
         let building = &found.buildings[0];
-        let found: [Bounded; 4] = [
+        let found: [Bounded; 6] = [
             building.stroke_m.expect("bearings"),
             building.force_n.expect("bearings"),
             building.drift,
             found.gaps[0].peak_force_n,
+            found.gaps[0].closing_without_contact_m.expect("a gap"),
+            building.storey_shear_n,
         ];
         let by_hand = ends.map(|text| peaks(&run(&model(&text, ""))));
         let nominal = peaks(&run(&model(&own, "")));

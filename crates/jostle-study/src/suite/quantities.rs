@@ -222,6 +222,38 @@ pub(super) fn list<'v>(value: &'v Value, key: &str) -> impl Iterator<Item = &'v 
 mod tests {
     use super::*;
 
+    /// Strokes and gaps of isolated buildings, at the worst of their bounds.
+    #[test]
+    fn ranges_of_bearings_are_compared_by_their_envelopes() {
+        let range = |envelope: f64| serde_json::json!({ "nominal": 1.0, "envelope": envelope });
+        let summary = serde_json::json!({
+            "buildings": [{ "name": "A", "isolation": {
+                "displacement_max_m": 0.1, "displacement_min_m": -0.2, "force_peak_n": 7.0 } }],
+            "isolation_bounds": {
+                "buildings": [
+                    { "name": "A", "stroke_m": range(3.0), "force_n": range(4.0), "drift": range(5.0) },
+                    { "name": "B", "stroke_m": null, "drift": range(6.0) } ],
+                "gaps": [
+                    { "between": ["A", "B"], "peak_force_n": range(8.0), "closing_without_contact_m": range(9.0) },
+                    { "between": ["B", "C"], "peak_force_n": range(1.0) } ],
+            },
+        });
+        let all = quantities(&summary);
+        let found: Vec<(&str, f64)> = all.iter().map(|q| (&q.name[..], q.value)).collect();
+        assert_eq!(
+            found,
+            [
+                ("A.stroke_peak_m", 0.2),
+                ("A.bearing_force_peak_n", 7.0),
+                ("A.range.stroke_peak_m", 3.0),
+                ("A.range.bearing_force_peak_n", 4.0),
+                ("A.range.drift_peak", 5.0),
+                ("A-B.range.peak_force_n", 8.0),
+                ("A-B.range.closing_without_contact_m", 9.0),
+            ]
+        );
+    }
+
     #[test]
     fn capacities_are_compared_where_they_are_known() {
         let summary = serde_json::json!({ "buildings": [

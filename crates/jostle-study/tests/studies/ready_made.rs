@@ -194,6 +194,49 @@ fn what_cannot_be_varied_is_said() {
     assert!(notes.join("\n").contains("common peaks"), "{notes:?}");
 }
 
+/// Intensities of the study of fragility begin where the narrowest gap stays open and end where the widest closes.
+#[test]
+fn intensities_of_fragility_have_both_outcomes() {
+    let (study, notes) = made("fragility", OWN);
+    assert!(notes.is_empty(), "{notes:?}");
+    let peak = |case: u64| {
+        model(&study, case)
+            .ground_motion()
+            .expect("a motion")
+            .peak()
+    };
+    let width = |case: u64| model(&study, case).model.gaps[0].width();
+    let cases = 0..study.design.cases;
+    let peaks = || cases.clone().map(peak);
+    let widths = || cases.clone().map(width);
+    let [least, most] = [
+        peaks().fold(f64::INFINITY, f64::min),
+        peaks().fold(0.0, f64::max),
+    ];
+    let [narrow, wide] = [
+        widths().fold(f64::INFINITY, f64::min),
+        widths().fold(0.0, f64::max),
+    ];
+    let input = tree(OWN).input().expect("a model");
+    let impacts = |peak: f64, width: f64| {
+        let mut input = input.clone();
+        input.model.gaps[0].set_width(width);
+        if let Some(motion) = &mut input.motion {
+            motion.scaling = jostle_io::Scaling::Pga(peak);
+        }
+        let cache = jostle_run::CaseCache::default();
+        let prepared = cache
+            .assemble(input)
+            .unwrap_or_else(|error| panic!("{error}"));
+        let outcome = prepared.step(prepared.settings(false), |_| {
+            std::ops::ControlFlow::Continue(())
+        });
+        outcome.impacts.len()
+    };
+    assert_eq!(impacts(least, narrow), 0);
+    assert!(impacts(most, wide) > 0);
+}
+
 /// A path that leads nowhere is one fault, not one for each factor.
 #[test]
 fn a_wrong_path_is_the_fault_of_its_factor_alone() {

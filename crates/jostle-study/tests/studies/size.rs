@@ -96,6 +96,44 @@ fn the_least_gap_without_impact_is_the_critical_gap() {
     assert_eq!(best.kept, [Some(0.0)]);
 }
 
+/// Both signs of a motion need the wider of both gaps; with one sign, the other is judged at the end.
+#[test]
+fn the_other_sign_is_judged_or_searched_too() {
+    let with_sign =
+        |reverse: bool| TOWERS.replace("duration", &format!("reverse = {reverse}\nduration"));
+    let [plain, reversed] = [false, true].map(|reverse| critical(&with_sign(reverse))[1]);
+    assert!((plain / reversed - 1.0).abs() > 0.01, "{plain} {reversed}");
+    // The sign that needs less is searched, so that the other one violates what is found.
+    let lesser = with_sign(plain > reversed);
+    let wanted = plain.max(reversed);
+    let mut request = request(
+        &["gap.width=1 mm..100 mm"],
+        &["impact_count == 0"],
+        "gap.width",
+    );
+    let found = searched(&lesser, &request, None, 2);
+    let other = found.reversed.as_ref().expect("the other sign was run");
+    assert!(
+        !other.keeps() && other.kept[0] >= Some(1.0),
+        "{:?}",
+        other.kept
+    );
+    let said = found.headline().join(" ");
+    assert!(
+        said.contains("Violated with the motion reversed: number of impacts"),
+        "{said}"
+    );
+
+    request.both_signs = true;
+    let found = searched(&lesser, &request, None, 2);
+    let gap = found.best().and_then(|best| best.objective).unwrap_or(0.0);
+    assert!(
+        wanted <= gap && gap < (1.0 + 5e-4) * wanted,
+        "{gap} {wanted}"
+    );
+    assert!(found.reversed.is_none());
+}
+
 #[test]
 fn several_records_count_by_the_worst_or_by_their_mean() {
     let suite = TOWERS.replace(
