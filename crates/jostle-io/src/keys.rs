@@ -1305,6 +1305,7 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Codes, "motion", Choice(MOTION_LEVELS), "\"full\"", "Whether the motion is the design motion in full, or reduced by q or R."),
     default(S::Codes, "floor_levels", Choice(FLOOR_LEVELS), "\"auto\"", "Whether all floors that face each other lie at equal height; auto follows the model."),
     default(S::Codes, "system", Choice(JOINT_SYSTEMS), "\"frame\"", "GB 50011: structural system that needs the wider joint."),
+    default(S::Codes, "intensity", Count, "all four", "GB 50011: fortification intensity, 6, 7, 8 or 9, whose joint is listed."),
     default(S::Codes, "ground_acceleration", Quantity(D::Acceleration), "peak of the motion", "NTC 2018: a_g S.").usual("a design acceleration", 0.01, 50.0),
     default(S::Codes, "hazard", Choice(HAZARD_ZONES), "\"high\"", "NSR-10: seismic hazard of the site."),
     optional(S::Codes, "zone_factor", Quantity(D::Dimensionless), "E.030-2026: zone factor Z; the rule is left out without it.").usual("a zone factor", 0.01, 5.0),

@@ -94,7 +94,7 @@ impl Known<'_> {
 
 /// A check, or one part of it.
 pub struct Check {
-    /// Identifier: `A1` to `A15` of models, `B1` to `B12` of results.
+    /// Identifier: `A1` to `A16` of models, `B1` to `B12` of results.
     pub id: &'static str,
     /// Name of the part, unique.
     pub name: &'static str,

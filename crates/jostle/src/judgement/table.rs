@@ -246,6 +246,16 @@ pub const CHECKS: &[Check] = &[
         measure: support::bearing_bounds,
     },
     Check {
+        id: "A16",
+        name: "soil-twice",
+        quantity: "embedment of a foundation, less the depth from which a link between a wall and a floor stands for soil: the middle of the storey below the floor",
+        unit: "m",
+        limits: &[above(0.0, Warning)],
+        sources: &[JUDGEMENT],
+        remedy: "leave out embedment, or the links to the soil beside it",
+        measure: support::soil_twice,
+    },
+    Check {
         id: "B1",
         name: "p-delta-left-out",
         quantity: "stability coefficient θ = P d_r/(V h) of a storey without P-Delta",
