@@ -26,6 +26,7 @@ use crate::system::System;
 pub use contact::advised_stiffness;
 pub use mass::floor_masses;
 pub use silence::{named, names};
+pub use yielding::structure_yields;
 pub use table::{CHECKS, FROM_MODEL, JUDGEMENT, OUTSIDE_DRIFT};
 
 /// What checks know.

@@ -10,7 +10,8 @@ use crate::model::{
 const YIELD_DRIFT: f64 = 0.01;
 
 /// Whether storeys or members of a building can yield, not its base alone.
-pub(super) fn structure_yields(building: &Building) -> bool {
+#[must_use]
+pub fn structure_yields(building: &Building) -> bool {
     let yields = |own: &Diagonal| own.place.kind == DiagonalKind::Brace && own.hysteresis.is_some();
     match &building.structure {
         _ if building.hinges.is_some() => true,
