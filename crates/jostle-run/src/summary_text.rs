@@ -3,7 +3,6 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use jostle::Building;
 use jostle::linear::sort_by;
 use jostle::results::contact_sensitivity::ContactSensitivity;
 use jostle::results::gradient::Gradient;
@@ -13,6 +12,7 @@ use jostle::results::summary::{
     BuildingSummary, ContactSummary, ExceededSummary, GapSummary, LinkSummary, Summary,
 };
 use jostle::separation::{Requirement, Requirements};
+use jostle::{Building, Model};
 use jostle_io::Input;
 use jostle_io::shown::{
     ACCELERATION, ENERGY, FORCE, GROUND_ACCELERATION, IMPULSE, LENGTH, MASS, MOMENT, Shown,
@@ -57,12 +57,15 @@ fn write_all(
     let motion = &summary.motion;
     writeln!(text, "{}", styled(BOLD, &summary.title))?;
     let reversed = if motion.scale < 0.0 { ", reversed" } else { "" };
+    let in_g = match GROUND_ACCELERATION.name() {
+        "g" => String::new(),
+        _ => format!(" ({:.3} g)", motion.pga_m_s2 / jostle_io::STANDARD_GRAVITY),
+    };
     writeln!(
         text,
-        "{}{reversed}, peak {} ({:.3} g), {:.2} s",
+        "{}{reversed}, peak {}{in_g}, {:.2} s",
         motion.name,
         GROUND_ACCELERATION.text(motion.pga_m_s2, 1),
-        motion.pga_m_s2 / jostle_io::STANDARD_GRAVITY,
         motion.duration_s
     )?;
     if let Some(reason) = &summary.ended_early {
@@ -82,14 +85,13 @@ fn write_all(
     write_parts(text, &summary.buildings)?;
     write_sections(text, &summary.buildings)?;
     write_capacity(text, &summary.buildings)?;
+    let are_named = !input.codes.shown.is_empty();
+    let mut asks_for_codes = false;
     for (index, gap) in summary.gaps.iter().enumerate() {
         let required = summary.required_gaps(&input.model, index, &input.codes);
-        write_gap(
-            text,
-            gap,
-            summary,
-            (&required, !input.codes.shown.is_empty()),
-        )?;
+        let has_rules = required.rules.iter().any(|rule| rule.code.is_some());
+        asks_for_codes |= !are_named && has_rules && !is_moat(&input.model, index);
+        write_gap(text, gap, summary, are_named.then_some(&required))?;
     }
     if let Some(spread) = &summary.contact_sensitivity {
         write_spread(text, spread)?;
@@ -107,6 +109,11 @@ fn write_all(
     if let Some(found) = &summary.floor_spectra {
         write_floor_spectra(text, found)?;
     }
+    // A blank line before what follows.
+    if !text.ends_with("\n\n") {
+        writeln!(text)?;
+    }
+    let before = text.len();
     for warning in &summary.warnings {
         writeln!(text, "{} {warning}", styled(LOUD, "warning:"))?;
     }
@@ -117,6 +124,13 @@ fn write_all(
     write_findings(text, &summary.checks, rest)?;
     for note in &summary.notes {
         writeln!(text, "{} {note}", styled(DIM, "note:"))?;
+    }
+    if asks_for_codes {
+        let note = "no code is chosen: name yours with show under [codes], or see jostle gap";
+        writeln!(text, "{} {note}", styled(DIM, "note:"))?;
+    }
+    if text.len() > before {
+        writeln!(text)?;
     }
     let (energy, work) = (&summary.energy, &summary.work);
     let accounting = format!(
@@ -134,7 +148,7 @@ fn write_all(
         counted_grouped(work.solves, "solution"),
         work.wall_s
     );
-    writeln!(text, "\n{}", summary.promise.in_words())?;
+    writeln!(text, "{}", summary.promise.in_words())?;
     writeln!(text, "{}", styled(DIM, &accounting))?;
     if let Some(result) = result {
         writeln!(text, "→ {}", styled(BOLD, &result.display().to_string()))?;
@@ -227,11 +241,11 @@ fn write_buildings(
         };
         writeln!(
             text,
-            "{:width$}  {:6}  {:>5} {mass}  {:15} s  {:>6} / {:>5} {length}  {:4.2} %  {:>7} {force}  {:>24}",
+            "{:width$}  {:6}  {:>5} {mass}  {:17}  {:>6} / {:>5} {length}  {:4.2} %  {:>7} {force}  {:>24}",
             building.name,
             building.floors.len(),
             MASS.number(building.mass_kg, 0),
-            periods.join(" "),
+            format!("{} s", periods.join(" ")),
             LENGTH.signed(roof.response.displacement_max_m, 1),
             LENGTH.signed(roof.response.displacement_min_m, 1),
             building.response.drift_peak * 100.0,
@@ -242,21 +256,26 @@ fn write_buildings(
     Ok(())
 }
 
-/// Effect of contact on every building: peaks with contact divided by peaks without, where this ratio is greatest and
-/// where it is least over the height.
+/// Effect of contact on every building: peaks with contact divided by peaks without, the largest and the smallest over the height; one
+/// line where there is one storey.
 fn write_changes(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::Result {
     const HEADING: &str = "effect of pounding (with ÷ without)";
+    const LABEL: usize = "  smallest ratio".len();
     let width = buildings
         .iter()
-        .map(|building| building.name.chars().count() + "  least affected".len())
+        .map(|building| building.name.chars().count() + LABEL)
         .fold(HEADING.chars().count(), usize::max);
     let mut rows = String::new();
     for building in buildings {
         let [Some(drift), Some(shear), Some(acceleration)] = changes(building) else {
             continue;
         };
-        let name = width - "  least affected".len();
-        for (side, label) in [(0, "most affected"), (1, "least affected")] {
+        let name = width - LABEL;
+        let labels: &[&str] = match building.floors.len() {
+            1 => &["ratio"],
+            _ => &["largest ratio", "smallest ratio"],
+        };
+        for (side, label) in labels.iter().enumerate() {
             let cell = |extremes: &Extremes, place: &str| {
                 let (ratio, at) = extremes[side];
                 format!("{ratio:.2} ({place} {at})")
@@ -354,7 +373,7 @@ fn write_isolation(text: &mut String, summary: &Summary) -> std::fmt::Result {
         if let Some(plan) = &own.in_plan {
             writeln!(
                 text,
-                "\nmat of {}: bearing {} of {} moves {}, {} in the bearings along x and {} across{stop}{above}, {} at the end",
+                "\nmat of {}: bearing {} of {} moves by up to {}, {} in the bearings along x and {} across{stop}{above}, {} at the end",
                 building.name,
                 plan.stroke_bearing,
                 plan.bearings,
@@ -367,7 +386,7 @@ fn write_isolation(text: &mut String, summary: &Summary) -> std::fmt::Result {
         }
         writeln!(
             text,
-            "\nmat of {}: {}, {} in the bearings{stop}{above}, {} at the end",
+            "\nmat of {}: moves by up to {}, {} in the bearings{stop}{above}, {} at the end",
             building.name,
             LENGTH.text(own.displacement_peak_m(), 1),
             FORCE.text(own.force_peak_n, 0),
@@ -381,16 +400,16 @@ fn write_isolation(text: &mut String, summary: &Summary) -> std::fmt::Result {
             });
             let travels = travels.collect::<Vec<_>>().join(", ");
             let rims = match own.reached_rims() {
-                true => "; all stood at their rims",
+                true => "; all reached their rims",
                 false => "",
             };
-            writeln!(text, "  its stages slide: {travels}{rims}")?;
+            writeln!(text, "  stages, displacement of capacity: {travels}{rims}")?;
         }
     }
     for wall in &summary.walls {
         writeln!(
             text,
-            "wall {}: {}, {} of contact",
+            "\"{}\" moves by up to {} under a contact force of {}",
             wall.name,
             LENGTH.text(wall.displacement_peak_m, 1),
             FORCE.text(wall.force_peak_n, 0)
@@ -557,7 +576,7 @@ fn write_gap(
     text: &mut String,
     gap: &GapSummary,
     summary: &Summary,
-    (required, are_named): (&Requirements, bool),
+    required: Option<&Requirements>,
 ) -> std::fmt::Result {
     let [left, right] = &gap.between;
     let verdict = match gap.first_impact_s {
@@ -593,11 +612,12 @@ fn write_gap(
         )?;
     }
     let [force, impulse, length] = [FORCE, IMPULSE, LENGTH].map(Shown::name);
+    let is_wall = |name: &str| name == WALL || summary.walls.iter().any(|own| own.name == name);
     for contact in hit.iter().take(LISTED) {
         // Neither a floor nor a wall: a column between its floors.
         let point = |side: usize| match contact.floors[side] {
             Some(floor) => floor.to_string(),
-            None if gap.between[side] == WALL => WALL.to_owned(),
+            None if is_wall(&gap.between[side]) => WALL.to_owned(),
             None => "–".to_owned(),
         };
         writeln!(
@@ -651,7 +671,17 @@ fn write_gap(
     let mut floors = floors.map(|floor| floor.without_contact.is_some());
     let has_impacts = gap.impact_count > 0 && !floors.all(|is_known| is_known);
     let computed = gap.closing_without_contact_m;
-    write_codes(text, required, computed, [has_impacts, are_named])
+    match required {
+        Some(required) => write_codes(text, required, computed, has_impacts),
+        None => Ok(()),
+    }
+}
+
+/// Whether a gap is the moat of an isolated building, of which no code asks a width.
+fn is_moat(model: &Model, gap: usize) -> bool {
+    let sides = model.buildings_beside(model.gaps[gap].between);
+    let isolated = |index: usize| model.buildings[index].base.isolation.is_some();
+    matches!(sides, [Some(own), None] | [None, Some(own)] if isolated(own))
 }
 
 /// The range of the peak force over other contacts, where they were run.
@@ -793,19 +823,10 @@ fn write_codes(
     text: &mut String,
     required: &Requirements,
     computed: Option<f64>,
-    [has_impacts, are_named]: [bool; 2],
+    has_impacts: bool,
 ) -> std::fmt::Result {
     let rules = required.rules.iter().filter(|rule| rule.code.is_some());
     let rules: Vec<&Requirement> = rules.collect();
-    if !are_named {
-        return match rules.is_empty() {
-            true => Ok(()),
-            false => writeln!(
-                text,
-                "  No code is chosen: name yours with show under [codes], or see jostle gap."
-            ),
-        };
-    }
     // Codes mean displacements without contact.
     if has_impacts {
         return writeln!(
@@ -821,9 +842,13 @@ fn write_codes(
     if let (Some(computed), false) = (computed, short.is_empty()) {
         let codes = short.join("; ");
         let computed = LENGTH.text(computed, 1);
+        let (minimum, are) = match short.len() {
+            1 => ("minimum", "is"),
+            _ => ("minima", "are"),
+        };
         writeln!(
             text,
-            "  The minimum by {codes} is less than the {computed} computed."
+            "  The {minimum} by {codes} {are} less than the {computed} computed."
         )?;
     }
     let widths = rows.iter();
@@ -913,8 +938,8 @@ mod tests {
             text,
             "\n\
              effect of pounding (with ÷ without)       storey drift       storey shear       acceleration\n\
-             A                    most affected     1.50 (storey 2)    1.20 (storey 2)     4.50 (floor 2)\n\
-             \x20                    least affected    0.50 (storey 1)    0.80 (storey 1)     0.50 (floor 1)\n\n"
+             A                    largest ratio     1.50 (storey 2)    1.20 (storey 2)     4.50 (floor 2)\n\
+             \x20                    smallest ratio    0.50 (storey 1)    0.80 (storey 1)     0.50 (floor 1)\n\n"
         );
         let mut text = String::new();
         let _ = write_changes(&mut text, &[]);
