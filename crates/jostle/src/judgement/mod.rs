@@ -26,8 +26,8 @@ use crate::system::System;
 pub use contact::advised_stiffness;
 pub use mass::floor_masses;
 pub use silence::{named, names};
-pub use yielding::structure_yields;
 pub use table::{CHECKS, FROM_MODEL, JUDGEMENT, OUTSIDE_DRIFT};
+pub use yielding::structure_yields;
 
 /// What checks know.
 #[derive(Clone, Copy, Debug)]

@@ -52,11 +52,10 @@ impl System {
                 (None, Some((foundation, ground)), _) => fixed(false)
                     .and_then(|fixed| Founded::new(building, &fixed, points, foundation, ground))
                     .map(|founded| (founded.damping.clone(), Some((founded, *foundation)), None)),
-                (None, None, Some((foundation, soil))) => fixed(false)
-                    .and_then(|fixed| {
-                        let own = FoundationInPlan::new(building, &fixed, &foundation, &soil)?;
-                        Ok((rayleigh(&fixed), None, Some(own)))
-                    }),
+                (None, None, Some((foundation, soil))) => fixed(false).and_then(|fixed| {
+                    let own = FoundationInPlan::new(building, &fixed, &foundation, &soil)?;
+                    Ok((rayleigh(&fixed), None, Some(own)))
+                }),
                 (None, None, None) => Ok((building.damping.clone(), None, None)),
             };
             let (damping, founded, in_plan) = match damping {
