@@ -220,7 +220,9 @@ pub(crate) fn millimetres(metre: f64) -> String {
             2
         };
         let text = fixed(value, decimals);
-        return unit(without_zeros(&text).to_owned(), LENGTH.name());
+        // A round width stays round: "4 in"; beside others "4.60 in".
+        let text = text.strip_suffix(".00").unwrap_or(&text);
+        return unit(text.to_owned(), LENGTH.name());
     }
     let value = metre * 1e3;
     let decimals = match value.abs() {

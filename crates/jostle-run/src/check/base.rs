@@ -102,7 +102,7 @@ pub(super) fn describe_foundation(
     let lifting = springs.rocking_stiffness * weight / (springs.vertical_stiffness * reach);
     writeln!(
         text,
-        "  lifts off: {} contact springs to {} from the middle, vertical {} and {}; the edge lifts at an overturning moment of {} {moment}; overturning capacity W b = {} {moment} (W {})",
+        "  lifts off: {} contact springs to {} from the middle, vertical {} and {}; the edge lifts at an overturning moment of {} {moment}; overturning capacity W·b = {} {moment} (W {})",
         bed.len(),
         HEIGHT.text(reach, 2),
         prefixed(springs.vertical_stiffness, "N/m", 3),
