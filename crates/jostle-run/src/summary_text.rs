@@ -127,8 +127,10 @@ fn write_all(
         writeln!(text, "{} {note}", styled(DIM, "note:"))?;
     }
     if asks_for_codes {
-        let note = "no code is chosen: name yours with show under [codes], or see jostle gap";
-        writeln!(text, "{} {note}", styled(DIM, "note:"))?;
+        writeln!(
+            text,
+            "No code is chosen: name yours with show under [codes], or see jostle gap."
+        )?;
     }
     if text.len() > before {
         writeln!(text)?;

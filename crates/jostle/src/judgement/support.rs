@@ -24,8 +24,9 @@ pub(super) fn bearing_bounds(known: &Known<'_>, tally: &mut Tally<'_>) {
 /// soil from the middle of the storey below its floor.
 pub(super) fn soil_twice(known: &Known<'_>, tally: &mut Tally<'_>) {
     for link in &known.system.links {
-        let between = known.model.links[link.link].between;
-        let ([Some(index), None] | [None, Some(index)]) = between else {
+        // Those of braces and panels are none of the model's.
+        let own = known.model.links.get(link.link);
+        let Some([Some(index), None] | [None, Some(index)]) = own.map(|own| own.between) else {
             continue;
         };
         let building = &known.model.buildings[index];

@@ -306,7 +306,7 @@ pub const CHECKS: &[Check] = &[
         unit: "–",
         limits: &[above(1.0, Warning)],
         sources: &[FROM_MODEL],
-        remedy: "check what the member bears there: the model keeps its strength beyond that rotation",
+        remedy: "check the capacity of the member there: the model keeps its strength beyond that rotation",
         measure: yielding::rotation,
     },
     Check {
