@@ -273,7 +273,7 @@ messages! {
     moves_on_its_bearings(name, moved) = "{name} moves {moved} on its bearings";
     share_of_limit(used, limit) = ", {used} % of their limit of {limit}";
     they_dissipate_residual_displacement(damped, residual) = ". They dissipate {damped}. Residual displacement: {residual}.";
-    a_stop_is_hit(force) = " A stop is hit with {force}.";
+    a_stop_is_hit(force) = " Peak force on a stop: {force}.";
     travel_of(stage, went, travel) = "{stage} {went} of {travel}";
     stages_slide(stages) = " Their stages slide: {stages}.";
     the_bearings_stood_at_their_rims = " All stages stood at their rims.";
@@ -907,9 +907,9 @@ messages! {
     of_gaps_close(gaps, all, gap) = "{gaps} of {all} gaps close. {gap}";
     has_a_peak_roof_displacement(name, sway) = "{name} has a peak roof displacement of {sway}; it has no neighbour.";
     nothing_was_recorded = "Nothing was recorded.";
-    hit_times_with_up_to(left, right, impact_count, peak_force) = "{left} and {right} hit {impact_count} with up to {peak_force}.";
-    and_hit_once(left, right, first_at, at, force) = "{left} and {right} hit once: {first_at}, at {at}, with {force}.";
-    hit_times(left, right, impact_count) = "{left} and {right} hit {impact_count}";
+    impacts_with_up_to(left, right, impact_count, peak_force) = "{left} and {right}: {impact_count}, up to {peak_force}.";
+    and_one_impact(left, right, first_at, at, force) = "{left} and {right}: one impact, {first_at}, at {at}, {force}.";
+    impacts_of_both(left, right, impact_count) = "{left} and {right}: {impact_count}";
     the_first_impact(head, start, hardest) = "{head}; the first impact, at {start}, has the peak force, {hardest}.";
     first_at_peak_force(head, start, hardest, hardest_place, hardest_2) = "{head}, first at {start}; peak force at {hardest} ({hardest_place}), {hardest_2}.";
     the_smallest_distance_between(head, left, right, distance) = "{head}the smallest distance between {left} and {right} is {distance}.";
@@ -919,9 +919,8 @@ messages! {
     floor_against_column(floor, of, other, height) = "floor {floor} of {of} against a column of {other}, {height}";
     floors_and(left, right) = "floors {left} and {right}";
     height_m(height) = "height {height}\u{a0}{m}";
-    once = "once";
-    twice = "twice";
-    number_of_times(number) = "{number} times";
+    single_impact = "1 impact";
+    several_impacts(number) = "{number} impacts";
 
     // jostle-run/gap_page
     force_over_gap = "Force over gap";
@@ -1051,8 +1050,8 @@ messages! {
     contacts = "Contacts";
     earlier = "Earlier";
     later = "Later";
-    hardest = "Hardest";
-    show_the_hardest(count) = "Show the {count} hardest";
+    hardest = "Largest";
+    show_the_hardest(count) = "Show the {count} largest";
     show_all(count) = "Show all {count}";
     the_hardest_of(all) = ", the largest of {all}";
     rank_by_force(rank, all) = ", no. {rank} by force of {all}";
