@@ -216,11 +216,12 @@ fn features() -> Vec<Feature> {
     ]
 }
 
-/// The table in Markdown: every kind of building with every feature, `yes` or what the program says instead.
+/// The table in Markdown: every kind of building with every feature, and what the program says of those that are not possible.
 pub(crate) fn table() -> String {
     let mut text = String::from(
-        "# What can be combined\n\nTwo buildings of one kind stand side by side, and the model adds one feature. A cell has `yes`, or what the program says\ninstead. Written by `jostle schema --combinations`.\n\n|",
+        "# What can be combined\n\nTwo buildings of one kind stand side by side, and the model adds one feature. A cell has `yes`, or `no` and the number\nof what the program says, below the table. Written by `jostle schema --combinations`.\n\n|",
     );
+    let mut refusals: Vec<String> = Vec::new();
     for kind in [""].into_iter().chain(KINDS.iter().map(|kind| kind.name)) {
         let _ = write!(text, " {kind} |");
     }
@@ -229,15 +230,22 @@ pub(crate) fn table() -> String {
     for feature in features() {
         let _ = write!(text, "\n| {} |", feature.name);
         for index in 0..KINDS.len() {
-            let answer = try_out(index, &feature);
-            let _ = write!(
-                text,
-                " {} |",
-                answer.err().unwrap_or_else(|| "yes".to_owned())
-            );
+            let Err(refusal) = try_out(index, &feature) else {
+                text.push_str(" yes |");
+                continue;
+            };
+            let known = refusals.iter().position(|own| *own == refusal);
+            let number = known.unwrap_or_else(|| {
+                refusals.push(refusal);
+                refusals.len() - 1
+            });
+            let _ = write!(text, " no ({}) |", number + 1);
         }
     }
-    text.push('\n');
+    text.push_str("\n\n");
+    for (index, refusal) in refusals.iter().enumerate() {
+        let _ = writeln!(text, "{}. {refusal}", index + 1);
+    }
     text
 }
 

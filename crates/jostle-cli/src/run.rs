@@ -261,9 +261,15 @@ fn follow_members(opened: &mut Opened, rules: &[String]) -> Result<(), Failure> 
     } else {
         input.ask_for_capacity(&rules);
         if input.model.analysis.members.capacities.is_empty() {
-            return Err(Failure::Input(
-                "--capacity: no member has bars and ties; add steel = \"HRB400\", bars = \"12 d20\", ties = \"d10 @ 100 mm\" to column, and likewise to beam".to_owned(),
-            ));
+            let missing = match input.reinforced.is_empty() {
+                true => {
+                    "no member has bars; add steel = \"HRB400\", bars = \"12 d20\", ties = \"d10 @ 100 mm\" to column, and likewise to beam"
+                }
+                false => {
+                    "members have bars, but no ties; add ties = \"d10 @ 100 mm\" to column, and likewise to beam"
+                }
+            };
+            return Err(Failure::Input(format!("--capacity: {missing}")));
         }
     }
     let model = &input.model;

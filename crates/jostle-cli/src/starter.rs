@@ -1,5 +1,7 @@
 //! `jostle new`: a commented starter file.
 
+use jostle_io::shown::units;
+
 use crate::args::NewArgs;
 use crate::failure::Failure;
 use crate::terminal;
@@ -12,8 +14,14 @@ pub(crate) fn new(args: &NewArgs) -> Result<(), Failure> {
     let title = path
         .file_stem()
         .map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-    let text = jostle_io::template(&args.template, &title)
-        .ok_or_else(|| Failure::Input(format!("there is no template \"{}\"", args.template)))?;
+    let text = jostle_io::template_in(&args.template, &title, units());
+    // The names are checked before; only built-in models have one system of units.
+    let text = text.ok_or_else(|| {
+        Failure::Input(format!(
+            "\"{}\" is a built-in model and stays in SI: leave out --units us, or take another template",
+            args.template
+        ))
+    })?;
     if path.exists() {
         return Err(Failure::Input(format!(
             "{} exists already; choose another name or remove it first",

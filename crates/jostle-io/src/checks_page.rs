@@ -15,7 +15,7 @@ limits of this result*, in `summary.json` as `checks`, and in Python as `run.che
 checks B1 to B12 of a case that gave a note or a warning.
 
 A *warning* means that the result does not hold as it stands. A *note* is worth a look before the result is used. A *remark* is an
-assumption worth knowing; it is not printed on the terminal.
+assumption worth knowing; `jostle check` prints it, `jostle run` does not.
 
 To silence a check, name it in the model file; the report then lists it. An identifier stands for all parts of a check:
 

@@ -52,6 +52,7 @@ mod types_tables;
 mod undamaged;
 mod unit;
 mod unusual;
+mod us_template;
 
 pub use archive::archive_text;
 pub use baseline::Baseline;
@@ -118,7 +119,7 @@ pub use tables::{
     write_values_parquet,
 };
 pub use target::{TARGET_CODES, TargetError, TargetWords, read_target_file};
-pub use templates::{TEMPLATE_NAMES, template};
+pub use templates::{TEMPLATE_NAMES, template, template_in};
 pub use tree::Format;
 pub use types_tables::TypesTables;
 pub use undamaged::undamaged;

@@ -190,12 +190,6 @@ impl Shown {
         format!("[{}]", self.name())
     }
 
-    /// The same with full stops, `kN.m`, as units are typed.
-    #[must_use]
-    pub fn typed_name(self) -> String {
-        self.name().replace('·', ".")
-    }
-
     /// Size of its unit in the system that holds \[SI\].
     #[must_use]
     pub fn size(self) -> f64 {

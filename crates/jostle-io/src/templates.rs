@@ -1,6 +1,8 @@
 //! Commented starter files: templates, and the built-in models themselves.
 
 use crate::builtin_model::model_text;
+use crate::shown::Units;
+use crate::us_template::in_us_units;
 
 /// Names of the templates; the first is the default.
 pub const TEMPLATE_NAMES: [&str; 15] = [
@@ -24,6 +26,13 @@ pub const TEMPLATE_NAMES: [&str; 15] = [
 /// Text of a template with a title inserted, or of a built-in model unchanged; `None` if the name is unknown.
 #[must_use]
 pub fn template(name: &str, title: &str) -> Option<String> {
+    template_in(name, title, Units::Si)
+}
+
+/// The same in a system of units: in US customary units its quantities are converted and rounded. `None` also for built-in models in other
+/// units than SI: they stay as they are published.
+#[must_use]
+pub fn template_in(name: &str, title: &str, units: Units) -> Option<String> {
     let text = match name {
         "frames" => include_str!("../data/frames.toml"),
         "towers" => include_str!("../data/towers.toml"),
@@ -38,7 +47,12 @@ pub fn template(name: &str, title: &str) -> Option<String> {
         "braced-steel" => include_str!("../data/braced_steel.toml"),
         "bridge-decks" => include_str!("../data/bridge_decks.toml"),
         "isolated-moat" => include_str!("../data/isolated_moat.toml"),
+        _ if units != Units::Si => return None,
         _ => return model_text(name).map(ToOwned::to_owned),
+    };
+    let text = match units {
+        Units::Si => text.to_owned(),
+        Units::Us => in_us_units(text),
     };
     // Quotes, backslashes and control characters would end or change the TOML string.
     let title: String = title

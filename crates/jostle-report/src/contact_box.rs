@@ -31,6 +31,8 @@ pub struct ContactBox {
 /// One line for each gap.
 pub(crate) fn contact_boxes(page: &Page) -> Markup {
     let boxes = page.contacts;
+    // Linear stiffnesses have nothing to compare in Hertz's columns.
+    let has_hertz = boxes.iter().any(|row| row.is_hertzian);
     html! {
         @if !boxes.is_empty() {
             details.contact-advice {
@@ -40,9 +42,11 @@ pub(crate) fn contact_boxes(page: &Page) -> Markup {
                         thead { tr {
                             th scope="col" { (message::gap()) }
                             th scope="col" { (message::law()) }
-                            th.number scope="col" { (message::stiffness_used()) br; span.unit { (message::stiffness_units()) } }
-                            th.number scope="col" { (message::hertz_effective_radius()) br; span.unit { (format::HERTZ_STIFFNESS.bracketed()) } }
-                            th.number scope="col" { (message::plausible_range()) br; span.unit { (format::HERTZ_STIFFNESS.bracketed()) } }
+                            th.number scope="col" { (message::stiffness_used()) }
+                            @if has_hertz {
+                                th.number scope="col" { (message::hertz_effective_radius()) br; span.unit { (format::HERTZ_STIFFNESS.bracketed()) } }
+                                th.number scope="col" { (message::plausible_range()) br; span.unit { (format::HERTZ_STIFFNESS.bracketed()) } }
+                            }
                             th.number scope="col" { (message::restitution_used()) }
                             th.number scope="col" { (message::plausible_range()) }
                             th.number scope="col" { (message::masses()) br; span.unit { (format::MASS.bracketed()) } }
@@ -53,9 +57,14 @@ pub(crate) fn contact_boxes(page: &Page) -> Markup {
                                 tr {
                                     th scope="row" { (row.between[0]) " – " (row.between[1]) }
                                     td { (row.law) }
-                                    td.number { (power(row.is_hertzian, row.stiffness)) }
-                                    td.number { (power(true, row.hertz[0])) }
-                                    td.number { (power(true, row.hertz[1])) " – " (power(true, row.hertz[2])) }
+                                    td.number { (stiffness_used(row)) }
+                                    @if row.is_hertzian {
+                                        td.number { (power(row.hertz[0])) }
+                                        td.number { (power(row.hertz[1])) " – " (power(row.hertz[2])) }
+                                    } @else if has_hertz {
+                                        td.number { (format::NOTHING) }
+                                        td.number { (format::NOTHING) }
+                                    }
                                     td.number { (row.restitution.map_or(format::NOTHING.into(), |e| format::plain(e, 3))) }
                                     td.number { (format::plain(row.restitution_range[0], 2)) " – " (format::plain(row.restitution_range[1], 2)) }
                                     td.number {
@@ -71,22 +80,26 @@ pub(crate) fn contact_boxes(page: &Page) -> Markup {
                     }
                 }
                 p.quiet {
-                    (message::hertz_k_4_3_h(format::MODULUS.text(30e9, 0))) " "
+                    @if has_hertz { (message::hertz_k_4_3_h(format::MODULUS.text(30e9, 0))) " " }
                     code { "jostle run --sensitivity" } " " (message::repeats_the_run_with_half()) " "
                     code { "jostle contact-advice" } " " (message::adds_the_axial_stiffness())
-                    @if boxes.iter().any(|row| !row.is_hertzian) {
-                        " " (message::stiffnesses_in_n_m())
-                    }
                 }
             }
         }
     }
 }
 
-fn power(hertzian: bool, value: f64) -> String {
-    let unit = match hertzian {
-        true => format::HERTZ_STIFFNESS,
-        false => format::STIFFNESS,
-    };
-    format!("{:.2e}", unit.of(value))
+fn stiffness_used(row: &ContactBox) -> String {
+    match row.is_hertzian {
+        true => format!(
+            "{} {}",
+            power(row.stiffness),
+            format::HERTZ_STIFFNESS.name()
+        ),
+        false => format::stiffness(row.stiffness),
+    }
+}
+
+fn power(value: f64) -> String {
+    format!("{:.2e}", format::HERTZ_STIFFNESS.of(value))
 }

@@ -2,7 +2,8 @@
 
 use jostle::contact::{ContactLaw, LawKind, RestitutionIs};
 use jostle::model::{
-    Building, Damping, FloorPairs, Frame, Gap, Link, LinkLaw, Shear, Solver, Structure,
+    Building, Damping, FloorPairs, Frame, Gap, Level, Link, LinkLaw, Shear, Solver, Structure,
+    usual_damping_modes,
 };
 use jostle::motion::Wave;
 use jostle::results::summary::{BuildingSummary, FoundationSummary, GapSummary, LinkSummary};
@@ -15,6 +16,8 @@ use crate::{Page, backbones, format, special};
 
 /// Periods listed for each building.
 const PERIODS: usize = 6;
+/// Pairs of points listed for each gap or link.
+const PAIRS: usize = 8;
 
 fn list(facts: &Facts) -> Markup {
     html! { dl { @for (name, value) in facts { div { dt { (name) } dd { (value) } } } } }
@@ -53,16 +56,17 @@ fn building(
     summary: Option<&BuildingSummary>,
 ) -> Markup {
     let heights = building.floor_heights();
-    let mut facts: Facts = vec![(
-        message::storeys(),
-        message::of_m_m_high(
-            building.floors(),
-            grouped(building.storey_heights(), |h| {
-                format::plain(format::HEIGHT.of(h), 3)
-            }),
-            format::plain(format::HEIGHT.of(heights.last().copied().unwrap_or(0.0)), 4),
-        ),
-    )];
+    let storeys = building.storey_heights();
+    let (floors, each) = (
+        building.floors(),
+        grouped(storeys, |h| format::plain(format::HEIGHT.of(h), 3)),
+    );
+    let top = format::plain(format::HEIGHT.of(heights.last().copied().unwrap_or(0.0)), 4);
+    let high = match storeys.windows(2).all(|pair| pair[0] == pair[1]) {
+        true => message::of_m_m_high(floors, each, top),
+        false => message::in_all_m_high(floors, each, top),
+    };
+    let mut facts: Facts = vec![(message::storeys(), high)];
     let elevation = building.base.elevation;
     if elevation != 0.0 {
         let own = format::HEIGHT;
@@ -84,16 +88,12 @@ fn building(
             facts.push((message::stiffness(), message::given_as_a_matrix(size)));
         }
     }
-    let rayleigh = summary.map(|s| (s.rayleigh_alpha_per_s, s.rayleigh_beta_s));
-    let mut said = damping(&building.damping, rayleigh);
+    let mut said = damping(building, summary);
     if building.base.foundation.is_some() {
         said += message::of_motion_relative();
     }
     if building.base.isolation.is_some() {
-        said = said.replace(
-            message::the_first_and_third_lateral(),
-            message::the_first_lateral_mode(),
-        );
+        said += message::of_building_on_its_mat();
     }
     facts.push((message::damping(), said));
     if let Some(summary) = summary {
@@ -301,7 +301,8 @@ fn tiers_facts(tiers: &jostle::Tiers, facts: &mut Facts) {
     facts.push((message::torsional_stiffness(), grouped(&torsion, unit)));
 }
 
-fn damping(damping: &Damping, rayleigh: Option<(f64, f64)>) -> String {
+fn damping(building: &Building, summary: Option<&BuildingSummary>) -> String {
+    let rayleigh = summary.map(|s| (s.rayleigh_alpha_per_s, s.rayleigh_beta_s));
     let coefficients = |alpha: f64, beta: f64| {
         format!(
             "α = {}\u{a0}1/s, β = {}\u{a0}s",
@@ -309,16 +310,18 @@ fn damping(damping: &Damping, rayleigh: Option<(f64, f64)>) -> String {
             format::plain(beta, 4)
         )
     };
-    match damping {
+    match &building.damping {
         Damping::AllModes { ratio } => message::in_all_modes(format::plain(ratio * 100.0, 3)),
         Damping::Rayleigh { alpha, beta } => message::rayleigh_beta(coefficients(*alpha, *beta)),
         Damping::Ratio { ratio, modes, .. } => {
+            // Above a soft storey modes of sway replace lateral ones that are missing.
+            let known = summary.map_or(0, |own| own.periods_s.len());
+            let modes = match &modes[..] {
+                [] if building.base.isolation.is_some() => &[1],
+                [] => usual_damping_modes(known.max(building.floors().min(2))),
+                asked => asked,
+            };
             let modes: Vec<String> = modes.iter().map(usize::to_string).collect();
-            if modes.is_empty() {
-                let used = rayleigh
-                    .map_or_else(String::new, |(a, b)| format!(" ({})", coefficients(a, b)));
-                return message::at_the_first_and_third(format::plain(ratio * 100.0, 3), &used);
-            }
             let used =
                 rayleigh.map_or_else(String::new, |(a, b)| format!(" ({})", coefficients(a, b)));
             let ratio = format::plain(ratio * 100.0, 3);
@@ -335,7 +338,20 @@ fn places(floors: &FloorPairs) -> String {
     match floors {
         FloorPairs::Common => message::floors_of_equal_height().into(),
         FloorPairs::All => message::all_floors_against_floors().into(),
-        FloorPairs::Listed(pairs) => message::listed_pairs_of_points(pairs.len()),
+        FloorPairs::Listed(pairs) => {
+            let point = |level: Level| match level {
+                Level::Floor(floor) => floor.to_string(),
+                Level::Height(height) => format::HEIGHT.text(height, 2),
+                Level::Wall => message::wall().to_owned(),
+            };
+            let shown = pairs.iter().take(PAIRS);
+            let shown = shown.map(|pair| pair.map(point).join("–"));
+            let mut text = message::floors_of_pairs(shown.collect::<Vec<_>>().join(", "));
+            if pairs.len() > PAIRS {
+                text += &message::and_more_pairs_of_points(pairs.len() - PAIRS);
+            }
+            text
+        }
         FloorPairs::Heights(heights) => message::listed_heights(heights.len()),
     }
 }
@@ -349,14 +365,13 @@ fn link(link: &Link, summary: &LinkSummary) -> Facts {
     if link.stiffness > 0.0 {
         facts.push((
             message::stiffness_of_each(),
-            format::exact(link.stiffness, "N/m"),
+            format::stiffness(link.stiffness),
         ));
     }
     if link.damping > 0.0 {
-        let (value, unit) = format::dashpot(link.damping, summary.exponent);
         facts.push((
             message::damping_of_each(),
-            format!("{} {unit}", format::plain(value, 3)),
+            format::dashpot_in_words(link.damping, summary.exponent),
         ));
     }
     facts.push((message::peak_force(), format::force(summary.peak_force_n)));
@@ -376,11 +391,6 @@ fn link(link: &Link, summary: &LinkSummary) -> Facts {
 
 fn contact(gap: &Gap, summary: &GapSummary) -> Facts {
     let law = &gap.law;
-    let unit = if law.kind.is_hertzian() {
-        "N/m^1.5"
-    } else {
-        "N/m"
-    };
     let mut facts: Facts = vec![
         (
             message::width(),
@@ -391,7 +401,13 @@ fn contact(gap: &Gap, summary: &GapSummary) -> Facts {
         ),
         (message::can_touch(), places(&gap.floors)),
         (message::contact_law(), law.kind.name().into()),
-        (message::stiffness(), format::exact(law.stiffness, unit)),
+        (
+            message::stiffness(),
+            match law.kind.is_hertzian() {
+                true => format::exact(law.stiffness, "N/m^1.5"),
+                false => format::stiffness(law.stiffness),
+            },
+        ),
     ];
     facts.extend(constants(law));
     if law.kind.uses_restitution() {
@@ -425,11 +441,11 @@ fn contact(gap: &Gap, summary: &GapSummary) -> Facts {
 /// Constants that the law states instead of a coefficient of restitution.
 fn constants(law: &ContactLaw) -> Facts {
     match law.kind {
-        LawKind::Dashpot(own) => vec![(message::dashpot(), format::exact(own.damping, "N·s/m"))],
+        LawKind::Dashpot(own) => vec![(message::dashpot(), format::linear_dashpot(own.damping))],
         LawKind::BilinearGiven(own) => vec![
             (
                 message::second_stiffness(),
-                format::exact(own.second_stiffness, "N/m"),
+                format::stiffness(own.second_stiffness),
             ),
             (
                 message::yield_indentation(),
@@ -438,7 +454,7 @@ fn constants(law: &ContactLaw) -> Facts {
         ],
         LawKind::Formula(own) => vec![(message::contact_force_formula(), own.to_string())],
         LawKind::Crushing(own) => vec![
-            (message::crushing_force(), format::exact(own.force, "N")),
+            (message::crushing_force(), format::force(own.force)),
             (
                 message::crushing_hardening(),
                 format::plain(own.hardening, 3),

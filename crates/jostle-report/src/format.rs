@@ -165,6 +165,31 @@ pub(crate) fn dashpot(si: f64, exponent: f64) -> (f64, String) {
     (force.of(si) * length.size().powf(exponent), name)
 }
 
+/// The same as a text.
+pub(crate) fn dashpot_in_words(si: f64, exponent: f64) -> String {
+    if exponent == 1.0 {
+        return linear_dashpot(si);
+    }
+    let (value, unit) = dashpot(si, exponent);
+    format!("{} {unit}", plain(value, 3))
+}
+
+/// The constant of a linear dashpot \[N·s/m\].
+pub(crate) fn linear_dashpot(si: f64) -> String {
+    if is_us() {
+        return short(DASHPOT, si, 4);
+    }
+    prefixed_plain(
+        si,
+        &[
+            (1.0, "N·s/m"),
+            (1e3, "kN·s/m"),
+            (1e6, "MN·s/m"),
+            (1e9, "GN·s/m"),
+        ],
+    )
+}
+
 fn is_us() -> bool {
     units() == Units::Us
 }
@@ -195,7 +220,9 @@ pub(crate) fn millimetres(metre: f64) -> String {
             2
         };
         let text = fixed(value, decimals);
-        return unit(without_zeros(&text).to_owned(), LENGTH.name());
+        // A round width stays round: "4 in"; beside others "4.60 in".
+        let text = text.strip_suffix(".00").unwrap_or(&text);
+        return unit(text.to_owned(), LENGTH.name());
     }
     let value = metre * 1e3;
     let decimals = match value.abs() {

@@ -89,7 +89,15 @@ pub(crate) fn impacts(page: &Page) -> Markup {
     }
 }
 
+/// Share of the energy that an impact passes on below which its dissipation is rounding \[–\].
+const ROUNDING: f64 = 1e-5;
+
 fn cells(impact: &ImpactSummary) -> [String; 9] {
+    let passed_on = impact.impulse_n_s.abs() * impact.impact_speed_m_s.abs();
+    let dissipated = match impact.dissipated_j {
+        small if small.abs() < ROUNDING * passed_on => 0.0,
+        other => other,
+    };
     [
         format::fixed(impact.start_s, 4),
         format::significant((impact.end_s - impact.start_s) * 1e3, 3),
@@ -99,12 +107,16 @@ fn cells(impact: &ImpactSummary) -> [String; 9] {
         format::significant(format::SPEED.of(impact.separation_speed_m_s), 3),
         format::fixed(impact.realised_restitution, 3),
         format::significant(format::IMPULSE.of(impact.impulse_n_s), 3),
-        format::significant(format::ENERGY.of(impact.dissipated_j), 3),
+        format::significant(format::ENERGY.of(dissipated), 3),
     ]
 }
 
 fn restitution_note(page: &Page) -> Markup {
     let summary = page.summary;
+    let gaps = summary.gaps.iter();
+    let known: Vec<_> = gaps
+        .filter_map(|gap| Some((&gap.between, gap.free_restitution?)))
+        .collect();
     let published = page
         .gaps()
         .map(|(summary, gap)| (summary, gap.law))
@@ -115,12 +127,16 @@ fn restitution_note(page: &Page) -> Markup {
         div.note {
             p {
                 (message::restitution_is_separation_speed_impact()) " "
-                @for (i, gap) in summary.gaps.iter().enumerate() {
-                    @if i > 0 { ", " }
-                    b { (gap.free_restitution.map_or(format::NOTHING.into(), |e| format::fixed(e, 3))) }
-                    @if summary.gaps.len() > 1 { " (" (gap.between[0]) "–" (gap.between[1]) ")" }
+                @if !known.is_empty() {
+                    (message::two_free_masses_would()) " "
+                    @for (i, (between, free)) in known.iter().enumerate() {
+                        @if i > 0 { ", " }
+                        b { (format::fixed(*free, 3)) }
+                        @if summary.gaps.len() > 1 { " (" (between[0]) "–" (between[1]) ")" }
+                    }
+                    " " (message::under_this_contact_law()) " "
                 }
-                " " (message::under_this_contact_law())
+                (message::other_contacts_act_too())
             }
             @if let Some((Some(free), law)) = published.map(|(gap, law)| (gap.free_restitution, law)) {
                 p {

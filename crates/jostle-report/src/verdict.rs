@@ -85,7 +85,7 @@ fn alone(summary: &Summary) -> String {
     }
 }
 
-/// "J1 and J2 hit …" for a gap with at least one impact.
+/// "J1 and J2: 4 impacts …" for a gap with at least one impact.
 fn sentence_of(gap: &GapSummary) -> String {
     let [left, right] = &gap.between;
     let all = || {
@@ -96,19 +96,19 @@ fn sentence_of(gap: &GapSummary) -> String {
     let first = all().min_by(|a, b| a.1.start_s.total_cmp(&b.1.start_s));
     let hardest = all().max_by(|a, b| a.1.peak_force_n.total_cmp(&b.1.peak_force_n));
     let (Some((first_at, first)), Some((hardest_at, hardest))) = (first, hardest) else {
-        return message::hit_times_with_up_to(
+        return message::impacts_with_up_to(
             left,
             right,
-            times(gap.impact_count),
+            impacts(gap.impact_count),
             format::force(gap.peak_force_n),
         );
     };
     let force = |impact: &ImpactSummary| format::force(impact.peak_force_n);
     let at = |impact: &ImpactSummary| format::instant(impact.start_s);
     if gap.impact_count == 1 {
-        return message::and_hit_once(left, right, place(gap, first_at), at(first), force(first));
+        return message::and_one_impact(left, right, place(gap, first_at), at(first), force(first));
     }
-    let head = message::hit_times(left, right, times(gap.impact_count));
+    let head = message::impacts_of_both(left, right, impacts(gap.impact_count));
     let (first_place, hardest_place) = (place(gap, first_at), place(gap, hardest_at));
     let start = format!("{} ({first_place})", at(first));
     if hardest == first {
@@ -170,10 +170,9 @@ pub(crate) fn place(gap: &GapSummary, contact: &ContactSummary) -> String {
     }
 }
 
-fn times(count: usize) -> String {
+fn impacts(count: usize) -> String {
     match count {
-        1 => message::once().into(),
-        2 => message::twice().into(),
-        n => message::number_of_times(format::fixed(n as f64, 0)),
+        1 => message::single_impact().into(),
+        n => message::several_impacts(format::fixed(n as f64, 0)),
     }
 }

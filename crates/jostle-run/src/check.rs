@@ -11,7 +11,7 @@ use std::fmt::Write;
 
 use jostle::eigen::Mode;
 use jostle::hysteresis::{HysteresisRule, Side};
-use jostle::judgement::Stated;
+use jostle::judgement::{Stated, structure_yields};
 use jostle::model::{Damping, Structure, Sway, Tiers};
 use jostle::system::BuildingSystem;
 use jostle::{Building, LinkLaw, Model, SpaceMember, SpacePlace, SpaceWall, System};
@@ -22,9 +22,7 @@ use base::{
 use frames::{axial_of_columns, diagonals, members, rigid_ends, space_walls, walls};
 use hinges::{describe_hinges, describe_yielding_in_plan};
 use jostle::results::summary::Finding;
-use jostle_io::shown::{
-    FORCE, GROUND_ACCELERATION, HEIGHT, LENGTH, MASS, MOMENT, SPEED, Shown, by_model,
-};
+use jostle_io::shown::{FORCE, GROUND_ACCELERATION, HEIGHT, LENGTH, MASS, MOMENT, SPEED, by_model};
 use jostle_report::{SitePlace, site_svg};
 use losses::losses;
 use motion::{describe_grounds, describe_work};
@@ -32,7 +30,7 @@ use serde::Serialize;
 
 use crate::checks_text::finding_with_remedy;
 use crate::error::RunError;
-use crate::numbers::{counted, grouped, mm, power};
+use crate::numbers::{counted, grouped, mm, prefixed};
 use crate::opened::Opened;
 use crate::style::{BOLD, LOUD, styled};
 
@@ -331,13 +329,14 @@ fn describe(
                 )
             }
         };
-        let damping = &model.buildings[index].damping;
-        describe_building(text, building, damping, &kind)?;
+        describe_building(text, building, &model.buildings[index], &kind)?;
         match &model.buildings[index].structure {
             Structure::Frame(frame) => {
                 let own = stated.buildings.get(index);
                 let is_stated = own.is_some_and(|own| own.axial);
-                writeln!(text, "  {}", axial_of_columns(frame, Some(is_stated)))?;
+                let on_soil = model.buildings[index].base.foundation.is_some();
+                let why = axial_of_columns(frame, Some([is_stated, on_soil]));
+                writeln!(text, "  {why}")?;
                 text.push_str(&walls(frame));
             }
             Structure::Tiers(tiers) => {
@@ -413,7 +412,7 @@ fn describe(
                     "  base {name} by {}: yields at {} {}",
                     hinge.rule().name(),
                     unit.number(yielding, 0),
-                    unit.typed_name()
+                    unit.name()
                 )?;
             }
         }
@@ -432,7 +431,7 @@ fn describe(
                 height(
                     contact.height,
                     system.floors_of(&contact.ports),
-                    &model.buildings_beside(gap.between),
+                    beside(model, gap.between),
                 )
             })
             .collect();
@@ -482,7 +481,7 @@ fn describe(
             text,
             "  {} with {}; {}",
             gap.law.kind.name(),
-            power(gap.law.stiffness, unit),
+            prefixed(gap.law.stiffness, unit, 4),
             losses(gap, &contacts)
         )?;
         if system.is_in_space() {
@@ -518,13 +517,15 @@ fn describe(
     }
     for (index, link) in model.links.iter().enumerate() {
         let own = system.links.iter().filter(|element| element.link == index);
+        // Inside a building the base is no column.
+        let sides = match link.is_inside() {
+            true => [None; 2],
+            false => beside(model, link.between),
+        };
         let heights: Vec<String> = own
             .map(|element| {
-                height(
-                    element.height,
-                    system.floors_of(&element.ports),
-                    &model.buildings_beside(link.between),
-                )
+                let floors = system.floors_of(&element.ports);
+                height(element.height, floors, sides)
             })
             .collect();
         let [left, right] = names(system, link.between);
@@ -540,10 +541,11 @@ fn describe(
         writeln!(text, "{}", styled(BOLD, &pair))?;
         writeln!(
             text,
-            "  {} at {} {}, each with {}\n",
+            "  {} at {} {}{} with {}\n",
             counted(heights.len(), &format!("{law}link")),
             heights.join(", "),
             HEIGHT.name(),
+            if heights.len() == 1 { "" } else { ", each" },
             parameters(link)
         )?;
     }
@@ -590,11 +592,11 @@ fn parameters(link: &jostle::Link) -> String {
         LinkLaw::Stopper { gap } => own.push(format!("a gap of {}", LENGTH.text(gap, 1))),
     }
     let dashpot = match exponent == 1.0 {
-        true => power(link.damping, "N.s/m"),
-        false => format!("{:.3e} N.(s/m)^{exponent}", link.damping),
+        true => prefixed(link.damping, "N·s/m", 4),
+        false => format!("{:.3e} N·(s/m)^{exponent}", link.damping),
     };
     let springs = [
-        (stiffness, power(stiffness, "N/m")),
+        (stiffness, prefixed(stiffness, "N/m", 4)),
         (link.damping, dashpot),
     ];
     let springs = springs.into_iter().filter(|(value, _)| *value > 0.0);
@@ -685,22 +687,50 @@ fn names(system: &System, between: [Option<usize>; 2]) -> [&str; 2] {
     between.map(|side| system.side_name(side))
 }
 
-/// The height of a point, and which side is hit between its floors.
-fn height(height: f64, floors: [Option<usize>; 2], between: &[Option<usize>; 2]) -> String {
-    let [left, right] = [0, 1].map(|side| between[side].is_some() && floors[side].is_none());
-    let column = match [left, right] {
-        [false, false] => "",
-        [true, false] => " (left column)",
-        [false, true] => " (right column)",
-        [true, true] => " (columns)",
+/// Both sides of a gap or a link, as far as they are buildings.
+fn beside(model: &Model, between: [Option<usize>; 2]) -> [Option<&Building>; 2] {
+    let sides = model.buildings_beside(between);
+    sides.map(|side| model.buildings.get(side?))
+}
+
+/// The height of a point, and what is hit where that is not a floor.
+fn height(height: f64, floors: [Option<usize>; 2], sides: [Option<&Building>; 2]) -> String {
+    let struck = [0, 1].map(|side| {
+        let building = sides[side].filter(|_| floors[side].is_none())?;
+        Some(match face_is_wall(building, side, height) {
+            true => "wall",
+            false => "column",
+        })
+    });
+    let what = match struck {
+        [None, None] => String::new(),
+        [Some(left), None] => format!(" (left {left})"),
+        [None, Some(right)] => format!(" (right {right})"),
+        [Some(left), Some(right)] if left == right => format!(" ({left}s)"),
+        [Some(left), Some(right)] => format!(" (left {left}, right {right})"),
     };
-    format!("{}{column}", HEIGHT.number(height, 2))
+    format!("{}{what}", HEIGHT.number(height, 2))
+}
+
+/// Whether a wall of a frame stands at the face of a building, on the left (0) or right of a gap, at a height above the datum.
+fn face_is_wall(building: &Building, side: usize, height: f64) -> bool {
+    let Structure::Frame(frame) = &building.structure else {
+        return false;
+    };
+    let above = height - building.base.elevation;
+    let floors = building.floor_heights();
+    let storey = floors.iter().take_while(|floor| **floor < above).count();
+    let line = match side {
+        0 => frame.spans.len(),
+        _ => 0,
+    };
+    frame.wall([storey, line]).is_some()
 }
 
 fn describe_building(
     text: &mut String,
     building: &BuildingSystem,
-    damping: &Damping,
+    model: &Building,
     kind: &str,
 ) -> std::fmt::Result {
     let equations = &building.equations;
@@ -713,10 +743,10 @@ fn describe_building(
     writeln!(text, "{}  {kind}", styled(BOLD, &building.name))?;
     writeln!(
         text,
-        "  mass {} in {}, {} degrees of freedom",
+        "  mass {} in {}, {} of freedom",
         MASS.text(equations.total_mass(), 3),
         counted(lumps, "lumped mass").replace("masss", "masses"),
-        equations.len()
+        counted(equations.len(), "degree")
     )?;
     let periods: Vec<String> = building
         .lateral_modes()
@@ -730,14 +760,13 @@ fn describe_building(
         });
     writeln!(text, "  lateral periods {} s{torsion}", periods.join(", "))?;
     let lateral = building.lateral_modes().count();
+    let damping = &model.damping;
     let damped = match damping {
         Damping::AllModes { ratio } => format!("damping {} % in every mode", percent(*ratio)),
         Damping::Rayleigh { .. } => "Rayleigh damping".to_owned(),
         Damping::Ratio { ratio, modes, sway } => {
-            let is_isolated = building.discretization.mat.is_some();
             let damped = building.damped_at.iter();
             let numbers: Vec<usize> = match &modes[..] {
-                [] if is_isolated => vec![1],
                 [] => damped.clone().map(|mode| mode.number).collect(),
                 modes => modes.to_vec(),
             };
@@ -765,8 +794,10 @@ fn describe_building(
                     Sway::Across => " of those along y",
                     Sway::Both => " of those along x and y",
                 },
-                if is_isolated {
+                if building.discretization.mat.is_some() {
                     " of the building fixed on its mat"
+                } else if model.base.foundation.is_some() {
+                    " of the building on rigid ground"
                 } else {
                     ""
                 }
@@ -786,10 +817,16 @@ fn describe_building(
     let acting: Vec<String> = modes
         .map(|mode| format!("{:.2}", 100.0 * building.damping_ratio(mode)))
         .collect();
-    let before = if building.equations.springs.is_empty() {
-        ""
-    } else {
-        " before it yields"
+    let lifts = model.base.uplift
+        || model
+            .base
+            .foundation
+            .is_some_and(|own| own.uplift.is_some());
+    let before = match (building.equations.springs.is_empty(), lifts) {
+        (true, _) => "",
+        (false, true) if structure_yields(model) => " before it yields or lifts off",
+        (false, true) => " before it lifts off",
+        (false, false) => " before it yields",
     };
     writeln!(
         text,
@@ -819,39 +856,39 @@ fn special(building: &Building) -> Vec<String> {
     let list = |parts: &[(&str, Option<f64>, &str)]| {
         let known = parts.iter().filter_map(|(name, value, unit)| {
             let value = value.filter(|value| *value > 0.0)?;
-            Some(format!("{name} {}", short(value, unit)))
+            Some(format!("{name} {}", prefixed(value, unit, 3)))
         });
         known.collect::<Vec<_>>().join(", ")
     };
     let base = &building.base;
     if !base.is_fixed() && base.isolation.is_none() && base.foundation.is_none() {
         let springs = list(&[
-            ("rotation", base.rotational_stiffness, "N.m/rad"),
+            ("rotation", base.rotational_stiffness, "N·m/rad"),
             ("sideways", base.horizontal_stiffness, "N/m"),
-            ("torsion", base.torsional_stiffness, "N.m/rad"),
+            ("torsion", base.torsional_stiffness, "N·m/rad"),
             ("vertical", base.vertical_stiffness, "N/m"),
         ]);
         let lifts = if base.uplift { "; feet lift off" } else { "" };
         lines.push(format!("base on springs: {springs}{lifts}"));
         let dashpots = list(&[
-            ("rotation", Some(base.rotational_damping), "N.m.s/rad"),
-            ("sideways", Some(base.horizontal_damping), "N.s/m"),
-            ("torsion", Some(base.torsional_damping), "N.m.s/rad"),
-            ("vertical", Some(base.vertical_damping), "N.s/m"),
+            ("rotation", Some(base.rotational_damping), "N·m·s/rad"),
+            ("sideways", Some(base.horizontal_damping), "N·s/m"),
+            ("torsion", Some(base.torsional_damping), "N·m·s/rad"),
+            ("vertical", Some(base.vertical_damping), "N·s/m"),
         ]);
         if !dashpots.is_empty() {
             lines.push(format!("base with dashpots: {dashpots}"));
         }
         if let Some(own) = &base.across {
             let across = list(&[
-                ("rotation", own.rotational_stiffness, "N.m/rad"),
+                ("rotation", own.rotational_stiffness, "N·m/rad"),
                 ("sideways", own.horizontal_stiffness, "N/m"),
                 (
                     "dashpot of rotation",
                     Some(own.rotational_damping),
-                    "N.m.s/rad",
+                    "N·m·s/rad",
                 ),
-                ("dashpot sideways", Some(own.horizontal_damping), "N.s/m"),
+                ("dashpot sideways", Some(own.horizontal_damping), "N·s/m"),
             ]);
             lines.push(format!("base across: {across}"));
         }
@@ -876,7 +913,7 @@ fn special(building: &Building) -> Vec<String> {
             lines.push(format!("members deform in shear, GA: {shear}"));
         }
         let joint = list(&[
-            ("rotation", frame.joint.rotational_stiffness, "N.m/rad"),
+            ("rotation", frame.joint.rotational_stiffness, "N·m/rad"),
             ("sideways", frame.joint.horizontal_stiffness, "N/m"),
             ("vertical", frame.joint.vertical_stiffness, "N/m"),
         ]);
@@ -885,16 +922,6 @@ fn special(building: &Building) -> Vec<String> {
         }
     }
     lines
-}
-
-/// A number with three digits and the unit that is shown for this SI unit, such as a stiffness in `N/m`.
-fn short(si: f64, unit: &str) -> String {
-    match Shown::named(&unit.replace('.', "·")) {
-        Some(own) if own.name() != own.si_name() => {
-            format!("{:.2e} {}", own.of(si), own.typed_name())
-        }
-        _ => format!("{si:.2e} {unit}"),
-    }
 }
 
 #[cfg(test)]
@@ -929,8 +956,8 @@ mod tests {
         assert_eq!(
             special(&building),
             [
-                "base on springs: sideways 5.00e8 N/m",
-                "base with dashpots: sideways 2.00e6 N.s/m",
+                "base on springs: sideways 500 MN/m",
+                "base with dashpots: sideways 2 MN·s/m",
                 "footings of 3.00 t",
                 "P-Delta included, from the weight above",
             ]

@@ -12,6 +12,7 @@ mod check;
 mod checks_text;
 #[cfg(not(target_family = "wasm"))]
 mod claim;
+mod codes_text;
 mod collide;
 mod comparison;
 mod contact_advice;

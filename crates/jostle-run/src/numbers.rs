@@ -28,14 +28,30 @@ pub fn kn(newtons: f64) -> String {
     FORCE.number(newtons, 1)
 }
 
-/// A number with three decimals and a power of ten, with the unit that is shown for this SI unit, such as `N/m`.
-pub(crate) fn power(si: f64, unit: &str) -> String {
-    match Shown::named(&unit.replace('.', "·")).or_else(|| Shown::named(unit)) {
-        Some(own) if own.name() != own.si_name() => {
-            format!("{:.3e} {}", own.of(si), own.typed_name())
-        }
-        _ => format!("{si:.3e} {unit}"),
-    }
+/// A number of up to so many digits with the prefix of its unit, such as `400 MN/m`; outside of SI in the unit that is shown for this SI
+/// unit. Very large and very small numbers, and units of broken powers such as `N/m^1.5`, have a power of ten.
+pub(crate) fn prefixed(si: f64, unit: &str, digits: usize) -> String {
+    let power = |value: f64, unit: &str| format!("{value:.*e} {unit}", digits - 1);
+    let shown = Shown::named(unit).filter(|own| own.name() != own.si_name());
+    let (value, unit) = shown.map_or((si, unit), |own| (own.of(si), own.name()));
+    let exponent = format!("{value:.*e}", digits - 1);
+    let exponent = exponent
+        .split_once('e')
+        .and_then(|(_, own)| own.parse::<i32>().ok());
+    let thousands = match (shown.is_some(), exponent) {
+        _ if unit.contains('^') => return power(value, unit),
+        (true, Some(-2..=5)) => 0,
+        (false, Some(exponent @ 0..=12)) => (exponent / 3).min(3),
+        _ => return power(value, unit),
+    };
+    let exponent = exponent.unwrap_or(0) - 3 * thousands;
+    let decimals = (digits as i32 - 1 - exponent).max(0) as usize;
+    let text = format!("{:.decimals$}", value / 1e3_f64.powi(thousands));
+    let text = match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.'),
+        false => &text,
+    };
+    format!("{text} {}{unit}", ["", "k", "M", "G"][thousands as usize])
 }
 
 /// One thing or several.
@@ -58,6 +74,16 @@ pub fn counted_grouped(count: u64, thing: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn units_have_prefixes() {
+        assert_eq!(prefixed(4e8, "N/m", 4), "400 MN/m");
+        assert_eq!(prefixed(1.8944e9, "N/m", 4), "1.894 GN/m");
+        assert_eq!(prefixed(9.999e5, "N·s/m", 3), "1 MN·s/m");
+        assert_eq!(prefixed(5.75e12, "N·m/rad", 3), "5750 GN·m/rad");
+        assert_eq!(prefixed(2e10, "N/m^1.5", 4), "2.000e10 N/m^1.5");
+        assert_eq!(prefixed(6e27, "N/m", 3), "6.00e27 N/m");
+    }
 
     #[test]
     fn thousands_are_set_apart() {

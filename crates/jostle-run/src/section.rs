@@ -205,7 +205,7 @@ pub fn sections_text(surveys: &[SectionSurvey]) -> String {
 }
 
 fn describe(text: &mut String, surveys: &[SectionSurvey]) -> std::fmt::Result {
-    let moment = MOMENT.typed_name();
+    let moment = MOMENT.name();
     let mut last: Option<&Section> = None;
     for survey in surveys {
         let section = &survey.section;
@@ -221,7 +221,7 @@ fn describe(text: &mut String, surveys: &[SectionSurvey]) -> std::fmt::Result {
             section.axial_ratio(survey.compression),
             HEIGHT.text(survey.length, 2),
             ROTATIONAL_STIFFNESS.number(survey.gross_stiffness(), 1),
-            ROTATIONAL_STIFFNESS.typed_name()
+            ROTATIONAL_STIFFNESS.name()
         )?;
         writeln!(
             text,

@@ -12,15 +12,16 @@ use jostle::results::response::FloorResponse;
 use jostle::results::summary::{
     BuildingSummary, ContactSummary, ExceededSummary, GapSummary, LinkSummary, Summary,
 };
-use jostle::separation::{Requirement, Requirements};
+use jostle::separation::Requirements;
 use jostle_io::Input;
 use jostle_io::shown::{
     ACCELERATION, ENERGY, FORCE, GROUND_ACCELERATION, IMPULSE, LENGTH, MASS, MOMENT, Shown,
     by_model,
 };
-use jostle_report::{damage, rows_of_rules};
+use jostle_report::damage;
 
 use crate::checks_text::write_findings;
+use crate::codes_text::{is_moat, write_codes};
 use crate::floor_spectra::low_pass;
 use crate::floor_spectra_text::write_floor_spectra;
 use crate::numbers::{counted, counted_grouped, grouped, kn, mm};
@@ -57,12 +58,15 @@ fn write_all(
     let motion = &summary.motion;
     writeln!(text, "{}", styled(BOLD, &summary.title))?;
     let reversed = if motion.scale < 0.0 { ", reversed" } else { "" };
+    let in_g = match GROUND_ACCELERATION.name() {
+        "g" => String::new(),
+        _ => format!(" ({:.3} g)", motion.pga_m_s2 / jostle_io::STANDARD_GRAVITY),
+    };
     writeln!(
         text,
-        "{}{reversed}, peak {} ({:.3} g), {:.2} s",
+        "{}{reversed}, peak {}{in_g}, {:.2} s",
         motion.name,
         GROUND_ACCELERATION.text(motion.pga_m_s2, 1),
-        motion.pga_m_s2 / jostle_io::STANDARD_GRAVITY,
         motion.duration_s
     )?;
     if let (Some(across), Some(peak)) = (&motion.across, motion.pga_across_m_s2) {
@@ -87,14 +91,13 @@ fn write_all(
     write_parts(text, &summary.buildings)?;
     write_sections(text, &summary.buildings)?;
     write_capacity(text, &summary.buildings)?;
+    let are_named = !input.codes.shown.is_empty();
+    let mut asks_for_codes = false;
     for (index, gap) in summary.gaps.iter().enumerate() {
         let required = summary.required_gaps(&input.model, index, &input.codes);
-        write_gap(
-            text,
-            gap,
-            summary,
-            (&required, !input.codes.shown.is_empty()),
-        )?;
+        let has_rules = required.rules.iter().any(|rule| rule.code.is_some());
+        asks_for_codes |= !are_named && has_rules && !is_moat(&input.model, index);
+        write_gap(text, gap, summary, are_named.then_some(&required))?;
     }
     if let Some(spread) = &summary.contact_sensitivity {
         write_spread(text, spread)?;
@@ -112,6 +115,11 @@ fn write_all(
     if let Some(found) = &summary.floor_spectra {
         write_floor_spectra(text, found)?;
     }
+    // A blank line before what follows.
+    if !text.ends_with("\n\n") {
+        writeln!(text)?;
+    }
+    let before = text.len();
     for warning in &summary.warnings {
         writeln!(text, "{} {warning}", styled(LOUD, "warning:"))?;
     }
@@ -122,6 +130,15 @@ fn write_all(
     write_findings(text, &summary.checks, rest)?;
     for note in &summary.notes {
         writeln!(text, "{} {note}", styled(DIM, "note:"))?;
+    }
+    if asks_for_codes {
+        writeln!(
+            text,
+            "No code is chosen: name yours with show under [codes], or see jostle gap."
+        )?;
+    }
+    if text.len() > before {
+        writeln!(text)?;
     }
     let (energy, work) = (&summary.energy, &summary.work);
     let accounting = format!(
@@ -139,7 +156,7 @@ fn write_all(
         counted_grouped(work.solves, "solution"),
         work.wall_s
     );
-    writeln!(text, "\n{}", summary.promise.in_words())?;
+    writeln!(text, "{}", summary.promise.in_words())?;
     writeln!(text, "{}", styled(DIM, &accounting))?;
     if let Some(result) = result {
         writeln!(text, "→ {}", styled(BOLD, &result.display().to_string()))?;
@@ -232,11 +249,11 @@ fn write_buildings(
         };
         writeln!(
             text,
-            "{:width$}  {:6}  {:>5} {mass}  {:15} s  {:>6} / {:>5} {length}  {:4.2} %  {:>7} {force}  {:>24}",
+            "{:width$}  {:6}  {:>5} {mass}  {:17}  {:>6} / {:>5} {length}  {:4.2} %  {:>7} {force}  {:>24}",
             building.name,
             building.floors.len(),
             MASS.number(building.mass_kg, 0),
-            periods.join(" "),
+            format!("{} s", periods.join(" ")),
             LENGTH.signed(roof.response.displacement_max_m, 1),
             LENGTH.signed(roof.response.displacement_min_m, 1),
             building.response.drift_peak * 100.0,
@@ -247,21 +264,26 @@ fn write_buildings(
     Ok(())
 }
 
-/// Effect of contact on every building: peaks with contact divided by peaks without, where this ratio is greatest and
-/// where it is least over the height.
+/// Effect of contact on every building: peaks with contact divided by peaks without, the largest and the smallest over the height; one
+/// line where there is one storey.
 fn write_changes(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::Result {
     const HEADING: &str = "effect of pounding (with ÷ without)";
+    const LABEL: usize = "  smallest ratio".len();
     let width = buildings
         .iter()
-        .map(|building| building.name.chars().count() + "  least affected".len())
+        .map(|building| building.name.chars().count() + LABEL)
         .fold(HEADING.chars().count(), usize::max);
     let mut rows = String::new();
     for building in buildings {
         let [Some(drift), Some(shear), Some(acceleration)] = changes(building) else {
             continue;
         };
-        let name = width - "  least affected".len();
-        for (side, label) in [(0, "most affected"), (1, "least affected")] {
+        let name = width - LABEL;
+        let labels: &[&str] = match building.floors.len() {
+            1 => &["ratio"],
+            _ => &["largest ratio", "smallest ratio"],
+        };
+        for (side, label) in labels.iter().enumerate() {
             let cell = |extremes: &Extremes, place: &str| {
                 let (ratio, at) = extremes[side];
                 format!("{ratio:.2} ({place} {at})")
@@ -378,7 +400,7 @@ fn write_isolation(text: &mut String, summary: &Summary) -> std::fmt::Result {
         if let Some(plan) = &own.in_plan {
             writeln!(
                 text,
-                "\nmat of {}: bearing {} of {} moves {}, {} in the bearings along x and {} across{stop}, {} at the end",
+                "\nmat of {}: bearing {} of {} moves by up to {}, {} in the bearings along x and {} across{stop}, {} at the end",
                 building.name,
                 plan.stroke_bearing,
                 plan.bearings,
@@ -391,7 +413,7 @@ fn write_isolation(text: &mut String, summary: &Summary) -> std::fmt::Result {
         }
         writeln!(
             text,
-            "\nmat of {}: {}, {} in the bearings{stop}, {} at the end",
+            "\nmat of {}: moves by up to {}, {} in the bearings{stop}, {} at the end",
             building.name,
             LENGTH.text(own.displacement_peak_m(), 1),
             FORCE.text(own.force_peak_n, 0),
@@ -405,16 +427,16 @@ fn write_isolation(text: &mut String, summary: &Summary) -> std::fmt::Result {
             });
             let travels = travels.collect::<Vec<_>>().join(", ");
             let rims = match own.reached_rims() {
-                true => "; all stood at their rims",
+                true => "; all reached their rims",
                 false => "",
             };
-            writeln!(text, "  its stages slide: {travels}{rims}")?;
+            writeln!(text, "  stages, displacement of capacity: {travels}{rims}")?;
         }
     }
     for wall in &summary.walls {
         writeln!(
             text,
-            "wall {}: {}, {} of contact",
+            "\"{}\" moves by up to {} under a contact force of {}",
             wall.name,
             LENGTH.text(wall.displacement_peak_m, 1),
             FORCE.text(wall.force_peak_n, 0)
@@ -581,7 +603,7 @@ fn write_gap(
     text: &mut String,
     gap: &GapSummary,
     summary: &Summary,
-    (required, are_named): (&Requirements, bool),
+    required: Option<&Requirements>,
 ) -> std::fmt::Result {
     let [left, right] = &gap.between;
     let verdict = match gap.first_impact_s {
@@ -617,11 +639,12 @@ fn write_gap(
         )?;
     }
     let [force, impulse, length] = [FORCE, IMPULSE, LENGTH].map(Shown::name);
+    let is_wall = |name: &str| name == WALL || summary.walls.iter().any(|own| own.name == name);
     for contact in hit.iter().take(LISTED) {
         // Neither a floor nor a wall: a column between its floors.
         let point = |side: usize| match contact.floors[side] {
             Some(floor) => floor.to_string(),
-            None if gap.between[side] == WALL => WALL.to_owned(),
+            None if is_wall(&gap.between[side]) => WALL.to_owned(),
             None => "–".to_owned(),
         };
         writeln!(
@@ -675,7 +698,10 @@ fn write_gap(
     let mut floors = floors.map(|floor| floor.without_contact.is_some());
     let has_impacts = gap.impact_count > 0 && !floors.all(|is_known| is_known);
     let computed = gap.closing_without_contact_m;
-    write_codes(text, required, computed, [has_impacts, are_named])
+    match required {
+        Some(required) => write_codes(text, required, computed, has_impacts),
+        None => Ok(()),
+    }
 }
 
 /// The range of the peak force over other contacts, where they were run.
@@ -818,86 +844,6 @@ fn write_link(text: &mut String, link: &LinkSummary) -> std::fmt::Result {
     )
 }
 
-/// The least gaps of the codes that the model names, by the same rules as `jostle gap` and the report, with those left out and why;
-/// whether they are less than what the run computed comes first.
-fn write_codes(
-    text: &mut String,
-    required: &Requirements,
-    computed: Option<f64>,
-    [has_impacts, are_named]: [bool; 2],
-) -> std::fmt::Result {
-    let rules = required.rules.iter().filter(|rule| rule.code.is_some());
-    let rules: Vec<&Requirement> = rules.collect();
-    if !are_named {
-        return match rules.is_empty() {
-            true => Ok(()),
-            false => writeln!(
-                text,
-                "  No code is chosen: name yours with show under [codes], or see jostle gap."
-            ),
-        };
-    }
-    // Codes mean displacements without contact.
-    if has_impacts {
-        return writeln!(
-            text,
-            "  Minimum by codes: not known without the run without contact, which was left out; see jostle gap."
-        );
-    }
-    let rows = rows_of_rules(&rules, |rule| (&rule.name, rule.width));
-    let short = rows
-        .iter()
-        .filter(|(_, rule)| computed.is_some_and(|computed| rule.width < computed));
-    let short: Vec<&str> = short.map(|(name, _)| &**name).collect();
-    if let (Some(computed), false) = (computed, short.is_empty()) {
-        let codes = short.join("; ");
-        let computed = LENGTH.text(computed, 1);
-        writeln!(
-            text,
-            "  The minimum by {codes} is less than the {computed} computed."
-        )?;
-    }
-    let widths = rows.iter();
-    let widths = widths.map(|(name, rule)| format!("{name}: {}", LENGTH.rounded_up(rule.width)));
-    let widths: Vec<String> = widths.collect();
-    if !widths.is_empty() {
-        write_list(
-            text,
-            &format!("  Minimum by codes [{}]: ", LENGTH.name()),
-            &widths,
-        )?;
-    }
-    let left_out = required.left_out.iter();
-    let left_out = left_out.map(|rule| format!("{} needs {}", rule.name, rule.needs));
-    let left_out: Vec<String> = left_out.collect();
-    if !left_out.is_empty() {
-        write_list(text, "  Left out: ", &left_out)?;
-    }
-    Ok(())
-}
-
-/// Widest line of a list \[characters\].
-const WIDTH: usize = 120;
-
-/// A list between commas, in lines that begin below each other.
-fn write_list(text: &mut String, heading: &str, items: &[String]) -> std::fmt::Result {
-    let mut line = heading.to_owned();
-    for (index, item) in items.iter().enumerate() {
-        let item = match index + 1 == items.len() {
-            true => format!("{item}."),
-            false => format!("{item}; "),
-        };
-        if line.trim_end() != heading.trim_end()
-            && line.chars().count() + item.chars().count() > WIDTH
-        {
-            writeln!(text, "{}", line.trim_end())?;
-            line = "    ".to_owned();
-        }
-        line += &item;
-    }
-    writeln!(text, "{line}")
-}
-
 #[cfg(test)]
 mod tests {
     use jostle::results::summary::{FloorSummary, HingeSummary};
@@ -944,8 +890,8 @@ mod tests {
             text,
             "\n\
              effect of pounding (with ÷ without)       storey drift       storey shear       acceleration\n\
-             A                    most affected     1.50 (storey 2)    1.20 (storey 2)     4.50 (floor 2)\n\
-             \x20                    least affected    0.50 (storey 1)    0.80 (storey 1)     0.50 (floor 1)\n\n"
+             A                    largest ratio     1.50 (storey 2)    1.20 (storey 2)     4.50 (floor 2)\n\
+             \x20                    smallest ratio    0.50 (storey 1)    0.80 (storey 1)     0.50 (floor 1)\n\n"
         );
         let mut text = String::new();
         let _ = write_changes(&mut text, &[]);

@@ -32,7 +32,12 @@ impl Varied {
         } else {
             format!("in the model {}", self.own)
         };
-        format!("{}: {}; {own}", self.keys, self.range)
+        let keys = match &self.keys[..] {
+            "motion.pga" => "peak ground acceleration (motion.pga)",
+            "motion.scale" => "factor on the record (motion.scale)",
+            other => other,
+        };
+        format!("{keys}: {}; {own}", self.range)
     }
 }
 

@@ -508,7 +508,7 @@ fn walls_widths_and_links_are_described_and_computed() {
         "gap 15.0 mm, 1 contact at 6.00 m",
         "colliding masses at the top a rigid wall and 90.0 t",
         "A — B",
-        "1 link at 6.00 m, each with 2.000e6 N/m and 6.000e5 N.s/m",
+        "1 link at 6.00 m with 2 MN/m and 600 kN·s/m",
     ] {
         assert!(text.contains(part), "\"{part}\" should stand in:\n{text}");
     }

@@ -130,7 +130,7 @@ fn sensitive_answers_say_from_when() {
         let until = &summary["promise"]["met_until_s"];
         assert_eq!(until.as_f64(), met.then_some(from));
         let said = if met {
-            "the tolerance is met until then"
+            "meet the tolerance"
         } else {
             "sensitive from t ="
         };

@@ -34,6 +34,7 @@ pub(super) fn read(
     if let Some(index) = word(reader, "hazard", HAZARD_ZONES) {
         codes.hazard = HazardZone::ALL[index];
     }
+    codes.intensity = intensity(reader, &view);
     codes.floors_are_level = match word(reader, "floor_levels", FLOOR_LEVELS) {
         Some(1) => Some(true),
         Some(2) => Some(false),
@@ -96,5 +97,18 @@ fn factors(reader: &mut Reader<'_>, view: &View<'_>) -> BuildingCodes {
         response_modification,
         deflection_amplification,
         is_regular,
+    }
+}
+
+/// The only intensity of GB 50011 that is listed.
+fn intensity(reader: &mut Reader<'_>, view: &View<'_>) -> Option<u32> {
+    let field = reader.get(view, "intensity")?;
+    let count = reader.count(&field)?;
+    match count {
+        6..=9 => Some(count as u32),
+        _ => {
+            reader.bad(&field, format!("must be 6, 7, 8 or 9, found {count}"));
+            None
+        }
     }
 }

@@ -137,7 +137,12 @@ fn read_wall(
         Some(field) => reader.quantity(&field, Dimension::LineMass),
         None => own_mass(reader, &view, section, !by_size, material),
     };
-    let stiffness_factors = read_factors(reader, &view, material, None);
+    let stiffness_factors = read_factors(
+        reader,
+        &view,
+        [material.factor, material.poisson_ratio],
+        None,
+    );
     let stand_in = reduced(
         section.unwrap_or(UNREAD),
         stiffness_factors.unwrap_or([1.0; 2]),
@@ -244,14 +249,15 @@ fn read_section(
 }
 
 /// Factors on EI and GA of walls, or of coupling beams with their clear length over their depth if that is known; `None` after a fault.
-fn read_factors(
+/// `usual`: the factor where none is stated, and Poisson's ratio.
+pub(super) fn read_factors(
     reader: &mut Reader<'_>,
     view: &View<'_>,
-    material: Material,
+    usual: [f64; 2],
     slenderness: Option<Option<f64>>,
 ) -> Option<[f64; 2]> {
     let Some(field) = reader.get(view, "stiffness_factor") else {
-        return Some([material.factor, 1.0]);
+        return Some([usual[0], 1.0]);
     };
     let is_word = field
         .as_text()
@@ -265,7 +271,7 @@ fn read_factors(
         return Some([0.5, 0.5]);
     }
     // ACI 369.1-22 as ASCE 41-23 has it: rigidities in shear are parts of E A, where the full one is 5/6 G A.
-    let full = 5.0 / 6.0 / (2.0 * (1.0 + material.poisson_ratio));
+    let full = 5.0 / 6.0 / (2.0 * (1.0 + usual[1]));
     match slenderness {
         None => Some([0.25, 0.15 / full]),
         Some(Some(slenderness)) => Some([(0.05 * slenderness).min(0.2), 0.2 / full]),
@@ -437,7 +443,12 @@ fn read_beams(
     let depth =
         depth.and_then(|field| reader.quietly(|reader| reader.positive(&field, Dimension::Length)));
     let slenderness = depth.map(|depth| clear / depth);
-    let stiffness_factors = read_factors(reader, &view, material, Some(slenderness));
+    let stiffness_factors = read_factors(
+        reader,
+        &view,
+        [material.factor, material.poisson_ratio],
+        Some(slenderness),
+    );
     let stand_in = reduced(
         section.unwrap_or(UNREAD),
         stiffness_factors.unwrap_or([1.0; 2]),

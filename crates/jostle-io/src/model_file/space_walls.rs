@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use jostle::{PlanAxis, PlanPoint, SpaceFrame, SpacePlace, SpaceSection, SpaceWall};
 
 use super::brace::tables;
+use super::frame_walls::read_factors;
 use super::places::range;
 use super::section::read_modulus;
 use super::space_frame::{Grid, Material, Member, Sort, lies_in, read_hinge};
@@ -154,12 +155,34 @@ fn read<'n>(
     let [Some(x), Some(y), Some(storeys)] = ranges else {
         return None;
     };
+    let [usual, torsion] = material.factors;
+    let factors = read_factors(reader, &view, [usual, material.poisson_ratio], None);
+    let mut stated = |key, dimension| {
+        let field = reader.get(&view, key)?;
+        reader.positive(&field, dimension)
+    };
+    let in_plane = [
+        stated("EI", Dimension::FlexuralRigidity),
+        stated("EA", Dimension::Force),
+        stated("GA", Dimension::Force),
+    ];
     let (along, length, thickness) = (along?, length?, thickness?);
     let mut size = [thickness; 2];
     size[along.index()] = length;
     let mut section = SpaceSection::rectangle(size, modulus?, material.poisson_ratio, true)?;
-    let [bending, torsion] = material.factors;
+    let [bending, shear] = factors?;
+    let [ei, ea, ga] = in_plane;
+    if let Some(ei) = ei {
+        section.flexural_rigidity[along.index()] = ei;
+    }
+    section.axial_rigidity = ea.or(section.axial_rigidity);
+    if let (Some(ga), Some(own)) = (ga, &mut section.shear_rigidity) {
+        own[along.index()] = ga;
+    }
     section.flexural_rigidity = section.flexural_rigidity.map(|own| bending * own);
+    section.shear_rigidity = section
+        .shear_rigidity
+        .map(|both| both.map(|own| shear * own));
     section.torsional_rigidity *= torsion;
     let member = Member {
         section,

@@ -37,7 +37,7 @@ fn a_file_without_codes_has_the_defaults() {
 fn values_of_a_building_come_before_those_of_all() {
     let text = towers(
         "codes = { importance = 1.25, behaviour_factor = 3.9 }",
-        "[codes]\nshow = [\"en1998\", \"asce7\"]\nmotion = \"reduced\"\nfloor_levels = \"different\"\nsystem = \"wall\"\n\
+        "[codes]\nshow = [\"en1998\", \"asce7\"]\nmotion = \"reduced\"\nfloor_levels = \"different\"\nsystem = \"wall\"\nintensity = 8\n\
          ground_acceleration = \"0.25 g\"\nhazard = \"low\"\nzone_factor = 0.45\nsoil_factor = 1.05\nimportance = 1.5\n\
          response_modification = 8\ndeflection_amplification = 5.5\nregular = false",
     );
@@ -46,6 +46,7 @@ fn values_of_a_building_come_before_those_of_all() {
     assert_eq!(codes.motion, MotionLevel::Reduced);
     assert_eq!(codes.floors_are_level, Some(false));
     assert_eq!(codes.system, Some(JointSystem::Wall));
+    assert_eq!(codes.intensity, Some(8));
     assert_eq!(codes.hazard, HazardZone::Low);
     let acceleration = codes.ground_acceleration.expect("it is given");
     assert!((acceleration - 2.451_662_5).abs() < 1e-9);

@@ -218,6 +218,42 @@ fn rigid_ends_follow_the_sizes_that_meet() {
     assert!(refused("rigid_ends = 2\n").contains("must lie between 0 and 1"));
 }
 
+/// Halves of EI and GA by EN 1998-1; E A/4 of a core given in numbers; the weak plane keeps length and thickness.
+#[test]
+fn walls_of_space_frames_have_factors_and_rigidities() {
+    let place = SpacePlace::Column {
+        line: [0, 1],
+        storey: 0,
+    };
+    let of = |more: &str| {
+        let own = with(&format!(
+            "wall = [{{ along = \"y\", x = 1, y = 2, length = \"3 m\", thickness = \"0.25 m\"{more} }}]\n"
+        ));
+        section(&own, place)
+    };
+    let (whole, half) = (
+        of(", stiffness_factor = 1"),
+        of(", stiffness_factor = \"en1998\""),
+    );
+    let [shear, halved] = [whole, half].map(|own| own.shear_rigidity.expect("it shears"));
+    for axis in [0, 1] {
+        let due = 0.5 * whole.flexural_rigidity[axis];
+        close(half.flexural_rigidity[axis], due, due, 1e-14, "EI");
+        close(halved[axis], 0.5 * shear[axis], shear[axis], 1e-14, "GA");
+    }
+    // The factor of the building holds where the wall has none.
+    assert_eq!(of("").flexural_rigidity, half.flexural_rigidity);
+    let given = of(", stiffness_factor = 0.5, EI = \"800 GN.m2\", EA = \"60 GN\", GA = \"13 GN\"");
+    assert_eq!(given.flexural_rigidity[1], 400e9);
+    assert_eq!(given.flexural_rigidity[0], half.flexural_rigidity[0]);
+    assert_eq!(given.axial_rigidity, Some(60e9));
+    assert_eq!(given.shear_rigidity, Some([shear[0], 13e9]));
+    let refused = refused(
+        "wall = [{ along = \"y\", x = 1, length = 3, thickness = 0.2, stiffness_factor = \"aci\" }]\n",
+    );
+    assert!(refused.contains("stiffness_factor"), "{refused}");
+}
+
 #[test]
 fn walls_are_wide_columns_with_arms() {
     let own = with(

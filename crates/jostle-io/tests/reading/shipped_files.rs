@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use jostle::{Damping, FloorPairs, GroundMotion, LawKind, Structure, Wave};
+use jostle::{Damping, FloorPairs, GroundMotion, LawKind, Structure, System, Wave};
 use jostle_io::{
     Format, Overrides, STANDARD_GRAVITY, Scaling, TEMPLATE_NAMES, builtin_model, builtin_record,
-    read_model_file, read_model_text, template,
+    read_model_file, read_model_text, shown::Units, template, template_in,
 };
 
 fn el_centro() -> (f64, Vec<f64>) {
@@ -154,6 +154,37 @@ fn templates_are_valid() {
             .unwrap_or_else(|error| panic!("{error}"));
     }
     assert_eq!(template("castle", "x"), None);
+}
+
+/// The same buildings within what rounding to inches, half feet and three digits may change, with the same contacts.
+#[test]
+fn templates_in_us_units_are_nearly_the_same_models() {
+    for name in TEMPLATE_NAMES {
+        let Some(text) = template_in(name, "10 m", Units::Us) else {
+            assert!(jostle_io::model_text(name).is_some(), "{name}");
+            continue;
+        };
+        let si = template(name, "10 m").expect("the name is listed");
+        let [us, si] = [text, si].map(|text| {
+            let input = read_model_text(name, &text, Format::Toml, Path::new(""));
+            let input = input.unwrap_or_else(|error| panic!("{error}"));
+            assert_eq!(input.warnings, Vec::<String>::new(), "{name}");
+            let system =
+                System::assemble(&input.model).unwrap_or_else(|faults| panic!("{faults:?}"));
+            (input, system)
+        });
+        assert_eq!(us.0.model.title, "10 m");
+        assert_eq!((us.0.units, si.0.units), (Some(Units::Us), None), "{name}");
+        assert_eq!(us.1.contacts.len(), si.1.contacts.len(), "{name}");
+        assert_eq!(us.1.links.len(), si.1.links.len(), "{name}");
+        for (us, si) in us.1.buildings.iter().zip(&si.1.buildings) {
+            let (own, due) = (us.equations.total_mass(), si.equations.total_mass());
+            assert!((own / due - 1.0).abs() < 0.06, "{name}: {own} kg, {due} kg");
+            let [own, due] =
+                [us, si].map(|own| own.lateral_modes().next().expect("it sways").period());
+            assert!((own / due - 1.0).abs() < 0.08, "{name}: {own} s, {due} s");
+        }
+    }
 }
 
 #[test]

@@ -293,7 +293,12 @@ fn a_frame_has_the_numbers_of_a_run() {
         (force["value"].as_f64().unwrap() - 1282.98).abs() < 0.01,
         "{force}"
     );
-    assert!(frame[0]["headline"].as_str().unwrap().contains("hit once"));
+    assert!(
+        frame[0]["headline"]
+            .as_str()
+            .unwrap()
+            .contains("one impact")
+    );
 }
 
 #[test]

@@ -120,7 +120,6 @@ messages! {
     contact_stiffness_and_restitution_values = "Contact stiffness and restitution: values used, and how far they are known";
     gap = "gap";
     stiffness_used = "stiffness used";
-    stiffness_units = "[{N/m^1.5} or {N/m}]";
     hertz_effective_radius = "Hertz, effective radius";
     plausible_range = "plausible range";
     restitution_used = "restitution used";
@@ -130,7 +129,6 @@ messages! {
     hertz_k_4_3_h(modulus) = "Hertz: k = 4/[3π (h₁ + h₂)] √[R₁R₂/(R₁ + R₂)] with spheres of the masses of the floors (Goldsmith 1960; Muthukumar and DesRoches 2006), concrete of {modulus}. The peak force of free masses grows with k^0.4, under linear laws with k^0.5:";
     repeats_the_run_with_half = "repeats the run with both ends of the advised stiffness and restitution ± 0.15.";
     adds_the_axial_stiffness = "adds the axial stiffness and the waves of slabs whose size is given.";
-    stiffnesses_in_n_m = "Stiffnesses in {N/m} and {N/m^1.5} cannot be compared directly.";
 
     // describe
     grid_lines_at_x = "lines at x";
@@ -144,13 +142,13 @@ messages! {
     analysis = "Analysis";
     energy_at_the_end = "Energy at the end";
     storeys = "storeys";
+    in_all_m_high(floors, storey_heights, copied) = "{floors} ({storey_heights} {m}), {copied} {m} high";
     of_m_m_high(floors, storey_heights, copied) = "{floors} of {storey_heights} {m}, {copied} {m} high";
     mass_at_the_floors = "mass at the floors";
     stiffness = "stiffness";
     given_as_a_matrix(size) = "given as a matrix of {size} rows";
     of_motion_relative = ", of motion relative to the foundation";
-    the_first_and_third_lateral = "the first and third lateral modes, as far as they exist";
-    the_first_lateral_mode = "the first lateral mode of the building fixed on its mat";
+    of_building_on_its_mat = ", of the building fixed on its mat";
     damping = "damping";
     vibrating_mass = "vibrating mass";
     peak_base_shear = "peak base shear";
@@ -188,13 +186,13 @@ messages! {
     torsional_stiffness = "torsional stiffness";
     in_all_modes(ratio) = "{ratio}\u{a0}% in all modes";
     rayleigh_beta(beta) = "Rayleigh, {beta}";
-    at_the_first_and_third(ratio, used) = "{ratio}\u{a0}% at the first and third lateral modes, as far as they exist{used}";
     at_lateral_mode(ratio, mode, used) = "{ratio}\u{a0}% at lateral mode {mode}{used}";
     at_lateral_modes(ratio, modes, used) = "{ratio}\u{a0}% at lateral modes {modes}{used}";
     and = " and ";
     floors_of_equal_height = "floors of equal height";
     all_floors_against_floors = "all floors, against floors or columns";
-    listed_pairs_of_points(pairs) = "{pairs} listed pairs of points";
+    floors_of_pairs(pairs) = "floors {pairs}";
+    and_more_pairs_of_points(pairs) = ", and {pairs} more";
     listed_heights(heights) = "{heights} listed heights";
     joins = "joins";
     stiffness_of_each = "stiffness of each";
@@ -275,7 +273,7 @@ messages! {
     moves_on_its_bearings(name, moved) = "{name} moves {moved} on its bearings";
     share_of_limit(used, limit) = ", {used} % of their limit of {limit}";
     they_dissipate_residual_displacement(damped, residual) = ". They dissipate {damped}. Residual displacement: {residual}.";
-    a_stop_is_hit(force) = " A stop is hit with {force}.";
+    a_stop_is_hit(force) = " Peak force on a stop: {force}.";
     travel_of(stage, went, travel) = "{stage} {went} of {travel}";
     stages_slide(stages) = " Their stages slide: {stages}.";
     the_bearings_stood_at_their_rims = " All stages stood at their rims.";
@@ -562,7 +560,7 @@ messages! {
     exaggeration = "Exaggeration";
     also_without_contact_dashed = "also without contact (dashed)";
     cracking_and_yielding = "cracking and yielding";
-    to_scale_horizontal_motion = "To scale; horizontal motion and gaps are exaggerated by the same factor, so contact looks like contact. Columns between floors are drawn as smooth curves, not computed.";
+    to_scale_horizontal_motion = "To scale; horizontal motion and gaps are exaggerated by the same factor, so contact looks like contact. Column shapes between floors are schematic.";
     this_impact = "This impact";
     drag_across_a_chart_to_zoom = "Drag across a chart to zoom, double-click for the whole motion, click to move the cursor. On a chart with the keyboard focus, the wheel zooms (elsewhere with Shift or Ctrl); arrow keys move the cursor, + and − zoom.";
     dashed_the_same_buildings_without = "Dashed: the same buildings without contact.";
@@ -893,8 +891,10 @@ messages! {
     the_strongest_of_impacts_impacts(most_rows, all) = "The {most_rows} strongest of {all}  impacts; impacts.parquet contains all of them.";
     show_all_impacts(rows) = "Show all {rows} impacts";
     of_poundings_are_at_several(multiple_pounding_count, pounding_count, most_at_once) = "{multiple_pounding_count} of {pounding_count} poundings are at several floors at the same time, at most {most_at_once} at once.";
-    restitution_is_separation_speed_impact = "Restitution is separation speed ÷ impact speed, as computed. Two free masses would rebound with";
-    under_this_contact_law = "under this contact law. In a building the storeys and other contacts also act during the impact, so the two ratios differ. After a light impact the ratio may exceed one.";
+    restitution_is_separation_speed_impact = "Restitution is separation speed ÷ impact speed, as computed.";
+    two_free_masses_would = "Two free masses would rebound with";
+    under_this_contact_law = "under this contact law.";
+    other_contacts_act_too = "In a building the storeys and other contacts also act during the impact, which changes the ratio. After a light impact the ratio may exceed one.";
     the_coefficient_in_the_published(restitution, free_restitution) = "The coefficient in the published hertz-damp formula is not the rebound of free masses: with e = {restitution} they rebound with {free_restitution}.";
     peaks_of_in_numbers(name) = "{name}: table of peaks";
     height = "height";
@@ -913,9 +913,9 @@ messages! {
     of_gaps_close(gaps, all, gap) = "{gaps} of {all} gaps close. {gap}";
     has_a_peak_roof_displacement(name, sway) = "{name} has a peak roof displacement of {sway}; it has no neighbour.";
     nothing_was_recorded = "Nothing was recorded.";
-    hit_times_with_up_to(left, right, impact_count, peak_force) = "{left} and {right} hit {impact_count} with up to {peak_force}.";
-    and_hit_once(left, right, first_at, at, force) = "{left} and {right} hit once: {first_at}, at {at}, with {force}.";
-    hit_times(left, right, impact_count) = "{left} and {right} hit {impact_count}";
+    impacts_with_up_to(left, right, impact_count, peak_force) = "{left} and {right}: {impact_count}, up to {peak_force}.";
+    and_one_impact(left, right, first_at, at, force) = "{left} and {right}: one impact, {first_at}, at {at}, {force}.";
+    impacts_of_both(left, right, impact_count) = "{left} and {right}: {impact_count}";
     the_first_impact(head, start, hardest) = "{head}; the first impact, at {start}, has the peak force, {hardest}.";
     first_at_peak_force(head, start, hardest, hardest_place, hardest_2) = "{head}, first at {start}; peak force at {hardest} ({hardest_place}), {hardest_2}.";
     the_smallest_distance_between(head, left, right, distance) = "{head}the smallest distance between {left} and {right} is {distance}.";
@@ -925,9 +925,8 @@ messages! {
     floor_against_column(floor, of, other, height) = "floor {floor} of {of} against a column of {other}, {height}";
     floors_and(left, right) = "floors {left} and {right}";
     height_m(height) = "height {height}\u{a0}{m}";
-    once = "once";
-    twice = "twice";
-    number_of_times(number) = "{number} times";
+    single_impact = "1 impact";
+    several_impacts(number) = "{number} impacts";
 
     // jostle-run/gap_page
     force_over_gap = "Force over gap";
@@ -1060,10 +1059,10 @@ messages! {
     contacts = "Contacts";
     earlier = "Earlier";
     later = "Later";
-    hardest = "Hardest";
-    show_the_hardest(count) = "Show the {count} hardest";
+    hardest = "Largest";
+    show_the_hardest(count) = "Show the {count} largest";
     show_all(count) = "Show all {count}";
-    the_hardest_of(all) = ", the hardest of {all}";
+    the_hardest_of(all) = ", the largest of {all}";
     rank_by_force(rank, all) = ", no. {rank} by force of {all}";
     impact_at(instant, place, force, order) = "Impact at {instant} s, {place}: peak force {force} {kN}{order}";
     contact_force_over_time = "Contact force over time";
@@ -1189,7 +1188,7 @@ messages! {
     keeps_all = "meets all conditions";
     least_of_front = "least";
     trade_off_against(objective, left) = "Trade-off: {objective} against {left}";
-    line_joins_unbeaten_trials(condition) = "The line joins trials that no other beats in both. Condition: {condition}.";
+    line_joins_unbeaten_trials(condition) = "The line joins the trials of the Pareto front. Condition: {condition}.";
     course_of_the_search = "Course of the search";
     least_objective_so_far = "The least objective among the trials so far that meet all conditions.";
     trial_axis = "trial";

@@ -142,7 +142,7 @@ fn verdict_says_what_happened() {
     run.summary.gaps[0].impact_count = 1;
     assert_eq!(
         verdict(&run),
-        "J1 and J2 hit once: floor 5, at 6.148 s, with 1283 kN."
+        "J1 and J2: one impact, floor 5, at 6.148 s, 1283 kN."
     );
     assert!(
         verdict(&alone()).starts_with("Solo has a peak roof displacement of"),

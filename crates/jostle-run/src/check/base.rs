@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use jostle::{BedSpring, Foundation};
 use jostle_io::shown::{FORCE, HEIGHT, LENGTH, MASS, MOMENT};
 
-use super::short;
+use crate::numbers::prefixed;
 
 /// Dimensions and mass of a foundation.
 fn describe_plate(text: &mut String, foundation: &Foundation) -> std::fmt::Result {
@@ -34,18 +34,18 @@ pub(super) fn describe_foundation_in_plan(
         writeln!(
             text,
             "  soil {direction}: sway {} and {}, rocking {} and {}",
-            short(springs.sway_stiffness, "N/m"),
-            short(springs.sway_damping, "N.s/m"),
-            short(springs.rocking_stiffness, "N.m/rad"),
-            short(springs.rocking_damping, "N.m.s/rad")
+            prefixed(springs.sway_stiffness, "N/m", 3),
+            prefixed(springs.sway_damping, "N·s/m", 3),
+            prefixed(springs.rocking_stiffness, "N·m/rad", 3),
+            prefixed(springs.rocking_damping, "N·m·s/rad", 3)
         )?;
     }
     let [stiffness, damping] = springs.torsion;
     writeln!(
         text,
         "  soil in torsion: {} and {}",
-        short(stiffness, "N.m/rad"),
-        short(damping, "N.m.s/rad")
+        prefixed(stiffness, "N·m/rad", 3),
+        prefixed(damping, "N·m·s/rad", 3)
     )?;
     for (axis, (direction, _)) in directions.into_iter().enumerate() {
         writeln!(
@@ -73,16 +73,16 @@ pub(super) fn describe_foundation(
     let sway = match own.sway {
         Some(_) => format!(
             "sway {} and {}",
-            short(springs.sway_stiffness, "N/m"),
-            short(springs.sway_damping, "N.s/m")
+            prefixed(springs.sway_stiffness, "N/m", 3),
+            prefixed(springs.sway_damping, "N·s/m", 3)
         ),
         None => "sway held".to_owned(),
     };
     writeln!(
         text,
         "  soil: {sway}, rocking {} and {}",
-        short(springs.rocking_stiffness, "N.m/rad"),
-        short(springs.rocking_damping, "N.m.s/rad")
+        prefixed(springs.rocking_stiffness, "N·m/rad", 3),
+        prefixed(springs.rocking_damping, "N·m·s/rad", 3)
     )?;
     writeln!(
         text,
@@ -98,15 +98,15 @@ pub(super) fn describe_foundation(
     };
     // The outermost spring lifts off where its shortening under the weight is used up, θ = W/(K_z b).
     let weight = jostle_io::STANDARD_GRAVITY * mass;
-    let moment = MOMENT.typed_name();
+    let moment = MOMENT.name();
     let lifting = springs.rocking_stiffness * weight / (springs.vertical_stiffness * reach);
     writeln!(
         text,
-        "  lifts off: {} contact springs to {} from the middle, vertical {} and {}; the edge lifts at an overturning moment of {} {moment}, and {} {moment} = W b is the most it can bear (W {})",
+        "  lifts off: {} contact springs to {} from the middle, vertical {} and {}; the edge lifts at an overturning moment of {} {moment}; overturning capacity W·b = {} {moment} (W {})",
         bed.len(),
         HEIGHT.text(reach, 2),
-        short(springs.vertical_stiffness, "N/m"),
-        short(springs.vertical_damping, "N.s/m"),
+        prefixed(springs.vertical_stiffness, "N/m", 3),
+        prefixed(springs.vertical_damping, "N·s/m", 3),
         MOMENT.number(lifting, 0),
         MOMENT.number(weight * reach, 0),
         FORCE.text(weight, 0)
@@ -171,7 +171,7 @@ pub(super) fn describe_bearings(
             text,
             "  at {} as linear bearings of {} with {:.1} % damping: a period of {:.2} s",
             LENGTH.text(amplitude, 0),
-            short(stiffness, "N/m"),
+            prefixed(stiffness, "N/m", 3),
             100.0 * (ratio + mat.dashpot / (2.0 * mass * omega)),
             std::f64::consts::TAU / omega
         )?;

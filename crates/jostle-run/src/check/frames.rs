@@ -10,8 +10,9 @@ use jostle_io::shown::{
     FORCE, HEIGHT, LARGE_FORCE, LARGE_RIGIDITY, LARGE_STIFFNESS, LENGTH, Shown,
 };
 
-/// Whether the columns of a frame shorten, and why; `None` if it is not known whether the file says so.
-pub(super) fn axial_of_columns(frame: &Frame, is_stated: Option<bool>) -> String {
+/// Whether the columns of a frame shorten, and why: whether the file says so, and whether the frame stands on soil; `None` if that is not
+/// known.
+pub(super) fn axial_of_columns(frame: &Frame, known: Option<[bool; 2]>) -> String {
     let (height, width): (f64, f64) = (frame.storey_heights.iter().sum(), frame.spans.iter().sum());
     let what = match frame.axial.columns_flexible {
         true => "columns shorten under axial force",
@@ -22,18 +23,17 @@ pub(super) fn axial_of_columns(frame: &Frame, is_stated: Option<bool>) -> String
         Frame::SLENDER,
         Frame::TALL
     );
-    let why = match (
-        is_stated,
-        frame.axial.columns_flexible,
-        frame.tallness() > 1.0,
-    ) {
-        (Some(true), ..) => ", as stated".to_owned(),
-        (Some(false), true, _) if !frame.walls.is_empty() => {
+    let why = match (known, frame.axial.columns_flexible, frame.tallness() > 1.0) {
+        (Some([true, _]), ..) => ", as stated".to_owned(),
+        (Some([false, _]), true, _) if !frame.walls.is_empty() => {
             ", the default of frames with walls".to_owned()
         }
-        (Some(false), true, _) => format!(" (default above {limit})"),
-        (Some(false), false, true) => ": no EA, or a foundation on soil".to_owned(),
-        (Some(false), false, false) => format!(" (default up to {limit})"),
+        (Some([false, _]), true, _) => format!(" (default above {limit})"),
+        (Some([false, true]), false, _) => {
+            ": their foundation on soil neither rises nor sinks".to_owned()
+        }
+        (Some([false, false]), false, true) => ": no EA".to_owned(),
+        (Some([false, false]), false, false) => format!(" (default up to {limit})"),
         (None, ..) => String::new(),
     };
     if width > 0.0 {
@@ -155,16 +155,27 @@ pub(super) fn space_walls(frame: &SpaceFrame) -> String {
         };
         let foot = wall.column(wall.storeys[0]);
         let mut members = frame.members.iter();
-        let yields = members.any(|own| own.place == foot && own.may_yield());
+        let Some(member) = members.find(|own| own.place == foot) else {
+            continue;
+        };
+        let (own, plane) = (&member.section, wall.along.index());
+        let number = |name: &str, value: Option<f64>, unit: Shown| {
+            value.map_or_else(String::new, |value| {
+                format!(", {name} {}", unit.text(value, 3))
+            })
+        };
+        let rigidities = number("EI", Some(own.flexural_rigidity[plane]), LARGE_RIGIDITY)
+            + &number("EA", own.axial_rigidity, LARGE_FORCE)
+            + &number("GA", own.shear_rigidity.map(|own| own[plane]), LARGE_FORCE);
         let _ = write!(
             text,
-            "\n  wall {} along {} at x = {} {unit}, y = {} {unit}, {storeys}, {} {unit} long{}",
+            "\n  wall {} along {} at x = {} {unit}, y = {} {unit}, {storeys}, {} {unit} long{rigidities}{}",
             index + 1,
             wall.along.name(),
             HEIGHT.stated(frame.lines_x[x]),
             HEIGHT.stated(frame.lines_y[y]),
             HEIGHT.stated(wall.length),
-            if yields { ", yields" } else { "" }
+            if member.may_yield() { ", yields" } else { "" }
         );
     }
     text

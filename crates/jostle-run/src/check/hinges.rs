@@ -9,7 +9,7 @@ use jostle::{ColumnFibres, SpaceFrame, SpaceMember, SpacePlace};
 use jostle_io::shown::{FORCE, HEIGHT, MOMENT, Shown};
 
 pub(super) fn describe_hinges(text: &mut String, hinges: &Hinges) -> std::fmt::Result {
-    let (force, moment) = (FORCE.name(), MOMENT.typed_name());
+    let (force, moment) = (FORCE.name(), MOMENT.name());
     match hinges {
         Hinges::Frame(hinges) => {
             if let Some(([storey, line], first)) = hinges.fibres.first_key_value() {
@@ -151,7 +151,7 @@ fn describe_space_hinges(text: &mut String, frame: &SpaceFrame) -> std::fmt::Res
         ("columns, y,", true, 1),
         ("beams", false, 0),
     ];
-    let moment = MOMENT.typed_name();
+    let moment = MOMENT.name();
     for (what, columns, plane) in sorts {
         let members = frame.members.iter();
         let members = members.filter(|own| is_column(own) == columns);

@@ -1,6 +1,6 @@
 //! What impacts dissipate.
 
-use crate::numbers::power;
+use crate::numbers::prefixed;
 use jostle::LawKind;
 use jostle::contact::FreeCollision;
 use jostle::interface::Contact;
@@ -26,12 +26,12 @@ pub(super) fn losses(gap: &Gap, contacts: &[&Contact]) -> String {
     match gap.law.kind {
         LawKind::Dashpot(own) => format!(
             "dashpot {}, the same as restitution {}; free masses rebound with {free}",
-            power(own.damping, "N.s/m"),
+            prefixed(own.damping, "N·s/m", 4),
             range(&|contact: &Contact| contact.equivalent_restitution(&gap.law)),
         ),
         LawKind::BilinearGiven(own) => format!(
             "{} beyond {}; the rebound of free masses depends on their speed",
-            power(own.second_stiffness, "N/m"),
+            prefixed(own.second_stiffness, "N/m", 4),
             LENGTH.text(own.yield_indentation, 1)
         ),
         LawKind::Crushing(own) => format!(

@@ -126,6 +126,15 @@ fn models() -> Vec<(&'static str, String, String)> {
             "storeys = 1\nspans = [\"6 m\"]\n{SECTIONS}beam_mass = \"5 t/m\"\nstiffness_factor = {factor}\nhinges = {{ rule = \"takeda\", beam = {{ cracking = \"80 kN.m\", yield = \"260 kN.m\", post_cracking = 0.3, post_yield = 0.02 }} }}\n"
         ))
     };
+    // Storeys of 3 m: a link at floor 1 stands for soil from 1.5 m above the foundation.
+    let embedded = |depth: f64, floor: usize| {
+        let building = towers(&format!(
+            "storeys = 2\nstorey_height = \"3 m\"\nelevation = \"-3 m\"\nmass = \"80 t\"\nstiffness = \"90 MN/m\"\nfoundation = {{ length = \"12 m\", width = \"10 m\", mass = \"120 t\", embedment = \"{depth} m\" }}\n"
+        ));
+        format!(
+            "[soil]\nshear_wave_velocity = \"180 m/s\"\ndensity = \"1800 kg/m3\"\npoisson_ratio = 0.33\n{building}[[link]]\nbetween = [\"wall\", \"A\"]\nfloors = [[\"wall\", {floor}]]\nstiffness = \"200 MN/m\"\n"
+        )
+    };
     let wide = |width: f64| pair(&format!("width = \"{width} mm\"\nrestitution = 0.9\n"));
     vec![
         // T = 2π/(2 √(k/m) sin(π/18)), H = 12 m: twice 0.548 s, and half of 0.3146 s.
@@ -169,6 +178,8 @@ fn models() -> Vec<(&'static str, String, String)> {
             isolated(", bounds = { lower = 0.85, upper = 1.3 }"),
             isolated(""),
         ),
+        ("soil-twice", embedded(1.49, 1), embedded(1.51, 1)),
+        ("soil-twice", embedded(4.49, 2), embedded(1.51, 1)),
         (
             "struck-mass",
             struck("\"flexible\""),

@@ -1,6 +1,7 @@
 //! The factors of ready-made studies, from the values or the defaults of a model.
 
 use jostle::linear::sort_by_key;
+use jostle::statics::STANDARD_GRAVITY;
 use jostle::{Gap, Structure};
 use jostle_io::{Input, ModelTree, Scaling, TreeValue};
 
@@ -230,7 +231,19 @@ pub(super) fn shaking(
     notes: &mut Vec<String>,
 ) -> Option<Block> {
     let list = |unit: &str, own: f64| values_around(own, multiples, unit);
-    let by_peak = |own: f64| Block::plain("pga", "motion.pga", &list("m/s2", own));
+    // In g where the model states its peak in g.
+    let in_g = tree.values("motion.pga").iter().any(|own| {
+        let TreeValue::Text(text) = own else {
+            return false;
+        };
+        text.trim_end()
+            .strip_suffix('g')
+            .is_some_and(|own| own.trim_end().parse::<f64>().is_ok())
+    });
+    let by_peak = |own: f64| match in_g {
+        true => Block::plain("pga", "motion.pga", &list("g", own / STANDARD_GRAVITY)),
+        false => Block::plain("pga", "motion.pga", &list("m/s2", own)),
+    };
     let scaling = input.motion.as_ref().map(|motion| &motion.scaling)?;
     let several = input.records().len() > 1;
     match scaling {

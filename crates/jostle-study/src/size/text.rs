@@ -155,10 +155,10 @@ impl SizeResults {
         sentences.push(if self.converged {
             format!("Converged after {} trials.", self.trials.len())
         } else if self.stopped {
-            format!("The search was stopped after {} trials.", self.trials.len())
+            format!("Stopped after {} trials.", self.trials.len())
         } else {
             format!(
-                "The search stopped at {} trials before it converged: the smallest may lie lower. Raise --trials.",
+                "Stopped at {} trials before converging: the smallest may lie lower. Raise --trials.",
                 self.trials.len()
             )
         });

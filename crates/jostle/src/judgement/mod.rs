@@ -27,6 +27,7 @@ pub use contact::advised_stiffness;
 pub use mass::floor_masses;
 pub use silence::{named, names};
 pub use table::{CHECKS, FROM_MODEL, JUDGEMENT, OUTSIDE_DRIFT};
+pub use yielding::structure_yields;
 
 /// What checks know.
 #[derive(Clone, Copy, Debug)]
@@ -94,7 +95,7 @@ impl Known<'_> {
 
 /// A check, or one part of it.
 pub struct Check {
-    /// Identifier: `A1` to `A15` of models, `B1` to `B12` of results.
+    /// Identifier: `A1` to `A16` of models, `B1` to `B12` of results.
     pub id: &'static str,
     /// Name of the part, unique.
     pub name: &'static str,

@@ -1,8 +1,8 @@
-//! A15 and B11: properties, strokes and uplift of bearings.
+//! A15, A16 and B11: properties, strokes and uplift of bearings, and soil counted twice.
 
 use super::gap::length;
 use super::{Known, Tally, quoted};
-use crate::model::{PlanPoint, Structure};
+use crate::model::{LEVEL_TOLERANCE, PlanPoint, Structure};
 
 /// 1 for an isolated building without a range of the properties of its bearings, 0 for others.
 pub(super) fn bearing_bounds(known: &Known<'_>, tally: &mut Tally<'_>) {
@@ -14,6 +14,34 @@ pub(super) fn bearing_bounds(known: &Known<'_>, tally: &mut Tally<'_>) {
             let text = format!(
                 "{}: one set of bearing properties; codes want lower and upper bounds, which decide stroke and force",
                 quoted(&building.name)
+            );
+            (building.name.clone(), text)
+        });
+    }
+}
+
+/// Depth over which links to the ground hold an embedded foundation, whose formulas count the soil at its sides already. A link acts on the
+/// soil from the middle of the storey below its floor.
+pub(super) fn soil_twice(known: &Known<'_>, tally: &mut Tally<'_>) {
+    for link in &known.system.links {
+        // Those of braces and panels are none of the model's.
+        let own = known.model.links.get(link.link);
+        let Some([Some(index), None] | [None, Some(index)]) = own.map(|own| own.between) else {
+            continue;
+        };
+        let building = &known.model.buildings[index];
+        let Some(foundation) = building.base.foundation else {
+            continue;
+        };
+        let height = link.height - building.base.elevation;
+        let floors = building.floor_heights().into_iter();
+        let below = floors.filter(|floor| floor + LEVEL_TOLERANCE < height);
+        let lowest = 0.5 * (height + below.fold(0.0, f64::max));
+        tally.add(foundation.embedment - lowest, || {
+            let text = format!(
+                "{}: its foundation has an embedment of {:.2} m, and a link to a wall {height:.2} m above the foundation stands for the same soil: it is counted twice",
+                quoted(&building.name),
+                foundation.embedment
             );
             (building.name.clone(), text)
         });

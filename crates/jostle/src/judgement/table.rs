@@ -246,6 +246,16 @@ pub const CHECKS: &[Check] = &[
         measure: support::bearing_bounds,
     },
     Check {
+        id: "A16",
+        name: "soil-twice",
+        quantity: "embedment of a foundation, less the depth from which a link between a wall and a floor stands for soil: the middle of the storey below the floor",
+        unit: "m",
+        limits: &[above(0.0, Warning)],
+        sources: &[JUDGEMENT],
+        remedy: "leave out embedment, or the links to the soil beside it",
+        measure: support::soil_twice,
+    },
+    Check {
         id: "B1",
         name: "p-delta-left-out",
         quantity: "stability coefficient θ = P d_r/(V h) of a storey without P-Delta",
@@ -296,7 +306,7 @@ pub const CHECKS: &[Check] = &[
         unit: "–",
         limits: &[above(1.0, Warning)],
         sources: &[FROM_MODEL],
-        remedy: "check what the member bears there: the model keeps its strength beyond that rotation",
+        remedy: "check the capacity of the member there: the model keeps its strength beyond that rotation",
         measure: yielding::rotation,
     },
     Check {

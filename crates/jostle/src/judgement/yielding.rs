@@ -10,7 +10,8 @@ use crate::model::{
 const YIELD_DRIFT: f64 = 0.01;
 
 /// Whether storeys or members of a building can yield, not its base alone.
-pub(super) fn structure_yields(building: &Building) -> bool {
+#[must_use]
+pub fn structure_yields(building: &Building) -> bool {
     let yields = |own: &Diagonal| own.place.kind == DiagonalKind::Brace && own.hysteresis.is_some();
     match &building.structure {
         _ if building.hinges.is_some() => true,
@@ -136,7 +137,7 @@ pub(super) fn struck_columns(known: &Known<'_>, tally: &mut Tally<'_>) {
         }
         tally.add(times, || {
             let text = format!(
-                "{} is struck with {times:.1} times the shear that it can bear ({})",
+                "the shear in {} at an impact is {times:.1} times its capacity ({})",
                 member.name, ratio.rule
             );
             (member.name.clone(), text)
@@ -160,10 +161,10 @@ fn elastic(known: &Known<'_>, mut add: impl FnMut(f64, f64, &str)) {
 
 /// Drift of elastic buildings over that at yield.
 pub(super) fn elastic_drift(known: &Known<'_>, tally: &mut Tally<'_>) {
-    elastic(known, |times, shear, name| {
+    elastic(known, |times, _, name| {
         tally.add(times, || {
             let text = format!(
-                "{} is elastic, but a drift of {:.1} % is {times:.1} times that at which frames yield, and its base shear is {shear:.2} of its weight",
+                "{} is elastic, but a drift of {:.1} % is {times:.1} times that at which frames yield",
                 quoted(name),
                 100.0 * YIELD_DRIFT * times
             );

@@ -40,7 +40,7 @@ pub(super) fn crushed_notes(model: &Model, system: &System, state: &State) -> Ve
         if deepest > 0.0 {
             let [left, right] = gap.between.map(|side| system.side_name(side));
             notes.push(format!(
-                "faces between \"{left}\" and \"{right}\" are crushed by up to {:.2} mm at the end, and the gap is wider by it; indentations of impacts count from the face as they found it",
+                "faces between \"{left}\" and \"{right}\" are crushed by up to {:.2} mm at the end, which widens the gap; the indentation of an impact is measured from the face already crushed",
                 1e3 * deepest
             ));
         }

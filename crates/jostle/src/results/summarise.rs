@@ -671,11 +671,11 @@ fn accuracy_warnings(accuracy: &Accuracy, remedy: &str) -> impl Iterator<Item = 
     let until = if residual > tolerance {
         ""
     } else {
-        "the tolerance is met until then; "
+        ", and meet the tolerance"
     };
     let sensitive = sensitive_from.map(|from| {
         format!(
-            "sensitive from t = {from:.3} s: {until}contacts are made or missed there by less than the run may be off, and later impacts and peaks depend on them; what comes before holds"
+            "results are sensitive from t = {from:.3} s: an error below the tolerance decides there whether a contact occurs, and later impacts and peaks depend on it; earlier results are reliable{until}"
         )
     });
     missed.into_iter().chain(sensitive)

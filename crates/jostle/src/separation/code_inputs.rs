@@ -143,6 +143,8 @@ pub struct CodeInputs {
     pub motion: MotionLevel,
     /// Structural system for GB 50011; `None` is concrete frames.
     pub system: Option<JointSystem>,
+    /// Fortification intensity for GB 50011, 6 to 9; `None` lists all four.
+    pub intensity: Option<u32>,
     /// Whether all floors that face each other lie at equal height; `None` follows the model.
     pub floors_are_level: Option<bool>,
     /// a_g S of NTC 2018; `None` is the peak of the motion \[m/s²\].

@@ -51,7 +51,7 @@ pub fn tbdy2018_joint(unreduced: [f64; 2], floors_are_level: bool, height: f64) 
 }
 
 /// NTC 2018 §7.2.1: sum of the greatest displacements at the life-safety limit state, at least h/100 times 2 a_g S/g,
-/// which counts up to 1 \[m\].
+/// which is taken as at most 1 \[m\].
 ///
 /// `height` of the place above the foundation \[m\]; `ground_acceleration` a_g S over g \[–\].
 #[must_use]

@@ -42,18 +42,20 @@ impl System {
                 Some((foundation, ground))
             });
             let in_plan = founded_in_plan(model, index).filter(|_| has_plan);
+            let mut damped_at = Vec::new();
+            let mut fixed = |on_mat| {
+                fixed(model, index, points, on_mat)
+                    .inspect(|fixed| damped_at.clone_from(&fixed.damped_at))
+            };
             let damping = match (building.base.isolation, &on_soil, in_plan) {
-                (Some(_), ..) => {
-                    fixed(model, index, points, true).map(|fixed| (rayleigh(&fixed), None, None))
-                }
-                (None, Some((foundation, ground)), _) => fixed(model, index, points, false)
+                (Some(_), ..) => fixed(true).map(|fixed| (rayleigh(&fixed), None, None)),
+                (None, Some((foundation, ground)), _) => fixed(false)
                     .and_then(|fixed| Founded::new(building, &fixed, points, foundation, ground))
                     .map(|founded| (founded.damping.clone(), Some((founded, *foundation)), None)),
-                (None, None, Some((foundation, soil))) => fixed(model, index, points, false)
-                    .and_then(|fixed| {
-                        let own = FoundationInPlan::new(building, &fixed, &foundation, &soil)?;
-                        Ok((rayleigh(&fixed), None, Some(own)))
-                    }),
+                (None, None, Some((foundation, soil))) => fixed(false).and_then(|fixed| {
+                    let own = FoundationInPlan::new(building, &fixed, &foundation, &soil)?;
+                    Ok((rayleigh(&fixed), None, Some(own)))
+                }),
                 (None, None, None) => Ok((building.damping.clone(), None, None)),
             };
             let (damping, founded, in_plan) = match damping {
@@ -113,6 +115,7 @@ impl System {
                     problem,
                 });
             }
+            assembled.damped_at.append(&mut damped_at);
             assembled.foundation_in_plan = in_plan.and_then(|own| own.under(&assembled));
             if let Some((founded, foundation)) = &founded {
                 assembled.foundation = founded.place(&assembled, *foundation);

@@ -63,7 +63,8 @@ pub struct BuildingSystem {
     pub foundation_in_plan: Option<FoundationInPlan>,
     /// The ratio of critical damping that all modes have, where damping is not Rayleigh's \[–\].
     pub modal_damping: Option<f64>,
-    /// The modes at which Rayleigh damping has its ratio; empty without such modes.
+    /// The modes at which Rayleigh damping has its ratio, of the building fixed on its mat or foundation if it has one; empty without such
+    /// modes.
     pub damped_at: Vec<DampedMode>,
     /// Lateral modes, longest period first; empty when the building can move without deforming.
     /// [`crate::eigen::modes`] finds those of all kinds.

@@ -192,7 +192,7 @@ fn every_impact_has_a_panel_and_the_hardest_opens() {
     let name = "document.querySelector('.impact-name').textContent";
     let said = page.text(name);
     assert!(
-        said.contains("the hardest of") && said.contains(&format!("{:.3} s", impacts[0].start_s)),
+        said.contains("the largest of") && said.contains(&format!("{:.3} s", impacts[0].start_s)),
         "{said}"
     );
     let panels = "document.querySelectorAll('.impact-panel').length";
@@ -239,7 +239,7 @@ fn every_impact_has_a_panel_and_the_hardest_opens() {
             "row {row}, {place} at {start} s: {said}"
         );
     }
-    page.value("[...document.querySelectorAll('#impact-panels button')].find((b) => b.textContent === 'Hardest').click()");
+    page.value("[...document.querySelectorAll('#impact-panels button')].find((b) => b.textContent === 'Largest').click()");
     assert_eq!(page.text(name), said);
     page.assert_content();
 }

@@ -55,10 +55,10 @@ impl PromiseSummary {
         };
         match (self.met_until_s, self.sensitive_from_s) {
             (Some(until), _) => format!(
-                "accuracy: {estimate} until t = {until:.3} s; sensitive from there: contacts are made or missed by less than the error"
+                "accuracy: {estimate} until t = {until:.3} s; sensitive from there: an error below the tolerance decides whether contacts occur"
             ),
             (None, Some(from)) => format!(
-                "accuracy: {estimate}; sensitive from t = {from:.3} s, holds for peaks before it"
+                "accuracy: {estimate}; sensitive from t = {from:.3} s; earlier peaks are reliable"
             ),
             (None, None) => format!("accuracy: {estimate}"),
         }

@@ -19,7 +19,9 @@ impl Table<'_> {
                 "system = frame (default: of concrete)".to_owned(),
             ),
         };
-        for intensity in 6..=9 {
+        let wanted = |own: &u32| self.inputs.intensity.is_none_or(|only| only == *own);
+        let intensities: Vec<u32> = (6..=9).filter(wanted).collect();
+        for intensity in intensities {
             let width = gb50011_joint(height, intensity, system).filter(|width| width.is_finite());
             if let Some(width) = width {
                 self.add(
