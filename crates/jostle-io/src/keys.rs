@@ -447,6 +447,8 @@ pub(crate) const LINK_RULES: &[&str] = &joined::<8>(&[RULES, &["buckling"]]);
 pub(crate) const BUCKLING_CURVES: &[&str] = &BucklingCurve::NAMES;
 /// Where shear springs of columns stand.
 pub(crate) const SHEAR_ENDS: &[&str] = &["foot", "both"];
+/// Columns whose axial failure comes before shear failure.
+pub(crate) const AXIAL_FIRST: &[&str] = &["refuse", "axial-limit"];
 /// Rules of hinges of frames: fibres are several springs.
 pub(crate) const HINGE_RULES: &[&str] = &joined::<8>(&[RULES, &["fibre"]]);
 /// Where fibres stand: at both ends of all columns, or at their feet on the ground.
@@ -1085,6 +1087,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::ShearFailure, "rule", Choice(CAPACITY_RULES), "Rule for the shear strength of columns with bars and ties, under their axial load."),
     optional(S::ShearFailure, "strength", PerStorey(D::Force), "Shear strength of the columns, instead of rule.").usual("a shear strength", 100.0, 1e9),
     default(S::ShearFailure, "slope", PerStorey(D::Stiffness), "by Elwood and Moehle, from their axial load and ties", "Shear that a column loses per drift after failure; required with strength.").usual("a slope", 1e3, 9e10).signed(),
+    default(S::ShearFailure, "axial_first", Choice(AXIAL_FIRST), "\"refuse\"", "rule: columns that would lose their axial load before they fail in shear, by Elwood and Moehle. \"axial-limit\": they lose their shear from their strength on, until the drift at axial failure; the axial load itself stays."),
     default(S::ShearFailure, "residual", Quantity(D::Dimensionless), "0", "Shear strength that remains, over that at failure.").usual("a ratio", 1e-4, 1.0),
     default(S::ShearFailure, "ends", Choice(SHEAR_ENDS), "both where neighbours can strike a column between floors", "Where shear springs stand."),
     required(S::Hinges, "rule", Choice(HINGE_RULES), "Unloading and reloading rule of hinges; fibre: ends of columns are fibres of concrete and steel, so that their strength follows their axial force."),
