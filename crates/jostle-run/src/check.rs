@@ -382,11 +382,12 @@ fn describe(
         if let Some(foundation) = building.foundation {
             let mass = building.equations.total_mass();
             let sticks = &building.discretization.stick_model;
-            let bed = sticks.foundation.as_ref().map(|own| &own.bed[..]);
-            describe_foundation(text, &foundation, mass, bed.unwrap_or_default())?;
+            describe_foundation(text, &foundation, mass, &sticks.bed)?;
         }
         if let Some(foundation) = &building.foundation_in_plan {
-            describe_foundation_in_plan(text, foundation)?;
+            let mass = building.equations.total_mass();
+            let bed = &building.discretization.stick_model.bed;
+            describe_foundation_in_plan(text, foundation, mass, bed)?;
         }
         if let Some(hinges) = &model.buildings[index].hinges {
             describe_hinges(text, hinges)?;

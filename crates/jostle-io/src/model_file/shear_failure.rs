@@ -203,7 +203,10 @@ fn by_rule(
                 return None;
             }
         };
-        let fall = match (slope.map(|slope| slope[storey]).or(loss.slope), to_axial_limit) {
+        let fall = match (
+            slope.map(|slope| slope[storey]).or(loss.slope),
+            to_axial_limit,
+        ) {
             (Some(slope), _) => Fall::Slope(slope),
             (None, true) => Fall::To(loss.axial_failure_drift * column.clear_length),
             (None, false) => {

@@ -44,7 +44,7 @@ pub use fibres::{ColumnFibres, Fibre, FibreLimit, FibreMaterial};
 pub(crate) use floor_matrices::displacement_in_words;
 pub use floor_matrices::{FloorMatrices, GivenFloor, GivenInPlan};
 pub use frame_members::FramePlace;
-pub use frame_wall::{CouplingBeam, FrameWall};
+pub use frame_wall::{CouplingBeam, FrameWall, WallHinge};
 pub use gap::{FloorPairs, Gap, LEVEL_TOLERANCE, Level, PlanContact};
 pub use given::{Given, MatrixEntry};
 pub use integrator::Integrator;

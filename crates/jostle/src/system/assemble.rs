@@ -13,8 +13,8 @@ use crate::interface::{
 };
 use crate::linear::{Row, sort_by};
 use crate::model::{
-    Base, Building, Damping, FloorPairs, Foundation, HalfSpace, LEVEL_TOLERANCE, Level, Link,
-    LinkLaw, LumpedFloor, MassDamping, Model, ModelFault, PlanPoint, Structure,
+    Base, Building, Damping, FloorPairs, Foundation, LEVEL_TOLERANCE, Level, Link, LinkLaw,
+    LumpedFloor, MassDamping, Model, ModelFault, PlanPoint, Structure,
 };
 use crate::structure::{Discretization, InnerLink, LinkEnd};
 
@@ -49,9 +49,9 @@ impl System {
                 (None, Some((foundation, ground)), _) => fixed(model, index, points, false)
                     .and_then(|fixed| Founded::new(building, &fixed, points, foundation, ground))
                     .map(|founded| (founded.damping.clone(), Some((founded, *foundation)), None)),
-                (None, None, Some((foundation, soil))) => fixed(model, index, points, false)
+                (None, None, Some((foundation, ground))) => fixed(model, index, points, false)
                     .and_then(|fixed| {
-                        let own = FoundationInPlan::new(building, &fixed, &foundation, &soil)?;
+                        let own = FoundationInPlan::new(building, &fixed, &foundation, &ground)?;
                         Ok((rayleigh(&fixed), None, Some(own)))
                     }),
                 (None, None, None) => Ok((building.damping.clone(), None, None)),
@@ -325,10 +325,10 @@ fn fixed(
     Ok(assembled)
 }
 
-/// The foundation of a building, and the half-space under it.
-fn founded_in_plan(model: &Model, index: usize) -> Option<(Foundation, HalfSpace)> {
+/// The foundation of a building with a plan, and the ground under it.
+fn founded_in_plan(model: &Model, index: usize) -> Option<(Foundation, Ground<'_>)> {
     let foundation = model.buildings[index].base.foundation?;
-    Some((foundation, model.soil.as_ref()?.half_space?))
+    Some((foundation, Ground::of(model, &foundation, 0)?))
 }
 
 fn rayleigh(building: &BuildingSystem) -> Damping {

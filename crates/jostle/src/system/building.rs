@@ -508,6 +508,13 @@ impl BuildingSystem {
         Some(motions.map(|row| self.equations.row(&sticks.carried_row(&row))))
     }
 
+    /// The rise of the middle of its base in plan over the displacements of this building; `None` if it keeps its height.
+    pub(crate) fn base_rise(&self) -> Option<Row> {
+        let sticks = &self.discretization.stick_model;
+        let rise = sticks.plan_base?.rise()?;
+        Some(self.equations.row(&sticks.carried_row(&rise)))
+    }
+
     /// The displacement of a point of its footing in a direction, over the vectors of a [`crate::State`]; `None` where it does not move.
     pub(crate) fn footing_row_at(&self, at: PlanPoint, direction: [f64; 2]) -> Option<Row> {
         let own = self.discretization.stick_model.plan_base?;

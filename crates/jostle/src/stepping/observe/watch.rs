@@ -190,6 +190,13 @@ fn of_foundation_in_plan(index: usize, building: &BuildingSystem, all: &mut Vec<
     let watches = columns.into_iter().zip(&motions);
     all.extend(watches.map(|(column, row)| Watch::new(column, Statistic::Extremes(row.clone()))));
     let [sway, sway_across, turned, rocked, rocked_across] = motions;
+    if let Some(rise) = building.base_rise() {
+        let rise = rise.moved_up(building.offset);
+        all.push(Watch::new(moved.up(), Statistic::Extremes(rise.clone())));
+        let damping = [own.springs.along.vertical_damping, 0.0, 0.0];
+        let dashpots = Statistic::Dashpots(damping, [rise, Row::default()]);
+        all.push(Watch::new(of(Kind::Work), dashpots));
+    }
     let PlanFoundationSprings {
         along,
         across,

@@ -57,6 +57,7 @@ mod storey_forces;
 mod support;
 mod total_force_of_a_gap;
 mod uplift;
+mod uplift_in_plan;
 mod vertical_in_plan;
 mod walls_in_plan;
 mod wide_gap_leaves_buildings_independent;
