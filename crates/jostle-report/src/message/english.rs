@@ -1135,11 +1135,12 @@ messages! {
     buckling_of_bars = "buckling of bars";
     fracture_of_bars = "fracture of bars";
     path_over_interaction(name) = "{name}: axial compression against moment";
+    path_in_plane(name, axis) = "{name}, bending along {axis}: axial compression against moment";
     moment_axis(unit) = "moment [{unit}]";
     compression_axis(unit) = "compression [{unit}]";
     path_of_the_run = "this run";
     interaction_of_the_section = "capacity";
-    paths_of_ends(count) = "Axial compression and moment of the {count} ends whose strains came nearest to a limit. The dashed curve is the capacity of the section without confinement and hardening, at the crushing strain of plain concrete and at 1 % in the bars: confined columns go beyond it.";
+    paths_of_ends(count) = "Axial compression and moment of the ends whose strains came nearest to a limit; {count} plots. The dashed curve is the capacity of the section in that plane of bending alone, without confinement and hardening, at the crushing strain of plain concrete and at 1 % in the bars: confined columns go beyond it.";
 
     // panels
     infill_panels = "Infill panels";
