@@ -118,6 +118,8 @@ pub(crate) enum Section {
     Damping,
     /// Columns of a frame that fail in shear.
     ShearFailure,
+    RotationLimit,
+    RotationLevels,
     /// Hinges of a frame.
     Hinges,
     /// Hinges of columns or of beams.
@@ -447,6 +449,9 @@ pub(crate) const LINK_RULES: &[&str] = &joined::<8>(&[RULES, &["buckling"]]);
 pub(crate) const BUCKLING_CURVES: &[&str] = &BucklingCurve::NAMES;
 /// Where shear springs of columns stand.
 pub(crate) const SHEAR_ENDS: &[&str] = &["foot", "both"];
+/// Members whose rotations have limits, and which rotations.
+pub(crate) const LIMITED_MEMBERS: &[&str] = &["columns", "beams"];
+pub(crate) const ROTATION_MEASURES: &[&str] = &["plastic", "chord"];
 /// Where walls yield.
 pub(crate) const WALL_HINGES: &[&str] = &["foot", "all"];
 /// Columns whose axial failure comes before shear failure.
@@ -688,6 +693,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Building, "motion", Kind::TableOf(&[S::OwnMotion, S::Motion]), "The ground under this building, if it differs: arrival, a motion of its own, or a scale of the common one. A motion without an amplitude or a scaling of its own has the factor of the common one."),
     default(S::Building, "gravity", Flag, "false", "Start the run from the displacements under self weight. With a plan, columns carry the floors' own masses in equal shares, which then rise and sink with them."),
     optional(S::Building, "codes", Kind::Table(S::BuildingCodes), "Factors of this building in the separation rules of codes, such as `{ behaviour_factor = 3.9 }`."),
+    optional(S::Building, "rotation_limit", Tables(&[S::RotationLimit]), "Rotations of hinges at which members reach levels of performance; of several tables that name a member the last one holds."),
     default(S::Building, "p_delta", Flag, "true with hinges, else false", "Include P-Delta from the weight above."),
 
     default(S::Frame, "base", WordOrTable("fixed", &[S::ShearBase, S::FrameBase]), "\"fixed\"", "Springs and dashpots under every column."),
@@ -1088,6 +1094,17 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Damping, "beta", Quantity(D::Time), "Rayleigh coefficient on the stiffness, instead of ratio.").usual("a Rayleigh coefficient", 1e-7, 1.0),
     default(S::Damping, "relative_to", Choice(&["foundation", "ground"]), "\"foundation\"", "On a foundation: what damping in proportion to mass acts relative to. \"foundation\" does not damp a building that sways and rocks as a rigid body; \"ground\" damps every mass and rotary inertia."),
     default(S::Damping, "yielding", Choice(&["initial", "tangent", "none"]), "\"initial\" for storeys, columns and walls in plan; \"none\" for hinges of members", "Damping in proportion to stiffness of parts that yield: by their initial stiffness, by their present one, or none. It never acts on isolators, bases, soil or columns that fail in shear."),
+
+    required(S::RotationLimit, "of", Choice(LIMITED_MEMBERS), "Which members: columns, with walls, or beams."),
+    default(S::RotationLimit, "line", Kind::FromTo, "all", "columns of plane frames: column line, counted from 1; or the first and the last."),
+    default(S::RotationLimit, "storeys", Kind::FromTo, "all", "columns: storey, counted from 1; or the first and the last."),
+    default(S::RotationLimit, "bay", Kind::FromTo, "all", "beams of plane frames: bay, counted from 1; or the first and the last."),
+    default(S::RotationLimit, "floors", Kind::FromTo, "all", "beams: floor, counted from 1; or the first and the last."),
+    default(S::RotationLimit, "measure", Choice(ROTATION_MEASURES), "\"plastic\"", "Which rotation is limited: that of the hinge beyond yield, or the chord rotation, of the hinge and of the member bent in double curvature together."),
+    required(S::RotationLimit, "limits", Kind::Table(S::RotationLevels), "Greatest rotation of each level; one of them at least."),
+    optional(S::RotationLevels, "io", Quantity(D::Dimensionless), "Immediate occupancy.").usual("a rotation", 1e-4, 0.2),
+    optional(S::RotationLevels, "ls", Quantity(D::Dimensionless), "Life safety.").usual("a rotation", 1e-4, 0.2),
+    optional(S::RotationLevels, "cp", Quantity(D::Dimensionless), "Collapse prevention.").usual("a rotation", 1e-4, 0.2),
 
     optional(S::ShearFailure, "rule", Choice(CAPACITY_RULES), "Rule for the shear strength of columns with bars and ties, under their axial load."),
     optional(S::ShearFailure, "strength", PerStorey(D::Force), "Shear strength of the columns, instead of rule.").usual("a shear strength", 100.0, 1e9),

@@ -43,6 +43,7 @@ mod report;
 mod rigid_ends;
 mod section;
 mod shear;
+mod rotation_limits;
 mod shear_failure;
 mod site;
 mod slab;

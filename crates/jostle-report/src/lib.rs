@@ -42,6 +42,7 @@ mod pushover;
 mod rules;
 mod section;
 mod selection;
+mod rotation_levels;
 mod shear_failures;
 mod site_drawing;
 mod site_places;

@@ -10,7 +10,7 @@ use crate::tiles::tiles;
 use crate::verdict::{outside, verdict};
 use crate::{
     Page, bounds, calculation, checks, contact_box, describe, devices, fibres, floor_spectra,
-    friction, grounds, hinges, joints, members, method, panels, payload, shear_failures, site_plan,
+    friction, grounds, hinges, joints, members, method, panels, payload, rotation_levels, shear_failures, site_plan,
     spread, tables,
 };
 
@@ -96,6 +96,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                     @if let Some(fibres) = fibres::section(page) { (fibres) }
                     @if let Some(panels) = panels::section(page) { (panels) }
                     @if let Some(failures) = shear_failures::section(page) { (failures) }
+                    @if let Some(levels) = rotation_levels::section(page) { (levels) }
                     @if let Some(devices) = devices::section(page) { (devices) }
                     section #impacts.muted[outside.is_some()] {
                         h2 { (message::impacts_title()) }

@@ -1152,6 +1152,15 @@ messages! {
     damage_state = "damage state";
     across_its_plane = "across its plane";
 
+    // rotation_levels
+    levels_of_members = "Members against stated limits";
+    members_beyond_levels(name, members, io, ls, cp) = "{name}: of {members} members with limits of the rotation of their hinges, {io} went beyond IO, {ls} beyond LS and {cp} beyond CP.";
+    first_levels_of_members(most_rows, all) = "The first {most_rows} of {all}; summary.json contains all of them.";
+    worst_level_first = "The end of each member that came furthest, the highest level first; limits are those of the model.";
+    beyond_level = "beyond";
+    limit_of_level(level) = "{level}";
+    beyond_at(level) = "beyond {level} at";
+
     // shear_failures
     columns_that_fail_in_shear = "Columns that fail in shear";
     columns_failed_in_shear(name, failed, total, first, dissipated) = "{name}: {failed} of {total} columns fail in shear, first at {first}; {dissipated} dissipated.";

@@ -21,6 +21,7 @@ mod plan_bearings;
 mod plan_foundation;
 mod plan_frame;
 mod plan_spring;
+mod rotation_limits;
 mod shear_spring;
 mod soil;
 mod space_frame;
@@ -55,6 +56,7 @@ pub use isolation::{
 pub use link_law::LinkLaw;
 pub use members::{JointRequest, MemberRequest};
 pub use moment_surface::MomentSurface;
+pub use rotation_limits::{LimitedMembers, RotationLevel, RotationLimit};
 pub use plan_foundation::PlanFoundationSprings;
 pub use plan_frame::{LumpedFloor, PlanFrame, SharedColumn};
 pub use plan_spring::{PlanAxis, PlanSpring};
@@ -152,6 +154,8 @@ pub struct Building {
     pub yielding_damping: Option<ProportionalDamping>,
     /// Motion against which mass-proportional damping acts.
     pub mass_damping: MassDamping,
+    /// Rotations of hinges at which members reach levels of performance; a later one replaces an earlier one.
+    pub rotation_limits: Vec<RotationLimit>,
 }
 
 impl Default for Building {
@@ -172,6 +176,7 @@ impl Default for Building {
             hinges: None,
             yielding_damping: None,
             mass_damping: MassDamping::default(),
+            rotation_limits: Vec::new(),
         }
     }
 }

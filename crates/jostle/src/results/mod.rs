@@ -18,6 +18,7 @@ mod parts;
 pub mod registry;
 mod required;
 pub mod response;
+mod rotation_levels;
 mod sections;
 mod shear_failure;
 mod summarise;

@@ -23,6 +23,7 @@ use crate::results::response::{
     Amplification, BuildingResponse, FloorResponse, building_response, floor_responses,
 };
 use crate::results::sections::sections_of;
+use crate::results::rotation_levels::rotation_levels;
 use crate::results::shear_failure::shear_failures;
 use crate::results::summary::{
     BuildingSummary, ContactSummary, EnergySummary, FloorSummary, Floors, GapSummary, HingeSummary,
@@ -190,6 +191,7 @@ fn building_summary(index: usize, run: &Run) -> BuildingSummary {
         sections: sections_of(index, building, run.outcome),
         degree_of_coupling: degree_of_coupling(index, building, run.outcome),
         shear_failures: shear_failures(index, run),
+        rotation_levels: rotation_levels(index, run),
         name: building.name.clone(),
         mass_kg: building.equations.total_mass(),
         periods_s: building

@@ -89,6 +89,14 @@ impl System {
                 continue;
             }
             assembled.weaken_with_ductility(building);
+            assembled.limit_rotations(building);
+            if assembled.limited_ends.is_empty() && !building.rotation_limits.is_empty() {
+                faults.push(ModelFault {
+                    path: format!("building[{index}].rotation_limit"),
+                    problem: "names no hinge of a member: the building is elastic, or its members have other lines and storeys; add hinges, or leave it out".into(),
+                });
+                continue;
+            }
             // Modes and damping are those with the links between its floors.
             match inner_links(&assembled, model, index) {
                 Ok(links) if founded.is_none() => assembled.link(links),

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::damping::DampedMode;
 use super::plan_mat::MatInPlan;
 use super::plan_soil::FoundationInPlan;
+use super::limited_ends::LimitedEnd;
 use super::plan_storey::PlanStorey;
 use super::soil::FoundationPlace;
 use super::weakening::Weakening;
@@ -72,6 +73,8 @@ pub struct BuildingSystem {
     pub members: MemberForces,
     /// Columns whose shear strength falls with the ductility of their hinges.
     pub(crate) weakening: Vec<Weakening>,
+    /// Hinges whose rotations have limits.
+    pub limited_ends: Vec<LimitedEnd>,
     /// The same building without neighbours on the soil, where they act on its foundation.
     alone: Option<Arc<AssembledBuilding>>,
     /// The recursion through its equations, shared by all runs.
@@ -239,6 +242,7 @@ impl BuildingSystem {
             modes,
             members: MemberForces::default(),
             weakening: Vec::new(),
+            limited_ends: Vec::new(),
             alone: None,
             sweep: Arc::new(sweep),
         }
@@ -302,6 +306,11 @@ impl BuildingSystem {
     /// Lets the shear strength of its columns fall with the ductility of their hinges, where the model says so.
     pub(super) fn weaken_with_ductility(&mut self, model: &Building) {
         self.weakening = Weakening::all(model, &self.structure);
+    }
+
+    /// Finds the hinges whose rotations the model limits.
+    pub(super) fn limit_rotations(&mut self, model: &Building) {
+        self.limited_ends = LimitedEnd::all(model, &self.structure);
     }
 
     /// Lowers shear strengths to those at the ductility so far. `memories`: those of its springs.

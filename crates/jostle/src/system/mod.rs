@@ -6,6 +6,7 @@ mod damping;
 mod finite;
 mod grounds;
 mod half_space;
+mod limited_ends;
 mod members;
 mod plan_mat;
 mod plan_soil;
@@ -24,6 +25,7 @@ pub use building::{BuildingSystem, Corner, Direction, Floor, SpringSupport, Trac
 pub use damping::DampedMode;
 pub(crate) use grounds::{GroundsAt, OverStep, RunGrounds};
 pub use plan_mat::MatInPlan;
+pub use limited_ends::LimitedEnd;
 pub use plan_soil::FoundationInPlan;
 pub use plan_storey::PlanStorey;
 pub use rating::{MemberRating, RatedPart};

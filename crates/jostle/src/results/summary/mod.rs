@@ -15,6 +15,7 @@ mod links;
 mod members;
 mod parts;
 mod sections;
+mod rotation_levels;
 mod shear_failure;
 
 pub use super::ground::{GroundInPlan, GroundSummary};
@@ -37,6 +38,7 @@ pub use members::{
 };
 pub use parts::{PanelDamageSummary, PartSummary};
 pub use sections::{FibreAcrossSummary, FibreSummary, StrainLimitSummary};
+pub use rotation_levels::{MemberLevel, ReachedLevel, RotationLevelsSummary};
 pub use shear_failure::{ShearFailure, ShearFailureSummary};
 
 use serde::Serialize;
