@@ -1,6 +1,6 @@
 //! What a number of a run belongs to, and what it is: columns of histories and keys of peaks.
 
-use crate::model::FibreLimit;
+use crate::model::{FibreLimit, RotationLevel};
 use crate::quantity::Unit;
 use crate::system::Direction;
 

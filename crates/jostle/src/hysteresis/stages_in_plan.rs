@@ -10,13 +10,15 @@
 //! path of F has the closed form of Krieg and Krieg. A step takes that path as straight: exact along a line, an error of second order on
 //! a curved one. At the rim the bowl holds s on its circle, and q keeps no more of F than friction allows.
 
-use super::circular::{CircularForce, CircularLaw, PlanAnswer};
+use super::circular::{CircularForce, CircularLaw, PlanAnswer, dot};
 use super::memory::HysteresisMemory;
 use super::pendulums::SlidingStage;
 
-/// Newton's steps for the force of a displacement, and the change of the force at which it ends, over the force.
-const MOST_STEPS: usize = 200;
-const SAME_FORCE: f64 = 1e-15;
+/// Most steps of Newton's method for the force of a displacement, and of the search along one of them.
+const MOST_STEPS: usize = 60;
+const MOST_HALVINGS: usize = 40;
+/// What a displacement may be missed by, over all lengths that enter it \[–\].
+const SAME: f64 = 1e-15;
 
 /// A place of a stage, and the symmetric part \[a b; b c\] of its flexibility ds/dF there.
 #[derive(Clone, Copy)]
@@ -51,13 +53,10 @@ impl SlidingStage {
             let share = self.travel / reached;
             let [c, s] = place.map(|own| own / reached);
             place = [c, s].map(|own| own * self.travel);
-            // What goes outwards is held: (1 − n nᵀ) ds/dF, its symmetric part.
-            let [a, b, d] = flexibility.map(|own| own * share);
-            flexibility = [
-                s * (s * a - c * b),
-                0.5 * (b - c * s * (a + d)),
-                c * (c * d - s * b),
-            ];
+            // What goes outwards is held: only what moves it along the rim is left of ds/dF.
+            let [a, b, d] = flexibility;
+            let along = share * (s * s * a - 2.0 * s * c * b + c * c * d);
+            flexibility = [along * s * s, -along * s * c, along * c * c];
         }
         Slid { place, flexibility }
     }
@@ -78,6 +77,72 @@ impl SlidingStage {
     }
 }
 
+/// A bearing on its way from a state.
+struct Way<'a> {
+    elastic: f64,
+    stages: &'a [SlidingStage; 3],
+    from: [&'a HysteresisMemory; 2],
+    to: [f64; 2],
+}
+
+/// What a force misses the displacement by \[m\], the flexibility \[a b; b c\] there \[m/N\], and the lengths that enter \[m\].
+struct Missed {
+    by: [f64; 2],
+    flexibility: [f64; 3],
+    scale: f64,
+}
+
+impl Way<'_> {
+    fn missed(&self, force: [f64; 2]) -> Missed {
+        let before = self.from.map(|memory| memory.force);
+        let stretched = force.map(|own| own / self.elastic);
+        let mut by = [0, 1].map(|axis| self.to[axis] - stretched[axis]);
+        let mut flexibility = [1.0 / self.elastic, 0.0, 1.0 / self.elastic];
+        let mut scale = size(self.to) + size(stretched);
+        for (index, stage) in self.stages.iter().enumerate() {
+            let place = self.from.map(|memory| memory.offsets[index]);
+            let own = stage.slid(place, before, force);
+            by = [0, 1].map(|axis| by[axis] - own.place[axis]);
+            scale += size(own.place);
+            for (sum, own) in flexibility.iter_mut().zip(own.flexibility) {
+                *sum += own;
+            }
+        }
+        Missed {
+            by,
+            flexibility,
+            scale,
+        }
+    }
+
+    /// How far to go along a change of the force, 0 to 1: all of it, unless it goes too far past a corner. Along it the displacement only
+    /// grows, by `first` ahead of the start.
+    fn share(&self, force: [f64; 2], change: [f64; 2], first: f64) -> f64 {
+        let ahead = |share: f64| {
+            let at = [0, 1].map(|axis| force[axis] + share * change[axis]);
+            dot(self.missed(at).by, change)
+        };
+        let (mut low, mut high) = ([0.0, first], [1.0, ahead(1.0)]);
+        if high[1] >= -0.5 * first {
+            return 1.0;
+        }
+        for _ in 0..MOST_HALVINGS {
+            let secant = low[0] + (high[0] - low[0]) * low[1] / (low[1] - high[1]);
+            let middle = [secant, ahead(secant)];
+            if middle[1].abs() <= 0.1 * first {
+                return secant;
+            }
+            // The end that stays counts half (Illinois).
+            if middle[1] > 0.0 {
+                (low, high) = (middle, [high[0], 0.5 * high[1]]);
+            } else {
+                (low, high) = ([low[0], 0.5 * low[1]], middle);
+            }
+        }
+        low[0]
+    }
+}
+
 /// Force and tangent at a displacement reached on a straight path from the state of the rows along x and across.
 pub(super) fn answer(
     elastic: f64,
@@ -85,42 +150,30 @@ pub(super) fn answer(
     from: [&HysteresisMemory; 2],
     to: [f64; 2],
 ) -> PlanAnswer {
-    let before = from.map(|memory| memory.force);
-    let mut force = before;
-    let mut flexibility = [0.0; 3];
-    let (mut step, mut last) = (1.0, f64::INFINITY);
+    let way = Way {
+        elastic,
+        stages,
+        from,
+        to,
+    };
+    let mut force = from.map(|memory| memory.force);
+    let mut missed = way.missed(force);
     for _ in 0..MOST_STEPS {
-        let mut missed = [0, 1].map(|axis| to[axis] - force[axis] / elastic);
-        flexibility = [1.0 / elastic, 0.0, 1.0 / elastic];
-        for (index, stage) in stages.iter().enumerate() {
-            let place = from.map(|memory| memory.offsets[index]);
-            let own = stage.slid(place, before, force);
-            for axis in [0, 1] {
-                missed[axis] -= own.place[axis];
-            }
-            for (sum, own) in flexibility.iter_mut().zip(own.flexibility) {
-                *sum += own;
-            }
-        }
-        let left = libm::hypot(missed[0], missed[1]);
-        // Where Newton's method oscillates about a corner, it takes part of its steps.
-        step = if left > 0.9 * last {
-            0.5 * f64::max(step, 0.02)
-        } else {
-            f64::min(1.0, 1.5 * step)
-        };
-        last = left;
-        let [a, b, c] = stiffness_of(flexibility);
-        let change = [a * missed[0] + b * missed[1], b * missed[0] + c * missed[1]];
-        for axis in [0, 1] {
-            force[axis] += step * change[axis];
-        }
-        let changed = libm::hypot(change[0], change[1]);
-        if changed <= SAME_FORCE * libm::hypot(force[0], force[1]) {
+        if size(missed.by) <= SAME * missed.scale {
             break;
         }
+        let [a, b, c] = stiffness_of(missed.flexibility);
+        let [x, y] = missed.by;
+        let change = [a * x + b * y, b * x + c * y];
+        let share = way.share(force, change, dot(missed.by, change));
+        force = [0, 1].map(|axis| force[axis] + share * change[axis]);
+        missed = way.missed(force);
     }
-    PlanAnswer::new(force, stiffness_of(flexibility))
+    PlanAnswer::new(force, stiffness_of(missed.flexibility))
+}
+
+fn size([x, y]: [f64; 2]) -> f64 {
+    libm::hypot(x, y)
 }
 
 /// Places of all stages under a force, from the state of both rows.
