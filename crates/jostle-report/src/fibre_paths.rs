@@ -91,17 +91,19 @@ fn plot(page: &Page, end: &End<'_>, plane: usize) -> Option<Plot> {
     let mut known = page.sections.iter();
     let known = known
         .find(|own| own.building == end.building && own.members.iter().any(|name| *name == member));
-    lines.extend(known.map(|own| Line {
-        name: message::interaction_of_the_section().to_owned(),
-        points: match plane {
-            0 => outline(own.section),
-            _ => outline(&own.section.turned()),
+    lines.extend(known.map(|own| {
+        Line {
+            name: message::interaction_of_the_section().to_owned(),
+            points: match plane {
+                0 => outline(own.section),
+                _ => outline(&own.section.turned()),
+            }
+            .into_iter()
+            .map(shown)
+            .collect(),
+            colour: end.building + 1,
+            dashed: true,
         }
-        .into_iter()
-        .map(shown)
-        .collect(),
-        colour: end.building + 1,
-        dashed: true,
     }));
     Some(Plot {
         title: match (end.section.rotations.len(), plane) {

@@ -10,8 +10,8 @@ use crate::tiles::tiles;
 use crate::verdict::{outside, verdict};
 use crate::{
     Page, bounds, calculation, checks, contact_box, describe, devices, fibres, floor_spectra,
-    friction, grounds, hinges, joints, members, method, panels, payload, rotation_levels, shear_failures, site_plan,
-    spread, tables,
+    friction, grounds, hinges, joints, members, method, panels, payload, rotation_levels,
+    shear_failures, site_plan, spread, tables,
 };
 
 /// The scripts, in the order of their dependence; together they are one module.

@@ -56,10 +56,10 @@ pub use isolation::{
 pub use link_law::LinkLaw;
 pub use members::{JointRequest, MemberRequest};
 pub use moment_surface::MomentSurface;
-pub use rotation_limits::{LimitedMembers, RotationLevel, RotationLimit};
 pub use plan_foundation::PlanFoundationSprings;
 pub use plan_frame::{LumpedFloor, PlanFrame, SharedColumn};
 pub use plan_spring::{PlanAxis, PlanSpring};
+pub use rotation_limits::{LimitedMembers, RotationLevel, RotationLimit};
 pub use shear_spring::{ShearEnds, ShearSpring};
 pub use soil::{Foundation, FoundationSprings, HalfSpace, Soil, SoilCoupling};
 pub use space_frame::{SpaceFrame, SpaceMember, SpacePlace, SpaceSection, SpaceWall};

@@ -12,9 +12,10 @@ use super::summary::{
     ContactSummary, EnergySummary, ExceededSummary, FibreAcrossSummary, FibreSummary, FloorSummary,
     ForcesSummary, FoundationAcross, FoundationSummary, GapSummary, HingeSummary, ImpactSummary,
     IsolationInPlan, IsolationSummary, JointRatio, JointSummary, LinkFloorSummary, LinkSummary,
-    MemberComparison, MotionSummary, PartSummary, PromiseSummary, RatioPlace, RatioSummary,
-    ReachedLevel, RotationLevelsSummary, SectionSummary, ShearFailure, ShearFailureSummary, SpringSummary, StageSummary,
-    StrainLimitSummary, StruckSummary, Summary, WallSummary, WorkSummary,
+    MemberComparison, MemberLevel, MotionSummary, PartSummary, PromiseSummary, RatioPlace,
+    RatioSummary, ReachedLevel, RotationLevelsSummary, SectionSummary, ShearFailure,
+    ShearFailureSummary, SpringSummary, StageSummary, StrainLimitSummary, StruckSummary, Summary,
+    WallSummary, WorkSummary,
 };
 use crate::quantity::{Places, Quantity};
 

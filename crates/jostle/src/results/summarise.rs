@@ -22,8 +22,8 @@ use crate::results::parts::{degree_of_coupling, panel_warnings, parts_of};
 use crate::results::response::{
     Amplification, BuildingResponse, FloorResponse, building_response, floor_responses,
 };
-use crate::results::sections::sections_of;
 use crate::results::rotation_levels::rotation_levels;
+use crate::results::sections::sections_of;
 use crate::results::shear_failure::shear_failures;
 use crate::results::summary::{
     BuildingSummary, ContactSummary, EnergySummary, FloorSummary, Floors, GapSummary, HingeSummary,

@@ -4,9 +4,9 @@ use std::ops::Deref;
 use std::sync::Arc;
 
 use super::damping::DampedMode;
+use super::limited_ends::LimitedEnd;
 use super::plan_mat::MatInPlan;
 use super::plan_soil::FoundationInPlan;
-use super::limited_ends::LimitedEnd;
 use super::plan_storey::PlanStorey;
 use super::soil::FoundationPlace;
 use super::weakening::Weakening;

@@ -14,8 +14,8 @@ mod joints;
 mod links;
 mod members;
 mod parts;
-mod sections;
 mod rotation_levels;
+mod sections;
 mod shear_failure;
 
 pub use super::ground::{GroundInPlan, GroundSummary};
@@ -37,8 +37,8 @@ pub use members::{
     AcrossSummary, ForcesSummary, MemberComparison, MemberSummary, SectionSummary, StruckSummary,
 };
 pub use parts::{PanelDamageSummary, PartSummary};
-pub use sections::{FibreAcrossSummary, FibreSummary, StrainLimitSummary};
 pub use rotation_levels::{MemberLevel, ReachedLevel, RotationLevelsSummary};
+pub use sections::{FibreAcrossSummary, FibreSummary, StrainLimitSummary};
 pub use shear_failure::{ShearFailure, ShearFailureSummary};
 
 use serde::Serialize;

@@ -45,6 +45,7 @@ mod offset_struts;
 mod plan_frames;
 mod riccati_equals_direct_stiffness;
 mod rigid_ends;
+mod rotation_levels;
 mod rows_of_buildings;
 mod same_input_same_bits;
 mod series_stepping;
