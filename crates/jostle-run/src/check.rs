@@ -108,6 +108,7 @@ fn checked(opened: &Opened) -> Result<Check, RunError> {
     );
     let mut warnings = opened.input.warnings.clone();
     warnings.extend(jostle::results::foundation_warnings(&opened.system));
+    warnings.extend(jostle::results::wall_warnings(&opened.input.model));
     warnings.extend(jostle::results::friction_warnings(
         &opened.input.model,
         &opened.system,

@@ -14,6 +14,7 @@ use crate::motion::GroundMotion;
 use crate::results::capacity;
 use crate::results::contact_constants::crushed_notes;
 use crate::results::foundation::{foundation_summary, foundation_warnings, soil_energy};
+use crate::results::walls_beyond_plan::wall_warnings;
 use crate::results::friction::friction_warnings;
 use crate::results::ground::{closing_of_grounds, ground_summary};
 use crate::results::isolation::{isolation_summary, mat_summary, wall_summaries};
@@ -648,6 +649,7 @@ fn warnings(run: &Run) -> Vec<String> {
         "compare with a run at another tolerance"
     };
     warnings.extend(foundation_warnings(run.system));
+    warnings.extend(wall_warnings(run.model));
     warnings.extend(friction_warnings(run.model, run.system));
     let accuracy = run.outcome.accuracy.iter();
     warnings.extend(accuracy.flat_map(|accuracy| accuracy_warnings(accuracy, remedy)));
