@@ -103,12 +103,18 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
         }
         let several = building.base.isolation.map(|own| own.isolator);
         let several = several.filter(|own| {
-            matches!(own, Isolator::DoublePendulum { .. } | Isolator::TriplePendulum { .. })
+            matches!(
+                own,
+                Isolator::DoublePendulum { .. } | Isolator::TriplePendulum { .. }
+            )
         });
         if let (Some(isolator), jostle::Structure::Tiers(_)) = (several, &building.structure) {
             refuse(
                 format!("building[{index}].isolation.kind"),
-                format!("\"{}\" in plan is not exported yet; take \"friction-pendulum\" with one surface to compare", isolator.name()),
+                format!(
+                    "\"{}\" in plan is not exported yet; take \"friction-pendulum\" with one surface to compare",
+                    isolator.name()
+                ),
             );
         }
         if building.base.lifts() {

@@ -66,7 +66,7 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, bays: Bays<'_>) -> 
     for entry in tables(reader, view, "wall") {
         let found = read_wall(reader, &entry, bays);
         all.incomplete |= found.is_none();
-        of_tables.push(found.map(|(wall, _)| wall));
+        of_tables.push(found.as_ref().map(|(wall, _)| wall.clone()));
         let Some((wall, section)) = found else {
             continue;
         };
@@ -557,7 +557,7 @@ fn between(
         return None;
     }
     // Faults of walls stand there.
-    let [Some(mut left), Some(mut right)] = numbers.map(|number| walls[number - 1]) else {
+    let [Some(mut left), Some(mut right)] = numbers.map(|number| walls[number - 1].as_ref()) else {
         return None;
     };
     if left.line > right.line {

@@ -47,7 +47,7 @@ fn read(reader: &mut Reader<'_>, entry: &Field<'_>) -> Option<RotationLimit> {
             return None;
         }
     }
-    let mut range = |key: &str| match reader.get(&view, key) {
+    let mut range = |key: &'static str| match reader.get(&view, key) {
         None => Some(None),
         Some(field) => from_to(reader, &field).map(Some),
     };

@@ -826,5 +826,8 @@ fn a_foundation_stands_under_a_plan() {
     assert_eq!((uplift.springs, uplift.springs_across), (5, Some(3)));
     let one = more.replace("springs_across = 3", "springs_across = 1");
     let error = refusal(&format!("{soil}{A}gravity = true\n{one}\n"));
-    assert!(error.contains("springs_across: must lie between 2"), "{error}");
+    assert!(
+        error.contains("springs_across: must lie between 2"),
+        "{error}"
+    );
 }

@@ -25,7 +25,10 @@ fn limits_name_members_and_levels() {
         panic!("two tables")
     };
     assert_eq!(columns.of, LimitedMembers::Columns);
-    assert_eq!((columns.lines, columns.storeys), (Some([1, 2]), Some([1, 1])));
+    assert_eq!(
+        (columns.lines, columns.storeys),
+        (Some([1, 2]), Some([1, 1]))
+    );
     assert_eq!(columns.measure, RotationMeasure::Chord);
     let limits: Vec<_> = columns.limits.clone().into_iter().collect();
     assert_eq!(
@@ -59,10 +62,7 @@ fn limits_that_do_not_fit_are_refused() {
             "of = \"beams\"\nstoreys = 1\nlimits = { io = 0.01 }",
             "storeys: is a key of columns",
         ),
-        (
-            "of = \"beams\"\nlimits = { io = \"5 mm\" }",
-            "limits.io",
-        ),
+        ("of = \"beams\"\nlimits = { io = \"5 mm\" }", "limits.io"),
     ] {
         let shown = refusal(&format!("{MODEL}[[building.rotation_limit]]\n{table}\n"));
         assert!(shown.contains(said), "{table}\n{shown}");

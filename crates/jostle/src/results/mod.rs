@@ -28,7 +28,7 @@ mod walls_beyond_plan;
 pub use contact_constants::overdamped_contacts;
 pub use counted_impact::{CountedImpact, counted, find_simultaneous};
 pub use foundation::foundation_warnings;
-pub use walls_beyond_plan::wall_warnings;
 pub use friction::friction_warnings;
 pub use members::{member_name, section_name};
 pub use summarise::{Run, springs_of};
+pub use walls_beyond_plan::wall_warnings;

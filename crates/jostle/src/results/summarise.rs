@@ -14,7 +14,6 @@ use crate::motion::GroundMotion;
 use crate::results::capacity;
 use crate::results::contact_constants::crushed_notes;
 use crate::results::foundation::{foundation_summary, foundation_warnings, soil_energy};
-use crate::results::walls_beyond_plan::wall_warnings;
 use crate::results::friction::friction_warnings;
 use crate::results::ground::{closing_of_grounds, ground_summary};
 use crate::results::isolation::{isolation_summary, mat_summary, wall_summaries};
@@ -31,6 +30,7 @@ use crate::results::summary::{
     ImpactSummary, LinkFloorSummary, LinkSummary, MotionSummary, PromiseSummary, SpringSummary,
     Summary, WorkSummary,
 };
+use crate::results::walls_beyond_plan::wall_warnings;
 use crate::results::{CountedImpact, counted, find_simultaneous};
 use crate::stepping::{Accuracy, Outcome, Plan, RunEnd};
 use crate::structure::{Discretization, SpringPlace};
