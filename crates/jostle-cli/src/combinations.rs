@@ -189,7 +189,7 @@ fn features() -> Vec<Feature> {
         Feature { name: "infill panels", tables: "[[building.infill]]\nstiffness = \"80 MN/m\"\n", ..USUAL },
         Feature { name: "struts off the joints", tables: "[[building.infill]]\nstiffness = \"80 MN/m\"\noffset = \"300 mm\"\n", ..USUAL },
         Feature { name: "walls", tables: "[[building.wall]]\nline = 1\nlength = 2\nEI = \"2 GN.m2\"\nEA = \"5 GN\"\nGA = \"2 GN\"\nmass = 0\n", ..USUAL },
-        Feature { name: "walls that yield at the ends of every storey", tables: "[[building.wall]]\nline = 1\nlength = 2\nEI = \"2 GN.m2\"\nEA = \"5 GN\"\nGA = \"2 GN\"\nmass = 0\nhinge = { rule = \"bilinear\", ends = \"all\", initial = 100, yield = \"2 MN.m\", post_yield = 0.02 }\n", ..USUAL },
+        Feature { name: "walls that yield at the ends of every storey", tables: "[[building.wall]]\nline = 1\nlength = 2\nEI = \"2 GN.m2\"\nEA = \"5 GN\"\nGA = \"2 GN\"\nmass = 0\nhinge = { rule = \"bilinear\", ends = \"all\", initial = 100, yield = \"2 MN.m\", post_yield = 0.02 }\n", keys: OWN_WORDS, ..USUAL },
         Feature { name: "cracking and yielding", keys: OWN_WORDS, ..USUAL },
         Feature { name: "columns that follow their axial force", keys: FIBRES, ..USUAL },
         Feature { name: "columns that fail in shear", keys: "shear_failure = { strength = \"300 kN\", slope = \"5 MN/m\" }\n", ..USUAL },
@@ -358,6 +358,9 @@ fn model(kind: usize, feature: &Feature) -> String {
         // What stands in bays of a grid says along which lines.
         let added = match (inside, own.name) {
             (true, "space-frame") if feature.name == "walls" => WALL_OF_A_GRID.to_owned(),
+            (true, "space-frame") if feature.name.starts_with("walls that yield") => {
+                format!("{WALL_OF_A_GRID}hinge = {{ yield = \"2 MN.m\", post_yield = 0.02 }}\n")
+            }
             (true, "space-frame") => added.replace("]]\n", "]]\nalong = \"x\"\n"),
             _ => added,
         };
