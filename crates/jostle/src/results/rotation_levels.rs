@@ -54,11 +54,8 @@ pub(super) fn rotation_levels(building: usize, run: &Run) -> Option<RotationLeve
         level(b).cmp(&level(a)).then(b.ratio.total_cmp(&a.ratio))
     });
     let beyond = |level: RotationLevel| {
-        let is_beyond = |own: &&MemberLevel| {
-            let mut limits = own.limits.iter();
-            limits.any(|own| own.level == level && own.beyond_s.is_some())
-        };
-        list.iter().filter(is_beyond).count()
+        let all = list.iter().filter_map(|own| own.beyond);
+        all.filter(|own| *own >= level).count()
     };
     let [beyond_io, beyond_ls, beyond_cp] = RotationLevel::ALL.map(beyond);
     Some(RotationLevelsSummary {

@@ -10,9 +10,9 @@ use crate::quantity::{Quantity, Unit};
 pub struct RotationLevelsSummary {
     /// Number of members with limits.
     pub members: usize,
-    /// Those that went beyond immediate occupancy.
+    /// Those that went beyond immediate occupancy, or beyond a higher level.
     pub beyond_io: usize,
-    /// Those that went beyond life safety.
+    /// Those that went beyond life safety, or beyond collapse prevention.
     pub beyond_ls: usize,
     /// Those that went beyond collapse prevention.
     pub beyond_cp: usize,
@@ -25,8 +25,8 @@ impl RotationLevelsSummary {
     /// Its numbers.
     pub const QUANTITIES: &[Quantity<Self>] = &[
         Quantity::<Self>::whole("members", "members with limits of the rotation of their hinges", |r| r.members),
-        Quantity::<Self>::whole("beyond_io", "those that went beyond immediate occupancy", |r| r.beyond_io),
-        Quantity::<Self>::whole("beyond_ls", "those that went beyond life safety", |r| r.beyond_ls),
+        Quantity::<Self>::whole("beyond_io", "those that went beyond immediate occupancy, or a higher level", |r| r.beyond_io),
+        Quantity::<Self>::whole("beyond_ls", "those that went beyond life safety, or a higher level", |r| r.beyond_ls),
         Quantity::<Self>::whole("beyond_cp", "those that went beyond collapse prevention", |r| r.beyond_cp),
     ];
 }
