@@ -10,7 +10,7 @@ name = "A"
 storeys = 2
 storey_height = 3
 spans = [5]
-column = { EI = "60 MN.m2" }
+column = { EI = "60 MN.m2", mass = 0 }
 beam = { EI = "80 MN.m2" }
 beam_mass = 3000
 hinges = { rule = "bilinear", column = { yield = "100 kN.m", post_yield = 0.02 }, beam = { yield = "80 kN.m", post_yield = 0.02 } }
