@@ -205,7 +205,7 @@ wall = [
   { line = 2, length = "2 m", thickness = "200 mm" },
 ]
 coupling_beam = [{ between = [1, 2], width = "200 mm", depth = "600 mm" }]
-rotation_limit = [{ of = "columns", measure = "chord", limits = { io = 1e-5, cp = 0.05 } }]
+rotation_limit = [{ of = "columns", measure = "chord", limits = { io = 1e-4, cp = 0.05 } }]
 "#;
 
 /// A building whose foundation lifts off.
