@@ -122,6 +122,8 @@ class Frame(Part):
             by which they are judged.
         shear_failure: columns that fail in shear: ``{"rule": "sezen-moehle", "residual": 0.2}`` or
             ``{"strength": "300 kN", "slope": "5 MN/m"}``; without it their shear strength has no limit.
+        rotation_limit: rotations of hinges at which members reach levels of performance:
+            ``[{"of": "columns", "limits": {"io": "5 mrad", "ls": "15 mrad", "cp": "20 mrad"}}]``.
         brace: braces between joints: ``[{"storeys": [1, 3], "bay": 1, "direction": "both", "EA": "600 MN"}]``; with ``"hinge"`` they
             yield, or buckle: ``{"profile": "HEB160", "hinge": {"rule": "buckling", "curve": "c", "yield_strength": "275 MPa"}}``.
         infill: masonry panels in the bays, as struts that bear compression alone:
@@ -129,7 +131,7 @@ class Frame(Part):
             what they bear across their plane; ``"offset": "300 mm"`` lets struts meet the columns off the joints, and
             ``"damage_drifts"`` are the drifts of four damage states.
         wall: walls, each in place of a column line: ``[{"at": "4.5 m", "length": "3 m", "thickness": "250 mm"}]``; with ``"hinge"``
-            they yield at their feet.
+            they yield at their feet, or above its ``"floors"``.
         coupling_beam: beams between walls with properties of their own, whose forces are reported:
             ``[{"between": [1, 2], "width": "250 mm", "depth": "800 mm"}]``.
         elevation: height of the base above a datum that all buildings share, 0 by default; neighbours face each other by it.
@@ -190,6 +192,7 @@ class Frame(Part):
         foundation: Table | None = None,
         hinges: Table | None = None,
         shear_failure: Table | None = None,
+        rotation_limit: Sequence[Table] | None = None,
         brace: Sequence[Table] | None = None,
         infill: Sequence[Table] | None = None,
         wall: Sequence[Table] | None = None,
@@ -234,6 +237,7 @@ class Frame(Part):
                 "foundation": foundation,
                 "hinges": hinges,
                 "shear_failure": shear_failure,
+                "rotation_limit": rotation_limit,
                 "brace": brace,
                 "infill": infill,
                 "wall": wall,
@@ -409,6 +413,8 @@ class SpaceFrame(Part):
         infill: masonry panels in the bays, likewise: ``[{"along": "y", "x": 1, "modulus": "4 GPa", "thickness": "200 mm",
             "width": "mainstone"}]``.
         wall: walls, each in place of columns: ``[{"along": "x", "x": 2, "y": 1, "length": "3 m", "thickness": "250 mm"}]``.
+        rotation_limit: rotations of hinges at which members reach levels of performance:
+            ``[{"of": "columns", "storeys": 1, "limits": {"io": "5 mrad", "cp": "20 mrad"}}]``.
         hinges: plastic hinges at the ends of columns, about both axes, and of beams; without them the frame is elastic:
             ``{"rule": "bilinear", "column": {"x": {"yield": "300 kN.m", "post_yield": 0.02}, "y": {…}}, "beam": {…}}``. With
             ``{"rule": "fibre", "length": "0.4 m", "fibres": [20, 16]}`` the ends of columns with bars are fibres, whose strength follows
@@ -483,6 +489,7 @@ class SpaceFrame(Part):
         infill: Sequence[Table] | None = None,
         wall: Sequence[Table] | None = None,
         hinges: Table | None = None,
+        rotation_limit: Sequence[Table] | None = None,
         angle: Quantity | None = None,
         plan: Sequence[Any] | None = None,
         at: Sequence[Quantity] | None = None,
@@ -531,6 +538,7 @@ class SpaceFrame(Part):
                 "infill": infill,
                 "wall": wall,
                 "hinges": hinges,
+                "rotation_limit": rotation_limit,
                 "angle": angle,
                 "plan": plan,
                 "at": at,

@@ -189,12 +189,15 @@ fn features() -> Vec<Feature> {
         Feature { name: "infill panels", tables: "[[building.infill]]\nstiffness = \"80 MN/m\"\n", ..USUAL },
         Feature { name: "struts off the joints", tables: "[[building.infill]]\nstiffness = \"80 MN/m\"\noffset = \"300 mm\"\n", ..USUAL },
         Feature { name: "walls", tables: "[[building.wall]]\nline = 1\nlength = 2\nEI = \"2 GN.m2\"\nEA = \"5 GN\"\nGA = \"2 GN\"\nmass = 0\n", ..USUAL },
+        Feature { name: "walls that yield at the ends of every storey", tables: "[[building.wall]]\nline = 1\nlength = 2\nEI = \"2 GN.m2\"\nEA = \"5 GN\"\nGA = \"2 GN\"\nmass = 0\nhinge = { rule = \"bilinear\", ends = \"all\", initial = 100, yield = \"2 MN.m\", post_yield = 0.02 }\n", keys: OWN_WORDS, ..USUAL },
         Feature { name: "cracking and yielding", keys: OWN_WORDS, ..USUAL },
         Feature { name: "columns that follow their axial force", keys: FIBRES, ..USUAL },
         Feature { name: "columns that fail in shear", keys: "shear_failure = { strength = \"300 kN\", slope = \"5 MN/m\" }\n", ..USUAL },
+        Feature { name: "limits of rotation", keys: OWN_WORDS, tables: "[[building.rotation_limit]]\nof = \"columns\"\nlimits = { io = 0.005 }\n", ..USUAL },
         Feature { name: "springs under the base", keys: "base = { horizontal_stiffness = \"400 MN/m\" }\n", ..USUAL },
         Feature { name: "base that sways, rocks and twists", keys: "base = { horizontal_stiffness = \"400 MN/m\", rotational_stiffness = \"9 GN.m/rad\", torsional_stiffness = \"9 GN.m/rad\" }\n", ..USUAL },
         Feature { name: "bearings", tables: "[building.isolation]\nkind = \"lead-rubber\"\nmat_mass = \"50 t\"\nstiffness = \"20 MN/m\"\nyield = \"60 kN\"\npost_yield = 0.1\n", ..USUAL },
+        Feature { name: "triple friction pendulums", tables: "[building.isolation]\nkind = \"triple-friction-pendulum\"\nmat_mass = \"50 t\"\nradius = [2.1, 0.3, 0.3, 2.1]\nfriction = [0.04, 0.015, 0.015, 0.08]\ncapacity = [0.3, 0.05, 0.05, 0.3]\n", ..USUAL },
         Feature { name: "foundation on soil", tables: "[building.foundation]\nlength = \"9 m\"\nwidth = \"12 m\"\nmass = \"120 t\"\n", more: "[soil]\nshear_wave_velocity = \"200 m/s\"\ndensity = 1900\npoisson_ratio = 0.33\n", ..USUAL },
         Feature { name: "foundation that lifts off", keys: "gravity = true\n", tables: "[building.foundation]\nlength = \"9 m\"\nwidth = \"12 m\"\nmass = \"120 t\"\nuplift = true\nsprings = 5\nvertical_stiffness = \"900 MN/m\"\n", ..USUAL },
         Feature { name: "feet of columns that lift off", keys: "gravity = true\nbase = { vertical_stiffness = \"400 MN/m\", uplift = true }\n", ..USUAL },
@@ -363,6 +366,9 @@ fn model(kind: usize, feature: &Feature) -> String {
         // What stands in bays of a grid says along which lines.
         let added = match (inside, own.name) {
             (true, "space-frame") if feature.name == "walls" => WALL_OF_A_GRID.to_owned(),
+            (true, "space-frame") if feature.name.starts_with("walls that yield") => {
+                format!("{WALL_OF_A_GRID}hinge = {{ yield = \"2 MN.m\", post_yield = 0.02 }}\n")
+            }
             (true, "space-frame") => added.replace("]]\n", "]]\nalong = \"x\"\n"),
             _ => added,
         };

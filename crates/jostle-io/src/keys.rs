@@ -118,6 +118,8 @@ pub(crate) enum Section {
     Damping,
     /// Columns of a frame that fail in shear.
     ShearFailure,
+    RotationLimit,
+    RotationLevels,
     /// Hinges of a frame.
     Hinges,
     /// Hinges of columns or of beams.
@@ -447,6 +449,13 @@ pub(crate) const LINK_RULES: &[&str] = &joined::<8>(&[RULES, &["buckling"]]);
 pub(crate) const BUCKLING_CURVES: &[&str] = &BucklingCurve::NAMES;
 /// Where shear springs of columns stand.
 pub(crate) const SHEAR_ENDS: &[&str] = &["foot", "both"];
+/// Members whose rotations have limits, and which rotations.
+pub(crate) const LIMITED_MEMBERS: &[&str] = &["columns", "beams"];
+pub(crate) const ROTATION_MEASURES: &[&str] = &["plastic", "chord"];
+/// Where walls yield.
+pub(crate) const WALL_HINGES: &[&str] = &["foot", "all"];
+/// Columns whose axial failure comes before shear failure.
+pub(crate) const AXIAL_FIRST: &[&str] = &["refuse", "axial-limit"];
 /// Rules of hinges of frames: fibres are several springs.
 pub(crate) const HINGE_RULES: &[&str] = &joined::<8>(&[RULES, &["fibre"]]);
 /// Where fibres stand: at both ends of all columns, or at their feet on the ground.
@@ -684,6 +693,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::Building, "motion", Kind::TableOf(&[S::OwnMotion, S::Motion]), "The ground under this building, if it differs: arrival, a motion of its own, or a scale of the common one. A motion without an amplitude or a scaling of its own has the factor of the common one."),
     default(S::Building, "gravity", Flag, "false", "Start the run from the displacements under self weight. With a plan, columns carry the floors' own masses in equal shares, which then rise and sink with them."),
     optional(S::Building, "codes", Kind::Table(S::BuildingCodes), "Factors of this building in the separation rules of codes, such as `{ behaviour_factor = 3.9 }`."),
+    optional(S::Building, "rotation_limit", Tables(&[S::RotationLimit]), "Rotations of hinges at which members reach levels of performance; of several tables that name a member the last one holds."),
     default(S::Building, "p_delta", Flag, "true with hinges, else false", "Include P-Delta from the weight above."),
 
     default(S::Frame, "base", WordOrTable("fixed", &[S::ShearBase, S::FrameBase]), "\"fixed\"", "Springs and dashpots under every column."),
@@ -814,8 +824,10 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::FrameWall, "mass", Quantity(D::LineMass), "Self mass; default from the density. A weight per length is converted.").usual("a line mass", 10.0, 1e6).possible(0.0, 1e7),
     default(S::FrameWall, "shear", Choice(AXIAL), "\"flexible\"", "Shear deformation."),
     default(S::FrameWall, "stiffness_factor", Kind::ChoiceOr(WALL_STIFFNESS, D::Dimensionless), "that of columns", "Factor on EI of the whole section. `asce41-23`, by ACI 369.1-22: 0.25 on EI, and GA = 0.15 E A; `en1998`, by EN 1998-1 4.3.1(7): half of EI and GA.").usual("a stiffness factor", 0.01, 10.0).possible(1e-6, 1e6),
-    optional(S::FrameWall, "hinge", Kind::Table(S::WallHinge), "Yielding at its foot; without it the wall is elastic. Hinges of columns do not act on walls."),
+    optional(S::FrameWall, "hinge", Kind::Table(S::WallHinge), "Yielding at its foot, or where floors says; without it the wall is elastic. Hinges of columns do not act on walls."),
     optional(S::FrameWall, "shear_hinge", Kind::TableOf(&[S::LinkHinge, S::Sliding]), "Yielding in shear of its lowest storey."),
+    default(S::WallHinge, "floors", Counts, "its foot", "Floors above which it yields, such as [0, 3], where 0 is the ground. Moments, and length or stiffness, are the same at each."),
+    default(S::WallHinge, "ends", Choice(WALL_HINGES), "\"foot\"", "Instead of floors: \"all\" are the foot and the head of every storey."),
     required(S::WallHinge, "rule", Choice(RULES), "Unloading and reloading rule."),
     default(S::WallHinge, "gamma", Quantity(D::Dimensionless), "0.4", "Exponent of the unloading stiffness of takeda.").usual("an exponent", 1e-3, 1.0),
     optional(S::WallHinge, "pinching", Kind::Table(S::Pinching), "Where reloading stiffens; required with the rule pinched."),
@@ -826,7 +838,7 @@ pub(crate) const KEYS: &[Key] = &[
     optional(S::WallHinge, "post_cracking", Quantity(D::Dimensionless), "Ratio of the stiffness after the first corner to the initial one of the hinge; with length, of the flexural rigidity there to EI.").usual("a ratio of stiffnesses", 1e-6, 1.0).signed(),
     optional(S::WallHinge, "post_yield", Quantity(D::Dimensionless), "The same after yield.").usual("a ratio of stiffnesses", 1e-6, 1.0).signed(),
     optional(S::WallHinge, "stiffness", Quantity(D::RotationalStiffness), "Initial stiffness, in series with the wall.").usual("a rotational stiffness", 1e6, 1e15),
-    optional(S::WallHinge, "initial", Quantity(D::Dimensionless), "The same in units of EI over the height of the lowest storey; 100 with length.").usual("a ratio of stiffnesses", 1.0, 1e6),
+    optional(S::WallHinge, "initial", Quantity(D::Dimensionless), "The same in units of EI over the height of the storey; 100 with length.").usual("a ratio of stiffnesses", 1.0, 1e6),
     optional(S::WallHinge, "length", WordOr("paulay-priestley", D::Length), "Length of the hinge: ratios are then of flexural rigidity over that length, elastic bending of the wall included. `paulay-priestley`: 0.2 of the length of the wall and 0.044 of two thirds of its height.").usual("a length of a hinge", 0.05, 10.0),
     optional(S::CouplingBeam, "between", Kind::FromTo, "Numbers of its two walls, in the order of [[building.wall]]."),
     optional(S::CouplingBeam, "bay", Kind::FromTo, "Its bay instead, counted from 1; or the first and the last."),
@@ -996,14 +1008,15 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Foundation, "embedment", Quantity(D::Length), "0", "Depth over which its sides are in contact with soil.").usual("a depth of a foundation", 0.01, 30.0).possible(0.0, 200.0),
     required(S::Foundation, "mass", Quantity(D::Mass), "Mass.").usual("a mass of a foundation", 100.0, 1e9),
     default(S::Foundation, "rotary_inertia", Quantity(D::PolarMass), "mass · length² / 12", "Rotary inertia about the axis across the row.").usual("a rotary inertia", 100.0, 1e12),
-    default(S::Foundation, "torsional_stiffness", Quantity(D::RotationalStiffness), "that of [soil]", "With a plan: spring against rotation about the vertical axis.").usual("a stiffness in torsion", 1e5, 1e14),
+    default(S::Foundation, "torsional_stiffness", Quantity(D::RotationalStiffness), "that of [soil]; rigid with vertical_stiffness", "With a plan: spring against rotation about the vertical axis.").usual("a stiffness in torsion", 1e5, 1e14),
     default(S::Foundation, "torsional_damping", Quantity(D::RotationalDamping), "what damping of [soil] gives, without radiation", "With a plan: dashpot parallel to it.").usual("a rotational dashpot coefficient", 100.0, 1e13),
     default(S::Foundation, "uplift", Flag, "false", "Whether it lifts off the ground: contact springs along its length bear compression alone, and it rises, sinks and turns with what stands on it. Needs gravity = true of the building."),
     optional(S::Foundation, "springs", Count, "uplift: contact springs, at equal distances from one end of the length to the other, at least 2."),
-    optional(S::Foundation, "ends", Quantity(D::Dimensionless), "uplift: stiffness of the two outermost springs over that of the half strip for which each stands. Without it they have what gives the rocking stiffness of [soil], and two springs alone stand where they give it; 1 with vertical_stiffness.").usual("a ratio of stiffnesses", 0.1, 100.0).possible(1e-6, 1e6),
+    default(S::Foundation, "springs_across", Count, "springs", "uplift with a plan: contact springs along the width. They stand on a grid, and each bears compression alone."),
+    optional(S::Foundation, "ends", Quantity(D::Dimensionless), "uplift: stiffness of the two outermost springs of a side over that of the half strip for which each stands. Without it they have what gives the rocking stiffness of [soil], and two springs alone stand where they give it; 1 with vertical_stiffness.").usual("a ratio of stiffnesses", 0.1, 100.0).possible(1e-6, 1e6),
     optional(S::Foundation, "vertical_stiffness", Quantity(D::Stiffness), "uplift: stiffness of all contact springs together, instead of [soil].").usual("a stiffness of a base", 1e4, 9e12),
     default(S::Foundation, "vertical_damping", Quantity(D::Damping), "0", "uplift with vertical_stiffness: dashpots beside the contact springs, all together, shared as their stiffness. They act at all times.").usual("a dashpot coefficient", 100.0, 1e11),
-    default(S::Foundation, "sway_stiffness", WordOr("rigid", D::Stiffness), "\"rigid\"", "uplift with vertical_stiffness: horizontal spring to the ground.").usual("a stiffness of a base", 1e4, 9e11),
+    default(S::Foundation, "sway_stiffness", WordOr("rigid", D::Stiffness), "\"rigid\"", "uplift with vertical_stiffness: horizontal spring to the ground; with a plan, in both directions.").usual("a stiffness of a base", 1e4, 9e11),
     default(S::Foundation, "sway_damping", Quantity(D::Damping), "0", "uplift with sway_stiffness: dashpot beside it.").usual("a dashpot coefficient", 100.0, 1e11),
     optional(S::Foundation, "bearing_strength", Quantity(D::Modulus), "uplift: pressure at which the ground yields. It does not spring back: what is left is its settlement. Without it the ground is elastic.").usual("a bearing strength", 1e4, 1e7),
     default(S::Foundation, "bearing_hardening", Quantity(D::Dimensionless), "0", "uplift with bearing_strength: ratio of the stiffness after yield to the initial one, below 1.").usual("a ratio of stiffnesses", 1e-6, 1.0).signed(),
@@ -1086,9 +1099,21 @@ pub(crate) const KEYS: &[Key] = &[
     default(S::Damping, "relative_to", Choice(&["foundation", "ground"]), "\"foundation\"", "On a foundation: what damping in proportion to mass acts relative to. \"foundation\" does not damp a building that sways and rocks as a rigid body; \"ground\" damps every mass and rotary inertia."),
     default(S::Damping, "yielding", Choice(&["initial", "tangent", "none"]), "\"initial\" for storeys, columns and walls in plan; \"none\" for hinges of members", "Damping in proportion to stiffness of parts that yield: by their initial stiffness, by their present one, or none. It never acts on isolators, bases, soil or columns that fail in shear."),
 
+    required(S::RotationLimit, "of", Choice(LIMITED_MEMBERS), "Which members: columns, with walls, or beams."),
+    default(S::RotationLimit, "line", Kind::FromTo, "all", "columns of plane frames: column line, counted from 1; or the first and the last."),
+    default(S::RotationLimit, "storeys", Kind::FromTo, "all", "columns: storey, counted from 1; or the first and the last."),
+    default(S::RotationLimit, "bay", Kind::FromTo, "all", "beams of plane frames: bay, counted from 1; or the first and the last."),
+    default(S::RotationLimit, "floors", Kind::FromTo, "all", "beams: floor, counted from 1; or the first and the last."),
+    default(S::RotationLimit, "measure", Choice(ROTATION_MEASURES), "\"plastic\"", "Which rotation is limited: that of the hinge beyond yield, or the chord rotation, of the hinge and of the member bent in double curvature together."),
+    required(S::RotationLimit, "limits", Kind::Table(S::RotationLevels), "Greatest rotation of each level; one of them at least."),
+    optional(S::RotationLevels, "io", Quantity(D::Dimensionless), "Immediate occupancy.").usual("a rotation", 1e-4, 0.2),
+    optional(S::RotationLevels, "ls", Quantity(D::Dimensionless), "Life safety.").usual("a rotation", 1e-4, 0.2),
+    optional(S::RotationLevels, "cp", Quantity(D::Dimensionless), "Collapse prevention.").usual("a rotation", 1e-4, 0.2),
+
     optional(S::ShearFailure, "rule", Choice(CAPACITY_RULES), "Rule for the shear strength of columns with bars and ties, under their axial load."),
     optional(S::ShearFailure, "strength", PerStorey(D::Force), "Shear strength of the columns, instead of rule.").usual("a shear strength", 100.0, 1e9),
     default(S::ShearFailure, "slope", PerStorey(D::Stiffness), "by Elwood and Moehle, from their axial load and ties", "Shear that a column loses per drift after failure; required with strength.").usual("a slope", 1e3, 9e10).signed(),
+    default(S::ShearFailure, "axial_first", Choice(AXIAL_FIRST), "\"refuse\"", "rule: columns that would lose their axial load before they fail in shear, by Elwood and Moehle. \"axial-limit\": they lose their shear from their strength on, until the drift at axial failure; the axial load itself stays."),
     default(S::ShearFailure, "residual", Quantity(D::Dimensionless), "0", "Shear strength that remains, over that at failure.").usual("a ratio", 1e-4, 1.0),
     default(S::ShearFailure, "ends", Choice(SHEAR_ENDS), "both where neighbours can strike a column between floors", "Where shear springs stand."),
     required(S::Hinges, "rule", Choice(HINGE_RULES), "Unloading and reloading rule of hinges; fibre: ends of columns are fibres of concrete and steel, so that their strength follows their axial force."),

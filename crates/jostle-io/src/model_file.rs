@@ -41,6 +41,7 @@ mod plan_frames;
 mod reinforced;
 mod report;
 mod rigid_ends;
+mod rotation_limits;
 mod section;
 mod shear;
 mod shear_failure;

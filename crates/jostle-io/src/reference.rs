@@ -216,6 +216,12 @@ const TABLES: &[(Section, &str, &str)] = &[
     (Section::BaseSliding, "`base.horizontal_hinge`", ""),
     (Section::Damping, "`damping`", ""),
     (Section::ShearFailure, "`shear_failure` of a frame", ""),
+    (Section::RotationLimit, "`[[building.rotation_limit]]`", ""),
+    (
+        Section::RotationLevels,
+        "`limits` of `[[building.rotation_limit]]`",
+        "",
+    ),
     (Section::Hinges, "`hinges` of a frame", ""),
     (Section::Hinge, "`hinges.column`, `hinges.beam`", ""),
     (

@@ -15,7 +15,7 @@ const MOST: usize = 4;
 /// Points of a path at most.
 const POINTS: usize = 1200;
 
-/// An end of a column of a plane frame.
+/// An end of a column.
 struct End<'a> {
     summary: &'a FibreSummary,
     section: FibreSection,
@@ -24,13 +24,19 @@ struct End<'a> {
     building: usize,
 }
 
-/// Those whose strains came nearest to their limits; none without histories, nor in space, where the capacity is a surface.
+/// Those whose strains came nearest to their limits, in space one for each plane of bending; none without histories.
 pub(crate) fn plots(page: &Page) -> Vec<Plot> {
     let mut ends = ends(page);
     let strained = |own: &End<'_>| own.summary.worst_ratio().unwrap_or(0.0);
     sort_by(&mut ends, |a, b| strained(b).total_cmp(&strained(a)));
     ends.truncate(MOST);
-    ends.iter().filter_map(|end| plot(page, end)).collect()
+    let planes = ends.iter().flat_map(|end| {
+        let planes = 0..end.section.rotations.len();
+        planes.map(move |plane| (end, plane))
+    });
+    planes
+        .filter_map(|(end, plane)| plot(page, end, plane))
+        .collect()
 }
 
 fn ends<'a>(page: &Page<'a>) -> Vec<End<'a>> {
@@ -43,21 +49,21 @@ fn ends<'a>(page: &Page<'a>) -> Vec<End<'a>> {
         let summaries = page.summary.buildings.get(index);
         let summaries = summaries.map_or(&[][..], |own| &own.sections);
         for (section, summary) in own.sections.iter().zip(summaries) {
-            if section.rotations.len() == 1 {
-                found.push(End {
-                    summary,
-                    section: section.clone(),
-                    first_spring: before + own.springs_of_section(section).start,
-                    building: index,
-                });
-            }
+            found.push(End {
+                summary,
+                section: section.clone(),
+                first_spring: before + own.springs_of_section(section).start,
+                building: index,
+            });
         }
         before += own.spring_places.len();
     }
     found
 }
 
-fn plot(page: &Page, end: &End<'_>) -> Option<Plot> {
+/// The path in a plane of bending: of a space frame, that along the lines x, then that along the lines y. The capacity is that of bending
+/// in this plane alone.
+fn plot(page: &Page, end: &End<'_>, plane: usize) -> Option<Plot> {
     let springs = page.springs?;
     let time = page.history.column(jostle::Column::TIME)?;
     // Moment and compression.
@@ -66,7 +72,7 @@ fn plot(page: &Page, end: &End<'_>) -> Option<Plot> {
         let forces = springs.of_spring(end.first_spring + number);
         for (sum, [_, force]) in path.iter_mut().zip(forces) {
             let force = f64::from(force);
-            *sum = [sum[0] + force * fibre.at[0], sum[1] - force];
+            *sum = [sum[0] + force * fibre.at[plane], sum[1] - force];
         }
     }
     let shown = |[moment, compression]: [f64; 2]| {
@@ -85,14 +91,26 @@ fn plot(page: &Page, end: &End<'_>) -> Option<Plot> {
     let mut known = page.sections.iter();
     let known = known
         .find(|own| own.building == end.building && own.members.iter().any(|name| *name == member));
-    lines.extend(known.map(|own| Line {
-        name: message::interaction_of_the_section().to_owned(),
-        points: outline(own.section).into_iter().map(shown).collect(),
-        colour: end.building + 1,
-        dashed: true,
+    lines.extend(known.map(|own| {
+        Line {
+            name: message::interaction_of_the_section().to_owned(),
+            points: match plane {
+                0 => outline(own.section),
+                _ => outline(&own.section.turned()),
+            }
+            .into_iter()
+            .map(shown)
+            .collect(),
+            colour: end.building + 1,
+            dashed: true,
+        }
     }));
     Some(Plot {
-        title: message::path_over_interaction(&end.summary.name),
+        title: match (end.section.rotations.len(), plane) {
+            (1, _) => message::path_over_interaction(&end.summary.name),
+            (_, 0) => message::path_in_plane(&end.summary.name, "x"),
+            _ => message::path_in_plane(&end.summary.name, "y"),
+        },
         x_label: message::moment_axis(format::MOMENT.name()),
         y_label: message::compression_axis(format::FORCE.name()),
         logarithmic: false,

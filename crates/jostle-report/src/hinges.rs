@@ -92,14 +92,16 @@ fn hysteresis_of(building: &Building, at: SpringPlace) -> Option<Hysteresis> {
                 MemberPlace::InSpace(_) => None,
             };
         }
-        SpringPlace::Column { storey, line, .. }
-        | SpringPlace::ColumnInPlan { storey, line, .. } => {
+        SpringPlace::Column { storey, line, end }
+        | SpringPlace::ColumnInPlan {
+            storey, line, end, ..
+        } => {
             let frame = match at {
                 SpringPlace::ColumnInPlan { frame, .. } => Some(frame),
                 _ => None,
             };
             if let Some(wall) = frame_of(frame)?.wall([storey - 1, line - 1]) {
-                return wall.hinge;
+                return wall.hinge_at(storey, end == MemberEnd::Last);
             }
         }
         _ => {}

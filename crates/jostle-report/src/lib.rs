@@ -39,6 +39,7 @@ mod panels;
 mod payload;
 mod plan_motion;
 mod pushover;
+mod rotation_levels;
 mod rules;
 mod scale;
 mod section;

@@ -10,8 +10,8 @@ use crate::tiles::tiles;
 use crate::verdict::{outside, verdict};
 use crate::{
     Page, bounds, calculation, checks, contact_box, describe, devices, fibres, floor_spectra,
-    friction, grounds, hinges, joints, members, method, panels, payload, shear_failures, site_plan,
-    spread, tables,
+    friction, grounds, hinges, joints, members, method, panels, payload, rotation_levels,
+    shear_failures, site_plan, spread, tables,
 };
 
 /// The scripts, in the order of their dependence; together they are one module.
@@ -97,6 +97,7 @@ pub(crate) fn page(page: &Page) -> Markup {
                     @if let Some(fibres) = fibres::section(page) { (fibres) }
                     @if let Some(panels) = panels::section(page) { (panels) }
                     @if let Some(failures) = shear_failures::section(page) { (failures) }
+                    @if let Some(levels) = rotation_levels::section(page) { (levels) }
                     @if let Some(devices) = devices::section(page) { (devices) }
                     section #impacts.muted[outside.is_some()] {
                         h2 { (message::impacts_title()) }

@@ -106,6 +106,7 @@ fn checked(opened: &Opened) -> Result<Check, RunError> {
     );
     let mut warnings = opened.input.warnings.clone();
     warnings.extend(jostle::results::foundation_warnings(&opened.system));
+    warnings.extend(jostle::results::wall_warnings(&opened.input.model));
     warnings.extend(jostle::results::friction_warnings(
         &opened.input.model,
         &opened.system,
@@ -381,11 +382,12 @@ fn describe(
         if let Some(foundation) = building.foundation {
             let mass = building.equations.total_mass();
             let sticks = &building.discretization.stick_model;
-            let bed = sticks.foundation.as_ref().map(|own| &own.bed[..]);
-            describe_foundation(text, &foundation, mass, bed.unwrap_or_default())?;
+            describe_foundation(text, &foundation, mass, &sticks.bed)?;
         }
         if let Some(foundation) = &building.foundation_in_plan {
-            describe_foundation_in_plan(text, foundation)?;
+            let mass = building.equations.total_mass();
+            let bed = &building.discretization.stick_model.bed;
+            describe_foundation_in_plan(text, foundation, mass, bed)?;
         }
         if let Some(hinges) = &model.buildings[index].hinges {
             describe_hinges(text, hinges)?;

@@ -88,6 +88,7 @@ fn write_all(
     write_foundations(text, summary)?;
     write_damage(text, &input.model.buildings, &summary.buildings)?;
     write_shear_failures(text, &summary.buildings)?;
+    write_rotation_levels(text, &summary.buildings)?;
     write_parts(text, &summary.buildings)?;
     write_sections(text, &summary.buildings)?;
     write_capacity(text, &summary.buildings)?;
@@ -456,6 +457,39 @@ fn write_damage(
             writeln!(text, "{between}{}: {}", building.name, one.sentence())?;
             between = "";
         }
+    }
+    Ok(())
+}
+
+/// Members against stated limits of rotation, one line for every building with limits.
+fn write_rotation_levels(text: &mut String, buildings: &[BuildingSummary]) -> std::fmt::Result {
+    for building in buildings {
+        let Some(levels) = &building.rotation_levels else {
+            continue;
+        };
+        let counts = format!(
+            "{} beyond IO, {} beyond LS, {} beyond CP",
+            levels.beyond_io, levels.beyond_ls, levels.beyond_cp
+        );
+        let worst = levels.list.first().and_then(|own| {
+            let level = own.beyond?;
+            let mut limits = own.limits.iter();
+            let at = limits.find(|own| own.level == level)?.beyond_s?;
+            Some(format!(
+                "; worst {}, {}: {:.2} mrad, beyond {} from {at:.3} s",
+                own.member,
+                own.at,
+                1e3 * own.rotation_rad,
+                level.name()
+            ))
+        });
+        writeln!(
+            text,
+            "\n{}: of {} members with limits of rotation, {counts}{}",
+            building.name,
+            levels.members,
+            worst.unwrap_or_default()
+        )?;
     }
     Ok(())
 }

@@ -123,6 +123,7 @@ pub use model::{
     PlanSpring, ProportionalDamping, Rise, Section, Shear, ShearEnds, ShearSpring, SlidingSurface,
     Soil, SoilCoupling, Solver, SpaceFrame, SpaceMember, SpacePlace, SpaceSection, SpaceWall,
     SpeedFriction, Stop, Structure, StrutLine, Sway, Tier, TierStorey, Tiers, Uplift, Wall,
+    WallHinge,
 };
 pub use motion::{Bearing, GroundMotion, GroundPath, GroundPoint, Grounds, OwnGround, Wave};
 pub use quantity::{Quantity, Unit};

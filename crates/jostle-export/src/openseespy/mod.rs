@@ -101,6 +101,22 @@ fn refusals(export: &Export<'_>) -> Vec<ModelFault> {
                 "rises with the speed, which the exported springs cannot do; give one coefficient, such as friction = 0.05".into(),
             );
         }
+        let several = building.base.isolation.map(|own| own.isolator);
+        let several = several.filter(|own| {
+            matches!(
+                own,
+                Isolator::DoublePendulum { .. } | Isolator::TriplePendulum { .. }
+            )
+        });
+        if let (Some(isolator), jostle::Structure::Tiers(_)) = (several, &building.structure) {
+            refuse(
+                format!("building[{index}].isolation.kind"),
+                format!(
+                    "\"{}\" in plan is not exported yet; take \"friction-pendulum\" with one surface to compare",
+                    isolator.name()
+                ),
+            );
+        }
         if building.base.lifts() {
             let part = match building.base.uplift {
                 true => "base",

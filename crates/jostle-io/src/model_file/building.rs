@@ -11,8 +11,8 @@ use super::damper::{self, Damper};
 use super::places::is_by_place;
 use super::reinforced::{self, ReinforcedInPlan, ReinforcedMember};
 use super::{
-    codes, frame, given, given_in_plan, hinges, isolation, joint, plan, shear, shear_failure, soil,
-    soil_spring,
+    codes, frame, given, given_in_plan, hinges, isolation, joint, plan, rotation_limits, shear,
+    shear_failure, soil, soil_spring,
 };
 use crate::files::Files;
 use crate::keys::{BUILDING_KINDS, Section};
@@ -221,6 +221,7 @@ fn read(
         hinges: None,
         yielding_damping: None,
         mass_damping: MassDamping::default(),
+        rotation_limits: rotation_limits::read_all(reader, &view),
     };
     let is_shear = kind == Kind::Shear;
     if kind != Kind::Given {

@@ -3,13 +3,13 @@
 use std::collections::BTreeMap;
 
 use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule, Side};
-use jostle::{CouplingBeam, FramePlace, FrameWall, Section as CrossSection};
+use jostle::{CouplingBeam, FramePlace, FrameWall, Section as CrossSection, WallHinge};
 
 use super::brace::tables;
 use super::hinges::read_spring;
 use super::places::range;
 use super::section::{Material, STAND_IN, Sides, own_mass, rectangle, rigidities};
-use crate::keys::{AXIAL, Section, WALL_STIFFNESS};
+use crate::keys::{AXIAL, Section, WALL_HINGES, WALL_STIFFNESS};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
 
@@ -66,7 +66,7 @@ pub(super) fn read(reader: &mut Reader<'_>, view: &View<'_>, bays: Bays<'_>) -> 
     for entry in tables(reader, view, "wall") {
         let found = read_wall(reader, &entry, bays);
         all.incomplete |= found.is_none();
-        of_tables.push(found.map(|(wall, _)| wall));
+        of_tables.push(found.as_ref().map(|(wall, _)| wall.clone()));
         let Some((wall, section)) = found else {
             continue;
         };
@@ -149,14 +149,14 @@ fn read_wall(
     );
     let [first, last] = storeys.unwrap_or([1, 1]);
     let heights = &bays.heights[first - 1..last];
-    let hinge = reader.get(&view, "hinge").map(|field| {
+    let hinges = reader.get(&view, "hinge").map(|field| {
         let foot = Foot {
             rigidity: stand_in.flexural_rigidity,
             storey: heights[0],
             height: heights.iter().sum(),
             length: length.unwrap_or(1.0),
         };
-        read_hinge(reader, &field, foot)
+        read_hinges(reader, &field, &foot, first, heights)
     });
     let shear = reader.get(&view, "shear_hinge");
     let shear = shear.map(|field| read_sliding(reader, &field, stand_in, heights[0]));
@@ -169,10 +169,7 @@ fn read_wall(
         line: line?,
         storeys: storeys?,
         length: length?,
-        hinge: match hinge {
-            Some(hinge) => Some(hinge?),
-            None => None,
-        },
+        hinges: hinges.unwrap_or(Some(Vec::new()))?,
         shear: match shear {
             Some(shear) => Some(shear?),
             None => None,
@@ -293,7 +290,7 @@ fn reduced(section: CrossSection, [bending, shear]: [f64; 2]) -> CrossSection {
     }
 }
 
-/// Foot of a wall: EI, height of its lowest storey, its height and its length \[N·m², m\].
+/// A wall that yields: EI, height of the storey of the hinge, its height and its length \[N·m², m\].
 struct Foot {
     rigidity: f64,
     storey: f64,
@@ -301,8 +298,71 @@ struct Foot {
     length: f64,
 }
 
-/// The hinge at the foot of a wall.
-fn read_hinge(reader: &mut Reader<'_>, field: &Field<'_>, foot: Foot) -> Option<Hysteresis> {
+/// Hinges of a wall: at its foot, above floors that the file names, or at both ends of every storey. `first`: its lowest storey, from 1.
+fn read_hinges(
+    reader: &mut Reader<'_>,
+    field: &Field<'_>,
+    foot: &Foot,
+    first: usize,
+    heights: &[f64],
+) -> Option<Vec<WallHinge>> {
+    let view = reader.reopen(field, &[Section::WallHinge])?;
+    let lowest = first - 1;
+    let top = lowest + heights.len();
+    let everywhere = match reader.get(&view, "ends") {
+        Some(field) => reader.choice(&field, WALL_HINGES, &[])? == "all",
+        None => false,
+    };
+    let floors = match reader.get(&view, "floors") {
+        None if everywhere => (lowest..top).collect(),
+        None => vec![lowest],
+        Some(stated) if view.has("ends") => {
+            *reader.bad(&stated, "and ends are both given") = Some("leave out one of them".into());
+            return None;
+        }
+        Some(stated) => {
+            let mut floors = Vec::new();
+            for entry in stated.entries().unwrap_or_else(|| vec![stated.clone()]) {
+                let floor = reader.count(&entry)?;
+                if !(lowest..top).contains(&floor) || floors.contains(&floor) {
+                    *reader.bad(
+                        &entry,
+                        format!(
+                            "must lie between {lowest} and {} and be named once, found {floor}",
+                            top - 1
+                        ),
+                    ) = Some(format!(
+                        "floor {lowest} is the foot of the wall, which yields above each floor; ends = \"all\" are both ends of every storey"
+                    ));
+                    return None;
+                }
+                floors.push(floor);
+            }
+            floors
+        }
+    };
+    let mut hinges = Vec::new();
+    for floor in floors {
+        let own = Foot {
+            storey: heights[floor - lowest],
+            ..*foot
+        };
+        let hysteresis = read_hinge(reader, field, &own)?;
+        for at_head in [false, true] {
+            if everywhere || !at_head {
+                hinges.push(WallHinge {
+                    storey: floor + 1,
+                    at_head,
+                    hysteresis,
+                });
+            }
+        }
+    }
+    Some(hinges)
+}
+
+/// A hinge of a wall in a storey.
+fn read_hinge(reader: &mut Reader<'_>, field: &Field<'_>, foot: &Foot) -> Option<Hysteresis> {
     const KEYS: &[Section] = &[Section::WallHinge];
     let view = reader.reopen(field, KEYS)?;
     let usual = foot.rigidity / foot.storey;
@@ -335,7 +395,7 @@ fn read_hinge(reader: &mut Reader<'_>, field: &Field<'_>, foot: Foot) -> Option<
         *reader.bad(
             &stated,
             format!(
-                "{length:.3} m is more than the height of the lowest storey, {} m",
+                "{length:.3} m is more than the height of its storey, {} m",
                 foot.storey
             ),
         ) = Some("give a shorter length".into());
@@ -508,7 +568,7 @@ fn between(
         return None;
     }
     // Faults of walls stand there.
-    let [Some(mut left), Some(mut right)] = numbers.map(|number| walls[number - 1]) else {
+    let [Some(mut left), Some(mut right)] = numbers.map(|number| walls[number - 1].as_ref()) else {
         return None;
     };
     if left.line > right.line {

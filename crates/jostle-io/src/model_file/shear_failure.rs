@@ -9,12 +9,15 @@ use jostle_section::formula::Member;
 use super::building::per_storey;
 use super::frame_members::filled;
 use super::reinforced::ReinforcedMember;
-use crate::keys::{CAPACITY_RULES, SHEAR_ENDS, Section};
+use crate::keys::{AXIAL_FIRST, CAPACITY_RULES, SHEAR_ENDS, Section};
 use crate::quantity::Dimension;
 use crate::reader::{Field, Reader, View};
 
 /// Stiffness of a shear spring before failure, over 12 EI/L³ of its column: the column loses 10⁻⁴ of its own \[–\].
 const RIGID: f64 = 1e4;
+
+/// What a user can do about a column that loses its axial load before it fails in shear.
+const AXIAL_FIRST_REMEDY: &str = "add axial_first = \"axial-limit\": such columns lose their shear from their strength to the drift at axial failure; or slope = \"8 MN/m\" for all columns";
 
 /// Reads the shear springs of all columns by storey and line; `None` after a fault. `members`: the reinforced members of the
 /// building, `None` after faults elsewhere.
@@ -56,6 +59,15 @@ pub(super) fn read(
         None => ShearEnds::Foot,
     };
     let rule = reader.get(&view, "rule");
+    let to_axial_limit = match reader.get(&view, "axial_first") {
+        Some(field) => reader.choice(&field, AXIAL_FIRST, &[])? == "axial-limit",
+        None => false,
+    };
+    if let (Some(field), None) = (reader.get(&view, "axial_first"), &rule) {
+        *reader.bad(&field, "has no effect without rule") =
+            Some("add rule = \"sezen-moehle\", or leave axial_first out".into());
+        return None;
+    }
     if let (Some(field), Some(_)) = (&rule, &strength) {
         *reader.bad(field, "cannot be combined with strength") =
             Some("keep either the rule or the strength".into());
@@ -74,6 +86,7 @@ pub(super) fn read(
                 frame,
                 ShearRule::from_name(name)?,
                 slope.as_deref(),
+                to_axial_limit,
                 members?,
             )?
         }
@@ -89,7 +102,7 @@ pub(super) fn read(
             let (strength, slope) = (strength?, slope?);
             let stated = strength.iter().zip(slope).map(|(strength, slope)| Loss {
                 strength: *strength,
-                slope,
+                fall: Fall::Slope(slope),
                 by_ductility: CapacityLine::default(),
             });
             stated
@@ -113,9 +126,17 @@ pub(super) fn read(
 struct Loss {
     /// \[N\]
     strength: f64,
-    /// Of the column as a whole \[N/m\].
-    slope: f64,
+    fall: Fall,
     by_ductility: CapacityLine,
+}
+
+/// How a column as a whole loses its shear after failure.
+#[derive(Clone, Copy, Debug)]
+enum Fall {
+    /// Loss per displacement \[N/m\].
+    Slope(f64),
+    /// From the displacement at which the elastic column has its strength to this one, at which it has none \[m\].
+    To(f64),
 }
 
 fn positive_per_storey(
@@ -139,6 +160,7 @@ fn by_rule(
     frame: &Frame,
     rule: ShearRule,
     slope: Option<&[f64]>,
+    to_axial_limit: bool,
     members: &[ReinforcedMember],
 ) -> Option<Vec<Vec<Loss>>> {
     let columns: Vec<_> = members
@@ -166,25 +188,43 @@ fn by_rule(
         };
         let loss = rated.shear_loss(rule, column.compression);
         let storey = column.floor - 1;
-        match (loss, slope) {
-            (Ok(loss), _) => {
-                rows[storey][column.place - 1] = Some(Loss {
-                    strength: loss.strength,
-                    slope: slope.map_or(loss.slope, |slope| slope[storey]),
-                    by_ductility: loss.by_ductility,
-                });
-            }
-            (Err(problem), _) => {
-                *reader.bad(
-                    field,
-                    format!(
-                        "column {} of storey {}: {problem}",
-                        column.place, column.floor
-                    ),
-                ) = Some("give strength and slope instead of rule".into());
+        let mut refused = |problem: String, remedy: &str| {
+            let (line, storey) = (column.place, column.floor);
+            let problem = format!("column {line} of storey {storey}: {problem}");
+            *reader.bad(field, problem) = Some(remedy.into());
+        };
+        let loss = match loss {
+            Ok(loss) => loss,
+            Err(problem) => {
+                refused(
+                    problem.to_string(),
+                    "give strength and slope instead of rule",
+                );
                 return None;
             }
-        }
+        };
+        let fall = match (
+            slope.map(|slope| slope[storey]).or(loss.slope),
+            to_axial_limit,
+        ) {
+            (Some(slope), _) => Fall::Slope(slope),
+            (None, true) => Fall::To(loss.axial_failure_drift * column.clear_length),
+            (None, false) => {
+                let problem = format!(
+                    "under {} kN it loses its axial load at a drift of {:.2} %, before shear failure at {:.2} %, so that Elwood and Moehle give no slope",
+                    (column.compression / 1e3).round(),
+                    100.0 * loss.axial_failure_drift,
+                    100.0 * loss.failure_drift,
+                );
+                refused(problem, AXIAL_FIRST_REMEDY);
+                return None;
+            }
+        };
+        rows[storey][column.place - 1] = Some(Loss {
+            strength: loss.strength,
+            fall,
+            by_ductility: loss.by_ductility,
+        });
     }
     Some(filled(rows))
 }
@@ -211,8 +251,24 @@ fn springs(
                 .shear_rigidity
                 .map_or(0.0, |shear| 12.0 * rigidity / (shear * length * length));
             let stiffness = 12.0 * rigidity / (length * length * length * (1.0 + shear));
+            let reached = loss.strength / stiffness;
+            let lost = match loss.fall {
+                Fall::Slope(slope) => 1.0 / slope,
+                Fall::To(end) => (end - reached) / loss.strength,
+            };
+            if lost <= 0.0 {
+                let problem = format!(
+                    "column {} of storey {} reaches its shear strength at a drift of {:.2} %, beyond its axial limit",
+                    line + 1,
+                    storey + 1,
+                    100.0 * reached / length
+                );
+                *reader.bad(field, problem) =
+                    Some("it loses its axial load before it can fail in shear: reduce its axial_load, or give slope".into());
+                return None;
+            }
             let falling = FallingBranch {
-                slope: 1.0 / (1.0 / loss.slope + 1.0 / stiffness),
+                slope: 1.0 / (lost + 1.0 / stiffness),
                 residual: residual * loss.strength,
             };
             match Hysteresis::failing(RIGID * stiffness, loss.strength, falling) {

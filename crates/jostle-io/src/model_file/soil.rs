@@ -56,8 +56,9 @@ pub(super) fn read_foundation(reader: &mut Reader<'_>, building: &View<'_>) -> O
 }
 
 /// Keys of foundations that lift off, each with one without which it has no effect.
-const OF_UPLIFT: [(&str, Option<&str>); 8] = [
+const OF_UPLIFT: [(&str, Option<&str>); 9] = [
     ("springs", None),
+    ("springs_across", None),
     ("ends", None),
     ("vertical_stiffness", None),
     ("bearing_strength", None),
@@ -94,6 +95,10 @@ fn read_uplift(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Option<Uplift
             return None;
         }
     };
+    let springs_across = match reader.get(view, "springs_across") {
+        Some(field) => Some(reader.count(&field)?),
+        None => None,
+    };
     let number = |reader: &mut Reader<'_>, key, dimension| given(reader, view, key, dimension);
     let vertical = number(reader, "vertical_stiffness", Dimension::Stiffness);
     let sway = or_rigid(reader, view, "sway_stiffness", Dimension::Stiffness);
@@ -103,6 +108,7 @@ fn read_uplift(reader: &mut Reader<'_>, view: &View<'_>) -> Option<Option<Uplift
     let hardening = number(reader, "bearing_hardening", Dimension::Dimensionless);
     Some(Some(Uplift {
         springs,
+        springs_across,
         ends: number(reader, "ends", Dimension::Dimensionless),
         ground: vertical.map(|vertical_stiffness| GroundSprings {
             vertical_stiffness,

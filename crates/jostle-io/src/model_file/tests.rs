@@ -56,6 +56,7 @@ damping = { ratio = 0.1 }
 foundation = { length = 1 }
 isolation = { kind = "friction-pendulum", friction = { slow = 0.03 }, bounds = { upper = { strength = 2 } }, stop = { left = { at = 1 } } }
 hinges = { rule = "pinched", pinching = {}, damage = {}, column = { positive = {}, negative = {} } }
+rotation_limit = [{ of = "columns", limits = {} }]
 [[building]]
 kind = "shear"
 codes = { importance = 1 }

@@ -133,6 +133,8 @@ fn mistakes_are_explained() {
         "stiffness = [\"100 MN/m\", \"100 MN/m\"]",
         "stiffness = [{ x = 1e8, y = 1e8, torsion = 1e9 }, { x = 1e8, y = 1e8, torsion = 1e9 }]",
     );
-    let shown = refusal(&in_plan);
-    assert!(shown.contains("slides along one line only"), "{shown}");
+    assert!(
+        jostle_testkit::files::read(&in_plan).is_ok(),
+        "it slides in plan"
+    );
 }

@@ -33,7 +33,7 @@ fn wall(more: &str) -> (Frame, FrameWall) {
     let frame = frame(&file(&format!(
         "[[building.wall]]\nlength = 3\nthickness = 0.25\n{more}"
     )));
-    let wall = frame.walls[0];
+    let wall = frame.walls[0].clone();
     (frame, wall)
 }
 
@@ -143,7 +143,7 @@ fn hinges_have_a_stiffness_or_a_length() {
         let text = format!(
             "line = 2\n[building.wall.hinge]\nrule = \"bilinear\"\nyield = \"5 MN.m\"\npost_yield = 0.02\n{more}\n"
         );
-        wall(&text).1.hinge.expect("it yields")
+        wall(&text).1.hinges[0].hysteresis
     };
     let stated = hinge("stiffness = \"60 GN.m/rad\"");
     assert!((stated.backbone().initial() / 60e9 - 1.0).abs() < 1e-12);
@@ -159,6 +159,25 @@ fn hinges_have_a_stiffness_or_a_length() {
         let added = length / (0.02 * ei) - length / ei;
         assert!((slope * added - 1.0).abs() < 1e-9, "{slope} {added}");
     }
+}
+
+/// Above floors that are named, or at both ends of every storey; a hinge is in units of EI over the height of its storey.
+#[test]
+fn walls_yield_where_the_file_says() {
+    let places = |more: &str| {
+        let text = format!(
+            "line = 2\n[building.wall.hinge]\nrule = \"bilinear\"\nyield = \"5 MN.m\"\npost_yield = 0.02\ninitial = 50\n{more}\n"
+        );
+        let own = wall(&text).1.hinges;
+        own.iter()
+            .map(|own| (own.storey, own.at_head))
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(places(""), [(1, false)]);
+    assert_eq!(places("floors = [0, 2]"), [(1, false), (3, false)]);
+    let all = places("ends = \"all\"");
+    assert_eq!(all.len(), 8);
+    assert!(all.contains(&(2, true)) && all.contains(&(3, false)));
 }
 
 /// Each fault names key and remedy.
@@ -190,7 +209,9 @@ fn walls_that_do_not_fit_are_refused() {
         (format!("{two}[[building.coupling_beam]]\nbay = 1\nEI = 1e8\nGA = 1e9\nstiffness_factor = \"asce41-23\"\n"), &["stiffness_factor", "depth"]),
         (format!("{one}hinge = {{ rule = \"bilinear\", yield = \"5 MN.m\", post_yield = 0.02 }}\n"), &["hinge", "stiffness =", "paulay-priestley"]),
         (format!("{one}hinge = {{ rule = \"bilinear\", stiffness = 1e10, initial = 3, yield = \"5 MN.m\", post_yield = 0.02 }}\n"), &["stiffness", "both given"]),
-        (format!("{one}hinge = {{ rule = \"bilinear\", length = 4, yield = \"5 MN.m\", post_yield = 0.02 }}\n"), &["hinge.length", "height of the lowest storey"]),
+        (format!("{one}hinge = {{ rule = \"bilinear\", length = 4, yield = \"5 MN.m\", post_yield = 0.02 }}\n"), &["hinge.length", "height of its storey"]),
+        (format!("{one}hinge = {{ rule = \"bilinear\", floors = [4], initial = 50, yield = \"5 MN.m\", post_yield = 0.02 }}\n"), &["hinge.floors", "between 0 and 3", "foot"]),
+        (format!("{one}hinge = {{ rule = \"bilinear\", floors = [1], ends = \"all\", initial = 50, yield = \"5 MN.m\", post_yield = 0.02 }}\n"), &["floors", "both given"]),
         (format!("{one}hinge = {{ rule = \"bilinear\", stiffness = 1e10, yield = \"500 kN\", post_yield = 0.02 }}\n"), &["hinge.yield", "moment"]),
         (format!("{one}shear = \"rigid\"\nshear_hinge = {{ rule = \"bilinear\", yield = 1e6, post_yield = 0.02 }}\n"), &["shear_hinge", "stiffness"]),
         (format!("{one}stiffness_factor = \"asce\"\n"), &["stiffness_factor", "asce41-23"]),

@@ -818,8 +818,16 @@ fn a_foundation_stands_under_a_plan() {
     assert!(error.contains("torsional_damping"), "{error}");
     let lifts = plain.replace(" }", ", uplift = true, springs = 5 }");
     let error = refusal(&format!("{soil}{A}{lifts}\n"));
+    assert!(error.contains("write gravity = true"), "{error}");
+    let more = lifts.replace(" }", ", springs_across = 3 }");
+    let own = read(&format!("{soil}{A}gravity = true\n{more}\n")).expect("a sound model");
+    let own = own.model.buildings[0].base.foundation.expect("one");
+    let uplift = own.uplift.expect("it lifts");
+    assert_eq!((uplift.springs, uplift.springs_across), (5, Some(3)));
+    let one = more.replace("springs_across = 3", "springs_across = 1");
+    let error = refusal(&format!("{soil}{A}gravity = true\n{one}\n"));
     assert!(
-        error.contains("not possible under a building with a plan yet"),
+        error.contains("springs_across: must lie between 2"),
         "{error}"
     );
 }

@@ -102,6 +102,33 @@ fn a_rule_gives_strength_and_slope() {
     close(falling.residual, 0.2 * own.spring.backbone().yield_force());
 }
 
+/// Light ties under 1000 kN: the axial limit comes before shear failure. The column loses its strength V over δa Ln − V/K.
+#[test]
+fn columns_that_lose_their_axial_load_first_can_fall_to_the_axial_limit() {
+    let key = "shear_failure = { rule = \"sezen-moehle\", axial_first = \"axial-limit\" }";
+    let ties = ", ties = \"d6 @ 400 mm\"";
+    let rows = read(key, ties, "\"common\"");
+    let rows = rows.unwrap_or_else(|error| panic!("{error}"));
+    let own = &rows[1][0];
+    let strength = own.spring.backbone().yield_force();
+    // Two legs d6, 56.549 mm²; core 500 − 2 (30 − 3) = 446 mm; 56.549 · 400 · 446/400 = 25 220.7 N.
+    // tan 65° = 2.144507; 1 000 000/(25 220.7 · 2.144507) = 18.48906; 0.04 · 5.598911/20.63357 = 0.010854.
+    let limit = 0.010_854 * 2.6;
+    let column = 12.0 * 1.5625e8 / (3.2 * 3.2 * 3.2);
+    let lost = limit - strength / column;
+    let falling = own.spring.falling_branch().expect("it fails");
+    // Column and spring together: the spring falls while the column unloads.
+    close(1.0 / falling.slope, lost / strength + 1.0 / column);
+    // A slope serves every column.
+    let key = "shear_failure = { rule = \"sezen-moehle\", slope = \"8 MN/m\" }";
+    let rows = read(key, ties, "\"common\"");
+    let rows = rows.unwrap_or_else(|error| panic!("{error}"));
+    let own = &rows[1][0];
+    close(own.spring.backbone().yield_force(), strength);
+    let falling = own.spring.falling_branch().expect("it fails");
+    close(1.0 / falling.slope, 1.0 / 8e6 + 1.0 / column);
+}
+
 #[test]
 fn columns_struck_between_floors_have_a_spring_above_and_one_below() {
     let key = "shear_failure = { strength = [\"300 kN\", \"200 kN\"], slope = \"5 MN/m\" }";
@@ -160,6 +187,16 @@ fn what_is_missing_or_contradicts_is_named() {
             "shear_failure = { rule = \"sezen-moehle\" }",
             ", ties = \"d6 @ 400 mm\"",
             "it loses its axial load at a drift of",
+        ),
+        (
+            "shear_failure = { rule = \"sezen-moehle\" }",
+            ", ties = \"d6 @ 400 mm\"",
+            "add axial_first = \"axial-limit\"",
+        ),
+        (
+            "shear_failure = { strength = \"300 kN\", slope = \"5 MN/m\", axial_first = \"axial-limit\" }",
+            "",
+            "axial_first: has no effect without rule",
         ),
     ] {
         let found = read(key, ties, "\"common\"").expect_err(key);

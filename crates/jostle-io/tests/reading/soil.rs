@@ -189,6 +189,7 @@ fn footings_that_lift_off_are_read() {
     let found = model.buildings[0].base.foundation.expect("one").uplift;
     let due = Uplift {
         springs: 7,
+        springs_across: None,
         ends: Some(2.5),
         ground: Some(GroundSprings {
             sway: Some([2e8, 1e6]),

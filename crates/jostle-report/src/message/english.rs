@@ -1143,11 +1143,12 @@ messages! {
     buckling_of_bars = "buckling of bars";
     fracture_of_bars = "fracture of bars";
     path_over_interaction(name) = "{name}: axial compression against moment";
+    path_in_plane(name, axis) = "{name}, bending along {axis}: axial compression against moment";
     moment_axis(unit) = "moment [{unit}]";
     compression_axis(unit) = "compression [{unit}]";
     path_of_the_run = "this run";
     interaction_of_the_section = "capacity";
-    paths_of_ends(count) = "Axial compression and moment of the {count} ends whose strains came nearest to a limit. The dashed curve is the capacity of the section without confinement and hardening, at the crushing strain of plain concrete and at 1 % in the bars: confined columns go beyond it.";
+    paths_of_ends(count) = "Axial compression and moment of the ends whose strains came nearest to a limit; {count} plots. The dashed curve is the capacity of the section in that plane of bending alone, without confinement and hardening, at the crushing strain of plain concrete and at 1 % in the bars: confined columns go beyond it.";
 
     // panels
     infill_panels = "Infill panels";
@@ -1158,6 +1159,15 @@ messages! {
     panel = "panel";
     damage_state = "damage state";
     across_its_plane = "across its plane";
+
+    // rotation_levels
+    levels_of_members = "Members against stated limits";
+    members_beyond_levels(name, members, io, ls, cp) = "{name}: of {members} members with limits of the rotation of their hinges, {io} went beyond IO, {ls} beyond LS and {cp} beyond CP.";
+    first_levels_of_members(most_rows, all) = "The first {most_rows} of {all}; summary.json contains all of them.";
+    worst_level_first = "The end of each member that came furthest, the highest level first; limits are those of the model.";
+    beyond_level = "beyond";
+    limit_of_level(level) = "{level}";
+    beyond_at(level) = "beyond {level} at";
 
     // shear_failures
     columns_that_fail_in_shear = "Columns that fail in shear";

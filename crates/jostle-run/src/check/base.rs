@@ -26,27 +26,38 @@ fn describe_plate(text: &mut String, foundation: &Foundation) -> std::fmt::Resul
 pub(super) fn describe_foundation_in_plan(
     text: &mut String,
     own: &jostle::system::FoundationInPlan,
+    mass: f64,
+    bed: &[BedSpring],
 ) -> std::fmt::Result {
     describe_plate(text, &own.foundation)?;
     let springs = &own.springs;
     let directions = [("along x", &springs.along), ("across", &springs.across)];
     for (direction, springs) in directions {
+        let sway = match springs.sway_stiffness {
+            0.0 => "held".to_owned(),
+            stiffness => format!(
+                "{} and {}",
+                prefixed(stiffness, "N/m", 3),
+                prefixed(springs.sway_damping, "N·s/m", 3)
+            ),
+        };
         writeln!(
             text,
-            "  soil {direction}: sway {} and {}, rocking {} and {}",
-            prefixed(springs.sway_stiffness, "N/m", 3),
-            prefixed(springs.sway_damping, "N·s/m", 3),
+            "  soil {direction}: sway {sway}, rocking {} and {}",
             prefixed(springs.rocking_stiffness, "N·m/rad", 3),
             prefixed(springs.rocking_damping, "N·m·s/rad", 3)
         )?;
     }
     let [stiffness, damping] = springs.torsion;
-    writeln!(
-        text,
-        "  soil in torsion: {} and {}",
-        prefixed(stiffness, "N·m/rad", 3),
-        prefixed(damping, "N·m·s/rad", 3)
-    )?;
+    let torsion = match stiffness {
+        0.0 => "held".to_owned(),
+        stiffness => format!(
+            "{} and {}",
+            prefixed(stiffness, "N·m/rad", 3),
+            prefixed(damping, "N·m·s/rad", 3)
+        ),
+    };
+    writeln!(text, "  soil in torsion: {torsion}")?;
     for (axis, (direction, _)) in directions.into_iter().enumerate() {
         writeln!(
             text,
@@ -58,7 +69,29 @@ pub(super) fn describe_foundation_in_plan(
             100.0 * own.fixed_damping[axis]
         )?;
     }
-    Ok(())
+    let Some(last) = bed.last() else {
+        return Ok(());
+    };
+    let weight = jostle_io::STANDARD_GRAVITY * mass;
+    let moment = MOMENT.name();
+    for ((direction, springs), reach) in directions.into_iter().zip([last.at, last.across]) {
+        let lifting = springs.rocking_stiffness * weight / (springs.vertical_stiffness * reach);
+        writeln!(
+            text,
+            "  lifts off {direction}: contact springs to {} from the middle; the edge lifts at an overturning moment of {} {moment}, overturning capacity W·b = {} {moment}",
+            HEIGHT.text(reach, 2),
+            MOMENT.number(lifting, 0),
+            MOMENT.number(weight * reach, 0)
+        )?;
+    }
+    writeln!(
+        text,
+        "  {} contact springs, vertical {} and {} (W {})",
+        bed.len(),
+        prefixed(springs.along.vertical_stiffness, "N/m", 3),
+        prefixed(springs.along.vertical_damping, "N·s/m", 3),
+        FORCE.text(weight, 0)
+    )
 }
 
 /// Foundation, springs and dashpots of the soil, and what they do to the first mode.

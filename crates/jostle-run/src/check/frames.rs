@@ -96,11 +96,17 @@ pub(super) fn walls(frame: &Frame) -> String {
     let lines = frame.line_positions();
     for (index, wall) in frame.walls.iter().enumerate() {
         let section = frame.column(wall.storeys[0] - 1, wall.line - 1);
-        let yields = match (wall.hinge, wall.shear) {
-            (None, None) => "",
-            (Some(_), None) => ", yields at its foot",
-            (None, Some(_)) => ", yields in shear",
-            (Some(_), Some(_)) => ", yields at its foot and in shear",
+        let at_foot = |own: &jostle::WallHinge| own.storey == wall.storeys[0] && !own.at_head;
+        let bends = match &wall.hinges[..] {
+            [] => String::new(),
+            [own] if at_foot(own) => "at its foot".to_owned(),
+            all => format!("at {} storey ends", all.len()),
+        };
+        let yields = match (bends.as_str(), wall.shear) {
+            ("", None) => String::new(),
+            (bends, None) => format!(", yields {bends}"),
+            ("", Some(_)) => ", yields in shear".to_owned(),
+            (bends, Some(_)) => format!(", yields {bends} and in shear"),
         };
         text += &format!(
             "  wall {} at {} {unit}, {}, {} {unit} long{}{yields}\n",

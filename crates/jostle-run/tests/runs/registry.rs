@@ -205,6 +205,7 @@ wall = [
   { line = 2, length = "2 m", thickness = "200 mm" },
 ]
 coupling_beam = [{ between = [1, 2], width = "200 mm", depth = "600 mm" }]
+rotation_limit = [{ of = "columns", measure = "chord", limits = { io = 1e-4, cp = 0.05 } }]
 "#;
 
 /// A building whose foundation lifts off.
@@ -383,7 +384,8 @@ fn every_number_of_the_summary_is_in_the_registry_and_the_other_way_round() {
         } else if matches!(
             owner.key,
             "buildings[].parts[]" | "buildings[].sections[]" | "buildings[].sections[].limits[]"
-        ) {
+        ) || owner.key.starts_with("buildings[].rotation_levels")
+        {
             compare_together(&parts, owner);
         } else if owner.title == "Forces of members at the worst instant"
             || owner.title.ends_with("of a member against its capacity")

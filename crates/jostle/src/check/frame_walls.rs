@@ -20,6 +20,18 @@ pub(super) fn check_walls(faults: &mut Faults, path: &str, frame: &Frame) {
         faults.require((first - 1..last).all(has_section), field.as_str(), || {
             format!("has no section at line {line} in every storey from {first} to {last}; a wall is a column of the frame as well")
         });
+        let astray = wall.hinges.iter().enumerate().find(|(index, own)| {
+            let before = wall.hinges[..*index].iter();
+            let mut same =
+                before.filter(|other| (other.storey, other.at_head) == (own.storey, own.at_head));
+            !(first..=last).contains(&own.storey) || same.next().is_some()
+        });
+        if let Some((_, own)) = astray {
+            faults.add(format!("{field}.hinge"), format!(
+                "stands in storey {}, where the wall has none or another one already; it has storeys {first} to {last}",
+                own.storey
+            ));
+        }
         let shared = frame.walls[..index].iter().position(|other| {
             other.line == line && other.storeys[0] <= last && first <= other.storeys[1]
         });

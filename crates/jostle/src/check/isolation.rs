@@ -75,16 +75,6 @@ fn check_isolation_in_plan(faults: &mut Faults, path: &str, isolation: &Isolatio
             || "cannot stand beside isolation: columns are fixed to the mat; leave out base".into(),
         );
     }
-    let several = matches!(
-        isolation.isolator,
-        Isolator::DoublePendulum { .. } | Isolator::TriplePendulum { .. }
-    );
-    faults.require(!several, format!("{own}.kind"), || {
-        format!(
-            "\"{}\" slides along one line only and is not possible under a building with a plan; take \"friction-pendulum\", with the radius and the friction of the stage that slides most",
-            isolation.isolator.name()
-        )
-    });
     let [left, right] = isolation.stops;
     faults.require(left == right, format!("{own}.stop"), || {
         "is a ring under a building with a plan, the same all round: give at and stiffness instead of left and right, or moat walls ([[wall]] with from and to)".into()

@@ -31,11 +31,13 @@ pub(super) fn check_foundation(faults: &mut Faults, path: &str, building: &Build
     faults.require(has_floors, own.as_str(), || {
         "is for frames and shear buildings, with a plan or without; leave it out".into()
     });
-    faults.require(
-        !has_plan || foundation.uplift.is_none(),
-        format!("{own}.uplift"),
-        || "is not possible under a building with a plan yet; leave it out".into(),
-    );
+    if let Some(uplift) = &foundation.uplift {
+        faults.require(
+            has_plan || uplift.springs_across.is_none(),
+            format!("{own}.springs_across"),
+            || "is for buildings with a plan, which rock across too; leave it out".into(),
+        );
+    }
     if let Some(stiffness) = foundation.torsional_stiffness {
         faults.positive(stiffness, format!("{own}.torsional_stiffness"), "N.m/rad");
     }
@@ -90,16 +92,40 @@ pub(super) fn check_uplift(faults: &mut Faults, path: &str, building: &Building)
         format!("{path}.base.vertical_stiffness"),
         || "is needed where columns can lift off: that of the ground under each".into(),
     );
-    let Some(uplift) = base.foundation.and_then(|own| own.uplift) else {
+    let foundation = base.foundation;
+    let Some(uplift) = foundation.and_then(|own| own.uplift) else {
         return;
     };
     let own = format!("{path}.foundation");
+    let held = uplift.ground.is_some()
+        && foundation.is_some_and(|own| {
+            own.torsional_stiffness.is_none() && own.torsional_damping.is_some()
+        });
     faults.require(
-        (2..=MOST_SPRINGS).contains(&uplift.springs),
+        !held,
+        format!("{path}.foundation.torsional_damping"),
+        || "has nothing to do where the foundation cannot turn; add torsional_stiffness".into(),
+    );
+    let across = uplift.springs_across.unwrap_or(uplift.springs);
+    for (key, count) in [("springs", uplift.springs), ("springs_across", across)] {
+        faults.require(
+            (2..=MOST_SPRINGS).contains(&count),
+            format!("{own}.{key}"),
+            || {
+                format!(
+                    "must lie between 2 and {MOST_SPRINGS}, found {count}: one spring cannot hold a foundation that rocks"
+                )
+            },
+        );
+    }
+    let has_plan = matches!(building.structure, Structure::Tiers(_));
+    let all = uplift.springs.saturating_mul(across);
+    faults.require(
+        !has_plan || all <= MOST_IN_PLAN,
         format!("{own}.springs"),
         || {
             format!(
-                "must lie between 2 and {MOST_SPRINGS}, found {}: one spring cannot hold a foundation that rocks",
+                "must be at most {MOST_IN_PLAN} in all, found {} times {across}; 5 to 11 along a side are usual",
                 uplift.springs
             )
         },
@@ -141,6 +167,8 @@ pub(super) fn check_uplift(faults: &mut Faults, path: &str, building: &Building)
 
 /// Most contact springs of a foundation.
 const MOST_SPRINGS: usize = 200;
+/// Most contact springs of a foundation in plan.
+const MOST_IN_PLAN: usize = 2000;
 
 /// Faults of the soil, and of foundations beside each other.
 pub(super) fn check_soil(faults: &mut Faults, model: &Model) {

@@ -1,6 +1,6 @@
 //! What a number of a run belongs to, and what it is: columns of histories and keys of peaks.
 
-use crate::model::FibreLimit;
+use crate::model::{FibreLimit, RotationLevel};
 use crate::quantity::Unit;
 use crate::system::Direction;
 
@@ -119,6 +119,8 @@ pub enum Kind {
     Lifted,
     /// Whether fibres have passed a strain that is judged, 1, and when \[–\].
     Passed(FibreLimit),
+    /// Whether a hinge has turned further than a level of performance allows, 1, and when \[–\].
+    Beyond(RotationLevel),
     /// A term of the energy balance \[J\].
     Energy(EnergyTerm),
 }
@@ -293,6 +295,7 @@ impl Column {
             (Kind::Speed, _) => ("speed", Unit::M_S, "its rate; with `links = true` under `[output]`"),
             (Kind::Work, _) => ("work", Unit::J, "energy taken until then"),
             (Kind::Lifted, _) => ("lifted", Unit::S, "time without force until then"),
+            (Kind::Beyond(_), _) => ("beyond", Unit::NONE, "whether a hinge has turned beyond a limit"),
             (Kind::Passed(_), _) => ("passed", Unit::NONE, "whether fibres have passed a strain"),
             (Kind::Energy(EnergyTerm::Input), _) => ("input", Unit::J, "work of the ground motion until then"),
             (Kind::Energy(EnergyTerm::Ground), _) => ("ground", Unit::J, "work of grounds that move apart, through contacts and links, until then"),

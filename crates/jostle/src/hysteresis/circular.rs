@@ -17,7 +17,9 @@
 use super::backbone::{Backbone, Corners, Quantity, Side, SpringFault};
 use super::friction::{Rates, Strength};
 use super::memory::{HysteresisMemory, Response};
+use super::pendulums::SlidingStage;
 use super::rule::{Hysteresis, HysteresisRule};
+use super::stages_in_plan;
 
 /// Forces within this of the strength slip \[–\].
 const SLIPS: f64 = 1e-9;
@@ -60,6 +62,8 @@ pub enum CircularLaw {
         /// Rate of the rise \[s/m\].
         rate: f64,
     },
+    /// Stages in series that slide in every direction, each up its bowl to its rim.
+    Pendulums([SlidingStage; 3]),
     /// An elastic ring: without force up to a distance, then k (|u| − at) along the radius.
     Ring,
 }
@@ -85,7 +89,7 @@ pub(crate) struct PlanAnswer {
 
 impl PlanAnswer {
     /// With the symmetric tangent \[a b; b c\].
-    fn new(force: [f64; 2], [a, b, c]: [f64; 3]) -> Self {
+    pub(super) fn new(force: [f64; 2], [a, b, c]: [f64; 3]) -> Self {
         Self {
             force,
             tangents: [a + b, c + b, -b],
@@ -116,7 +120,23 @@ impl CircularForce {
                 };
                 self.rub(before, path, rates, strength)
             }
+            CircularLaw::Pendulums(stages) => {
+                stages_in_plan::answer(self.stiffness, &stages, from, to)
+            }
             CircularLaw::Ring => self.stop(to),
+        }
+    }
+
+    /// Moves the stages of a pendulum to where they stand under the force of an accepted step. The row between keeps how far each went.
+    pub(crate) fn slide_stages(&self, rows: &mut [HysteresisMemory], force: [f64; 2]) {
+        let (CircularLaw::Pendulums(stages), [x, y, between]) = (&self.law, rows) else {
+            return;
+        };
+        let places = stages_in_plan::places(stages, [x, y], force);
+        for (index, [along, across]) in places.into_iter().enumerate() {
+            (x.offsets[index], y.offsets[index]) = (along, across);
+            let furthest = &mut between.offsets[index];
+            *furthest = furthest.max(libm::hypot(along, across));
         }
     }
 
@@ -221,7 +241,7 @@ impl CircularForce {
         [p * along[0] - q * along[1], p * along[1] + q * along[0]]
     }
 
-    fn slide(&self, before: [f64; 2], path: [f64; 2], strength: f64) -> PlanAnswer {
+    pub(super) fn slide(&self, before: [f64; 2], path: [f64; 2], strength: f64) -> PlanAnswer {
         let k = self.stiffness;
         let trial = [0, 1].map(|axis| before[axis] + k * path[axis]);
         let length = libm::hypot(path[0], path[1]);
@@ -303,7 +323,7 @@ impl Hysteresis {
             }]);
         }
         let backbone = match law {
-            CircularLaw::Slider | CircularLaw::Friction { .. } => {
+            CircularLaw::Slider | CircularLaw::Friction { .. } | CircularLaw::Pendulums(_) => {
                 let corners = Corners::bilinear(limit, 0.0);
                 Backbone::from_forces(stiffness, corners, corners)?
             }
@@ -327,10 +347,38 @@ impl Hysteresis {
             law,
             stiffness: self.backbone.initial(),
             limit: match law {
-                CircularLaw::Slider | CircularLaw::Friction { .. } => self.backbone.yield_force(),
+                CircularLaw::Slider | CircularLaw::Friction { .. } | CircularLaw::Pendulums(_) => {
+                    self.backbone.yield_force()
+                }
                 CircularLaw::Ring => self.backbone.side(Side::Positive).yielding.deformation,
             },
         })
+    }
+
+    /// Whether it is the first row of stages in series.
+    pub(crate) fn slides_in_stages(&self) -> bool {
+        matches!(
+            self.rule,
+            HysteresisRule::InPlan {
+                law: CircularLaw::Pendulums(_),
+                row: ForceRow::X
+            }
+        )
+    }
+
+    /// How far each stage of a bearing in plan went, beside its travel, by the state of the row between \[m\]; empty for other springs.
+    #[must_use]
+    pub fn travels_in_plan(&self, between: &HysteresisMemory) -> Vec<[f64; 2]> {
+        let HysteresisRule::InPlan {
+            law: CircularLaw::Pendulums(stages),
+            row: ForceRow::Between,
+        } = &self.rule
+        else {
+            return Vec::new();
+        };
+        let all = stages.iter().zip(between.offsets);
+        let there = all.filter(|(stage, _)| **stage != SlidingStage::STILL);
+        there.map(|(stage, went)| [went, stage.travel]).collect()
     }
 
     /// A row of a force in plan whose other row stays at rest.
@@ -341,10 +389,14 @@ impl Hysteresis {
         deformation: f64,
     ) -> Response {
         let still = HysteresisMemory::default();
+        let mut moved = *memory;
         let (force, tangent) = match self.circular().filter(|_| row != ForceRow::Between) {
             Some(own) => {
                 let at_rest = [Rates::default(); 2];
                 let answer = own.answer([memory, &still], [deformation, 0.0], &at_rest);
+                let mut rows = [*memory, still, still];
+                own.slide_stages(&mut rows, answer.force);
+                moved = rows[0];
                 (answer.force[0], answer.tangents[0] + answer.tangents[2])
             }
             None => (0.0, 0.0),
@@ -353,12 +405,12 @@ impl Hysteresis {
             force,
             tangent,
             work: 0.5 * (memory.force + force) * (deformation - memory.deformation),
-            memory: *memory,
+            memory: moved,
         }
     }
 }
 
-fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
+pub(super) fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }
 

@@ -37,6 +37,7 @@ mod pendulums;
 mod pinched;
 mod rule;
 mod sliders;
+mod stages_in_plan;
 
 pub use backbone::{Backbone, BackboneSide, Corner, Corners, Quantity, Side, SpringFault};
 pub use buckling::{Buckling, BucklingBrace};

@@ -35,6 +35,18 @@ impl SlidingStage {
         travel: f64::INFINITY,
     };
 
+    /// The same of a bearing with a share of the weight, > 0 \[–\].
+    pub(crate) fn of_share(self, share: f64) -> Self {
+        match self == Self::STILL {
+            true => self,
+            false => Self {
+                friction: share * self.friction,
+                stiffness: share * self.stiffness,
+                ..self
+            },
+        }
+    }
+
     /// Force at which it starts to slide from a place, and that at which it reaches its rim, towards the positive side.
     fn slides_between(&self, place: f64) -> [f64; 2] {
         [place, self.travel].map(|at| self.friction + self.stiffness * at)

@@ -153,7 +153,9 @@ impl HysteresisRule {
             Self::MenegottoPinto(_) => "menegotto-pinto",
             Self::Pendulums(_) => "pendulums",
             Self::InPlan { law, .. } => match law {
-                CircularLaw::Slider | CircularLaw::Friction { .. } => "friction in plan",
+                CircularLaw::Slider | CircularLaw::Friction { .. } | CircularLaw::Pendulums(_) => {
+                    "friction in plan"
+                }
                 CircularLaw::Ring => "ring",
             },
         }

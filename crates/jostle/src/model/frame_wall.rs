@@ -23,7 +23,7 @@ use crate::hysteresis::Hysteresis;
 ///     line: 2,
 ///     storeys: [1, 4],
 ///     length,
-///     hinge: None,
+///     hinges: Vec::new(),
 ///     shear: None,
 ///     stiffness_factors: [1.0; 2],
 /// };
@@ -31,7 +31,7 @@ use crate::hysteresis::Hysteresis;
 /// frame.own_columns.extend((0..4).map(|storey| ([storey, 1], Some(section))));
 /// assert_eq!(frame.clear_span([2, 0]), 6.0 - 1.5);
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct FrameWall {
     /// Column line of its axis, from 1.
     pub line: usize,
@@ -39,13 +39,45 @@ pub struct FrameWall {
     pub storeys: [usize; 2],
     /// Length along the frame, > 0 \[m\].
     pub length: f64,
-    /// Hinge at its foot, if it yields there: moment over rotation, positive where the right face is stretched \[N·m, rad\].
-    pub hinge: Option<Hysteresis>,
+    /// Hinges, if it yields in bending.
+    pub hinges: Vec<WallHinge>,
     /// Shear of its lowest storey, if that yields: force over sliding, positive where the wall slides to the right. Its initial
     /// stiffness takes the place of the shear rigidity of the section there \[N, m\].
     pub shear: Option<Hysteresis>,
     /// What its sections have of EI and of GA of the whole cross-section, > 0; for reports \[–\].
     pub stiffness_factors: [f64; 2],
+}
+
+/// A hinge of a wall.
+///
+/// ```
+/// use jostle::WallHinge;
+/// use jostle::hysteresis::{Backbone, Corners, Hysteresis, HysteresisRule};
+///
+/// let corners = Corners::bilinear(5e6, 0.02); // N·m
+/// let backbone = Backbone::from_forces(60e9, corners, corners).expect("sound");
+/// let hysteresis = Hysteresis::new(HysteresisRule::Bilinear, backbone).expect("sound");
+/// let at_foot = WallHinge { storey: 1, at_head: false, hysteresis };
+/// assert_eq!(at_foot.hysteresis.backbone().yield_force(), 5e6);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WallHinge {
+    /// Its storey, from 1: one of those of the wall.
+    pub storey: usize,
+    /// Whether it is at the head of the storey, below its floor; otherwise at its foot.
+    pub at_head: bool,
+    /// Moment over rotation, positive where the right face is stretched \[N·m, rad\].
+    pub hysteresis: Hysteresis,
+}
+
+impl FrameWall {
+    /// The law of its hinge at the head or the foot of a storey, from 1; `None` where it is elastic.
+    #[must_use]
+    pub fn hinge_at(&self, storey: usize, at_head: bool) -> Option<Hysteresis> {
+        let mut all = self.hinges.iter();
+        let own = all.find(|own| own.storey == storey && own.at_head == at_head)?;
+        Some(own.hysteresis)
+    }
 }
 
 /// A beam between two walls of a plane frame. Its section is a beam of the frame ([`Frame::beam`]).
@@ -172,9 +204,8 @@ impl Frame {
     /// Whether walls or coupling beams yield.
     #[must_use]
     pub fn walls_yield(&self) -> bool {
-        let walls = self.walls.iter().flat_map(|own| [own.hinge, own.shear]);
-        let mut laws = walls.chain(self.coupling_beams.iter().map(|own| own.shear));
-        laws.any(|law| law.is_some())
+        let yields = |own: &FrameWall| !own.hinges.is_empty() || own.shear.is_some();
+        self.walls.iter().any(yields) || self.coupling_beams.iter().any(|own| own.shear.is_some())
     }
 
     /// Whether braces, struts, walls or coupling beams yield or lift off.

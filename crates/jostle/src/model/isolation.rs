@@ -388,7 +388,7 @@ impl Isolator {
 
     /// Stages of a pendulum of several surfaces and the elastic stiffness before they slide \[N/m\], for a weight \[N\]; `None` for
     /// others.
-    fn stages(&self, weight: f64) -> Option<([SlidingStage; 3], f64)> {
+    pub(crate) fn stages(&self, weight: f64) -> Option<([SlidingStage; 3], f64)> {
         let (stages, slip) = match self {
             Self::DoublePendulum {
                 surfaces: [lower, upper],

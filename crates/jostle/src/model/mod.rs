@@ -21,6 +21,7 @@ mod plan_bearings;
 mod plan_foundation;
 mod plan_frame;
 mod plan_spring;
+mod rotation_limits;
 mod shear_spring;
 mod soil;
 mod space_frame;
@@ -44,7 +45,7 @@ pub use fibres::{ColumnFibres, Fibre, FibreLimit, FibreMaterial};
 pub(crate) use floor_matrices::displacement_in_words;
 pub use floor_matrices::{FloorMatrices, GivenFloor, GivenInPlan};
 pub use frame_members::FramePlace;
-pub use frame_wall::{CouplingBeam, FrameWall};
+pub use frame_wall::{CouplingBeam, FrameWall, WallHinge};
 pub use gap::{FloorPairs, Gap, LEVEL_TOLERANCE, Level, PlanContact};
 pub use given::{Given, MatrixEntry};
 pub use integrator::Integrator;
@@ -58,6 +59,7 @@ pub use moment_surface::MomentSurface;
 pub use plan_foundation::PlanFoundationSprings;
 pub use plan_frame::{LumpedFloor, PlanFrame, SharedColumn};
 pub use plan_spring::{PlanAxis, PlanSpring};
+pub use rotation_limits::{LimitedMembers, RotationLevel, RotationLimit};
 pub use shear_spring::{ShearEnds, ShearSpring};
 pub use soil::{Foundation, FoundationSprings, HalfSpace, Soil, SoilCoupling};
 pub use space_frame::{SpaceFrame, SpaceMember, SpacePlace, SpaceSection, SpaceWall};
@@ -152,6 +154,8 @@ pub struct Building {
     pub yielding_damping: Option<ProportionalDamping>,
     /// Motion against which mass-proportional damping acts.
     pub mass_damping: MassDamping,
+    /// Rotations of hinges at which members reach levels of performance; a later one replaces an earlier one.
+    pub rotation_limits: Vec<RotationLimit>,
 }
 
 impl Default for Building {
@@ -172,6 +176,7 @@ impl Default for Building {
             hinges: None,
             yielding_damping: None,
             mass_damping: MassDamping::default(),
+            rotation_limits: Vec::new(),
         }
     }
 }

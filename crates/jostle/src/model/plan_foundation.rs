@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::{AcrossBase, Base, Foundation, FoundationSprings, HalfSpace, PlanPoint};
+use super::{AcrossBase, Base, Foundation, FoundationSprings, HalfSpace, PlanPoint, Uplift};
 
 /// Springs and dashpots under a rigid rectangle that moves in both horizontal directions, rocks both ways and turns.
 ///
@@ -62,11 +62,13 @@ impl HalfSpace {
 }
 
 impl PlanFoundationSprings {
-    /// A base with these springs under the foundation.
+    /// A base with these springs under the foundation; a stiffness of zero in sway or torsion holds it. It rises if the foundation can lift
+    /// off.
     #[must_use]
     pub fn base(&self, foundation: &Foundation) -> Base {
+        let or_held = |stiffness: f64| Some(stiffness).filter(|own| *own > 0.0);
         let [along, across] = [&self.along, &self.across].map(|own| AcrossBase {
-            horizontal_stiffness: Some(own.sway_stiffness),
+            horizontal_stiffness: or_held(own.sway_stiffness),
             horizontal_damping: own.sway_damping,
             rotational_stiffness: Some(own.rocking_stiffness),
             rotational_damping: own.rocking_damping,
@@ -78,7 +80,12 @@ impl PlanFoundationSprings {
             rotational_stiffness: along.rotational_stiffness,
             rotational_damping: along.rotational_damping,
             across: Some(across),
-            torsional_stiffness: Some(torsional_stiffness),
+            vertical_stiffness: foundation.uplift.map(|_| self.along.vertical_stiffness),
+            vertical_damping: match foundation.uplift {
+                Some(_) => self.along.vertical_damping,
+                None => 0.0,
+            },
+            torsional_stiffness: or_held(torsional_stiffness),
             torsional_damping,
             foundation: Some(*foundation),
             ..Base::default()
@@ -87,13 +94,19 @@ impl PlanFoundationSprings {
 }
 
 impl Foundation {
-    /// The same foundation seen along its width: length and width exchanged, with the rotary inertia of a thin plate.
+    /// The same foundation seen along its width: length and width, and numbers of contact springs, exchanged, with the rotary inertia of
+    /// a thin plate.
     #[must_use]
     pub fn turned(&self) -> Self {
         Self {
             length: self.width,
             width: self.length,
             rotary_inertia: self.mass * self.width * self.width / 12.0,
+            uplift: self.uplift.map(|own| Uplift {
+                springs: own.springs_across.unwrap_or(own.springs),
+                springs_across: Some(own.springs),
+                ..own
+            }),
             ..*self
         }
     }

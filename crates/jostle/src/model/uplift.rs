@@ -19,6 +19,8 @@ use super::Foundation;
 pub struct Uplift {
     /// Number of springs, ≥ 2, at equal distances from one end of the foundation to the other.
     pub springs: usize,
+    /// The same across, under a building with a plan; `None`: as many.
+    pub springs_across: Option<usize>,
     /// Stiffness of the outermost springs over that of the strip of ground that each stands for, > 0. `None`: on a half-space what
     /// gives its rocking stiffness, otherwise 1 \[–\].
     pub ends: Option<f64>,
@@ -53,6 +55,8 @@ pub struct BearingStrength {
 pub struct BedSpring {
     /// Distance to the right of the middle of the foundation \[m\].
     pub at: f64,
+    /// Distance across from the middle; zero in one plane \[m\].
+    pub across: f64,
     /// Force per shortening \[N/m\].
     pub stiffness: f64,
     /// Area of its strip \[m²\].
@@ -65,6 +69,7 @@ impl Uplift {
     pub fn with_springs(springs: usize) -> Self {
         Self {
             springs,
+            springs_across: None,
             ends: None,
             ground: None,
             bearing: None,
@@ -111,10 +116,34 @@ impl Foundation {
         let shares: f64 = (0..count).map(share).sum();
         let spring = |k: usize| BedSpring {
             at: reach * (2.0 * k as f64 / spaces - 1.0),
+            across: 0.0,
             stiffness: vertical * share(k) / shares,
             area: self.length * self.width * strip(k) / spaces,
         };
         Ok((0..count).map(spring).collect())
+    }
+
+    /// Contact springs of a foundation under a building with a plan: a grid whose stiffnesses and areas are products of those of both
+    /// directions, by rows along x. Moved along one axis, it is the bed of one plane. `rocking`: along x and across \[N·m/rad\].
+    ///
+    /// # Errors
+    /// A rocking stiffness that springs along one of the sides cannot have.
+    pub fn bed_in_plan(
+        &self,
+        vertical: f64,
+        rocking: Option<[f64; 2]>,
+    ) -> Result<Vec<BedSpring>, String> {
+        let along = self.bed(vertical, rocking.map(|own| own[0]))?;
+        let across = self.turned().bed(vertical, rocking.map(|own| own[1]))?;
+        let rows = across.iter().flat_map(|row| {
+            along.iter().map(|own| BedSpring {
+                at: own.at,
+                across: row.at,
+                stiffness: own.stiffness * (row.stiffness / vertical),
+                area: own.area * row.area / (self.length * self.width),
+            })
+        });
+        Ok(rows.collect())
     }
 }
 
@@ -157,6 +186,32 @@ mod tests {
         };
         let [.., rocking] = sums(&footing(stiff).bed(2e8, None).expect("sound"));
         assert!((rocking / (2e8 * 9.0) - 1.0).abs() < 1e-6, "{rocking}");
+    }
+
+    /// In plan the grid has the sums of both directions.
+    #[test]
+    fn a_grid_has_the_sums_of_both_directions() {
+        let own = footing(Uplift {
+            springs_across: Some(3),
+            ..Uplift::with_springs(4)
+        });
+        let bed = own.bed_in_plan(2e8, Some([1.5e9, 1.2e8])).expect("sound");
+        assert_eq!(bed.len(), 12);
+        let of = |value: &dyn Fn(&BedSpring) -> f64| bed.iter().map(value).sum::<f64>();
+        for (found, due) in [
+            (of(&|own| own.stiffness), 2e8),
+            (of(&|own| own.stiffness * own.at * own.at), 1.5e9),
+            (of(&|own| own.stiffness * own.across * own.across), 1.2e8),
+            (of(&|own| own.area), 12.0),
+        ] {
+            assert!((found / due - 1.0).abs() < 1e-12, "{found} {due}");
+        }
+        let turned = own.turned().bed_in_plan(2e8, Some([1.2e8, 1.5e9]));
+        let turned = turned.expect("sound");
+        assert!(turned.iter().all(|own| bed.iter().any(|other| {
+            (own.at - other.across).abs() + (own.across - other.at).abs() < 1e-12
+                && (own.stiffness / other.stiffness - 1.0).abs() < 1e-12
+        })));
     }
 
     /// Without a stiffness of the ends, both sums are those asked for.

@@ -35,15 +35,24 @@ pub(super) fn isolation_summary(
                 let work = peaks.work(Owner::Spring(global));
                 hysteretic += work - own.hysteresis.recoverable_energy(memory);
                 let force = peaks.owned_by(Owner::Spring(global)).of(Kind::Force);
-                let travels = own.hysteresis.travels(force.size());
+                let mut travels = own.hysteresis.travels(force.size());
+                travels.extend(own.hysteresis.travels_in_plan(memory));
                 let names = ["inner", "lower", "upper"];
                 let names = &names[names.len() - travels.len()..];
-                let named = names.iter().zip(travels);
-                stages.extend(named.map(|(name, [travel_peak_m, travel_m])| StageSummary {
-                    name,
-                    travel_peak_m,
-                    travel_m,
-                }));
+                for (name, [went, travel_m]) in names.iter().zip(travels) {
+                    // Of the bearing that goes furthest.
+                    let known = stages
+                        .iter_mut()
+                        .find(|own: &&mut StageSummary| own.name == *name);
+                    match known {
+                        Some(known) => known.travel_peak_m = known.travel_peak_m.max(went),
+                        None => stages.push(StageSummary {
+                            name,
+                            travel_peak_m: went,
+                            travel_m,
+                        }),
+                    }
+                }
             }
             SpringPlace::Stop { .. } => {
                 let force = peaks.owned_by(Owner::Spring(global)).of(Kind::Force);

@@ -18,10 +18,12 @@ mod parts;
 pub mod registry;
 mod required;
 pub mod response;
+mod rotation_levels;
 mod sections;
 mod shear_failure;
 mod summarise;
 pub mod summary;
+mod walls_beyond_plan;
 
 pub use contact_constants::overdamped_contacts;
 pub use counted_impact::{CountedImpact, counted, find_simultaneous};
@@ -29,3 +31,4 @@ pub use foundation::foundation_warnings;
 pub use friction::friction_warnings;
 pub use members::{member_name, section_name};
 pub use summarise::{Run, springs_of};
+pub use walls_beyond_plan::wall_warnings;

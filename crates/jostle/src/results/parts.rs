@@ -137,7 +137,8 @@ fn of_wall(
     let discretization = &building.discretization;
     let spring = |place| Some(&springs[discretization.spring_at(own.frame, place)?]);
     let (hinge, sliding) = (spring(own.hinge), own.sliding.and_then(spring));
-    let dissipated = [hinge, sliding].into_iter().flatten();
+    let upper = own.upper_hinges.iter().filter_map(|place| spring(*place));
+    let dissipated = [hinge, sliding].into_iter().flatten().chain(upper);
     let (force, moment, stretched) = (range(own.axial), range(own.moment), range(own.elongation));
     let turned = |side: fn(&SpringSummary) -> f64| Some(hinge.map_or(0.0, side).max(0.0));
     PartSummary {
@@ -209,7 +210,7 @@ fn footings_of(
     outcome: &Outcome,
 ) -> Vec<PartSummary> {
     let mut footings: Vec<(Option<usize>, PartSummary)> = Vec::new();
-    let foundation = building.discretization.stick_model.foundation.as_ref();
+    let bed = &building.discretization.stick_model.bed;
     for own in springs {
         let place = building.discretization.spring_places.get(own.index);
         let Some(&SpringPlace::Footing { line, spring }) = place else {
@@ -233,7 +234,7 @@ fn footings_of(
             .peaks
             .owned_by(Owner::Spring(global))
             .of(Kind::Lifted);
-        let strip = foundation.and_then(|own| own.bed.get(spring - 1));
+        let strip = bed.get(spring - 1).filter(|_| line.is_none());
         let raise = |value: &mut f64, to: f64| *value = value.max(to);
         footing.force_min_n = footing.force_min_n.min(-own.peak_force);
         raise(&mut footing.deformation_max, own.deformation_max);

@@ -12,9 +12,10 @@ use super::summary::{
     ContactSummary, EnergySummary, ExceededSummary, FibreAcrossSummary, FibreSummary, FloorSummary,
     ForcesSummary, FoundationAcross, FoundationSummary, GapSummary, HingeSummary, ImpactSummary,
     IsolationInPlan, IsolationSummary, JointRatio, JointSummary, LinkFloorSummary, LinkSummary,
-    MemberComparison, MotionSummary, PartSummary, PromiseSummary, RatioPlace, RatioSummary,
-    SectionSummary, ShearFailure, ShearFailureSummary, SpringSummary, StageSummary,
-    StrainLimitSummary, StruckSummary, Summary, WallSummary, WorkSummary,
+    MemberComparison, MemberLevel, MotionSummary, PartSummary, PromiseSummary, RatioPlace,
+    RatioSummary, ReachedLevel, RotationLevelsSummary, SectionSummary, ShearFailure,
+    ShearFailureSummary, SpringSummary, StageSummary, StrainLimitSummary, StruckSummary, Summary,
+    WallSummary, WorkSummary,
 };
 use crate::quantity::{Places, Quantity};
 
@@ -104,6 +105,9 @@ const OWNERS: &[Row] = &[
     ("Hinges", "buildings[].hinges.list[]", Some("hinges.parquet"), "", &[entries!(SpringSummary::QUANTITIES)]),
     ("Columns that fail in shear", "buildings[].shear_failures", None, "J1.shear_failures_", &[entries!(ShearFailureSummary::QUANTITIES)]),
     ("Failures in shear", "buildings[].shear_failures.list[]", None, "", &[entries!(ShearFailure::QUANTITIES)]),
+    ("Members against stated limits of rotation", "buildings[].rotation_levels", None, "J1.rotation_levels_", &[entries!(RotationLevelsSummary::QUANTITIES)]),
+    ("Levels of members", "buildings[].rotation_levels.list[]", None, "", &[entries!(MemberLevel::QUANTITIES)]),
+    ("Limits of levels", "buildings[].rotation_levels.list[].limits[]", None, "", &[entries!(ReachedLevel::QUANTITIES)]),
     ("Braces, struts, walls, coupling beams and foundations that lift off", "buildings[].parts[]", None, "", &[entries!(PartSummary::QUANTITIES)]),
     ("Ends of columns made of fibres", "buildings[].sections[]", None, "", &[entries!(FibreSummary::QUANTITIES)]),
     ("Ends of columns of space frames made of fibres", "buildings[].sections[]", None, "", &[entries!(FibreAcrossSummary::QUANTITIES)]),

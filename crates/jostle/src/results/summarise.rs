@@ -22,6 +22,7 @@ use crate::results::parts::{degree_of_coupling, panel_warnings, parts_of};
 use crate::results::response::{
     Amplification, BuildingResponse, FloorResponse, building_response, floor_responses,
 };
+use crate::results::rotation_levels::rotation_levels;
 use crate::results::sections::sections_of;
 use crate::results::shear_failure::shear_failures;
 use crate::results::summary::{
@@ -29,6 +30,7 @@ use crate::results::summary::{
     ImpactSummary, LinkFloorSummary, LinkSummary, MotionSummary, PromiseSummary, SpringSummary,
     Summary, WorkSummary,
 };
+use crate::results::walls_beyond_plan::wall_warnings;
 use crate::results::{CountedImpact, counted, find_simultaneous};
 use crate::stepping::{Accuracy, Outcome, Plan, RunEnd};
 use crate::structure::{Discretization, SpringPlace};
@@ -193,6 +195,7 @@ fn building_summary(index: usize, run: &Run) -> BuildingSummary {
         sections: sections_of(index, building, run.outcome),
         degree_of_coupling: degree_of_coupling(index, building, run.outcome),
         shear_failures: shear_failures(index, run),
+        rotation_levels: rotation_levels(index, run),
         name: building.name.clone(),
         mass_kg: building.equations.total_mass(),
         periods_s: building
@@ -649,6 +652,7 @@ fn warnings(run: &Run) -> Vec<String> {
         "compare with a run at another tolerance"
     };
     warnings.extend(foundation_warnings(run.system));
+    warnings.extend(wall_warnings(run.model));
     warnings.extend(friction_warnings(run.model, run.system));
     let accuracy = run.outcome.accuracy.iter();
     warnings.extend(accuracy.flat_map(|accuracy| accuracy_warnings(accuracy, remedy)));

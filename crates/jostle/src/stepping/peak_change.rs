@@ -62,7 +62,12 @@ impl Greatest {
             Kind::Velocity | Kind::Speed => Some(&mut self.velocity),
             Kind::Acceleration | Kind::FilteredAcceleration => Some(&mut self.acceleration),
             Kind::Shear | Kind::Moment | Kind::Force | Kind::RingForce => Some(&mut self.force),
-            Kind::Time | Kind::Work | Kind::Lifted | Kind::Passed(_) | Kind::Energy(_) => None,
+            Kind::Time
+            | Kind::Work
+            | Kind::Lifted
+            | Kind::Passed(_)
+            | Kind::Beyond(_)
+            | Kind::Energy(_) => None,
         }
     }
 }

@@ -510,22 +510,26 @@ pub(super) fn discretize_frame(
             let hinge = hinge.filter(|_| fibres.is_none());
             let shear = grid.and_then(|own| own.shear.get(storey)?.get(line));
             let mut column = *column;
-            // A wall yields at its foot alone.
-            if let Some(wall) = wall.filter(|own| own.storeys[0] == storey + 1) {
-                if let Some(hysteresis) = wall.shear {
-                    ends[0] = stick_model.add_sliding(from, X, hysteresis);
-                    column.shear_rigidity = None;
-                    let (line, storey) = (line + 1, storey + 1);
-                    row_places.push(SpringPlace::sliding(MemberPlace::Column { line, storey }));
-                }
-                if let Some(hysteresis) = wall.hinge {
-                    ends[0] = stick_model.yielding(ends[0], hysteresis, MemberEnd::First);
-                    discretization.spring_places.push(SpringPlace::Column {
-                        storey: storey + 1,
-                        line: line + 1,
-                        end: MemberEnd::First,
-                    });
-                }
+            // A wall slides at its foot alone.
+            let lowest = wall.filter(|own| own.storeys[0] == storey + 1);
+            if let Some(hysteresis) = lowest.and_then(|own| own.shear) {
+                ends[0] = stick_model.add_sliding(from, X, hysteresis);
+                column.shear_rigidity = None;
+                let (line, storey) = (line + 1, storey + 1);
+                row_places.push(SpringPlace::sliding(MemberPlace::Column { line, storey }));
+            }
+            for end in [MemberEnd::First, MemberEnd::Last] {
+                let at_head = end == MemberEnd::Last;
+                let Some(own) = wall.and_then(|own| own.hinge_at(storey + 1, at_head)) else {
+                    continue;
+                };
+                let node = &mut ends[end as usize];
+                *node = stick_model.yielding(*node, own, end);
+                discretization.spring_places.push(SpringPlace::Column {
+                    storey: storey + 1,
+                    line: line + 1,
+                    end,
+                });
             }
             for (joint, end) in [(faces[0], MemberEnd::First), (faces[1], MemberEnd::Last)] {
                 let node = &mut ends[end as usize];
@@ -682,7 +686,7 @@ pub(super) fn discretize_frame(
     discretization.spring_places.append(&mut row_places);
     discretization.stick_model = stick_model;
     let walls = frame.walls.iter();
-    discretization.walls = walls.map(|own| InFrame::alone(*own)).collect();
+    discretization.walls = walls.map(|own| InFrame::alone(own.clone())).collect();
     let beams = frame.coupling_beams.iter();
     discretization.coupling_beams = beams.map(|own| InFrame::alone(*own)).collect();
     discretization.add_diagonals(&frame.diagonals, &all_joints, &on_columns);

@@ -107,26 +107,37 @@ impl Discretization {
             damping: under.damping,
             sways: under.sways,
             middle: middle - centre,
-            bed: under.bed.clone(),
         });
         self.foot = Some(node);
-        self.add_bed(foundation, under, middle - centre);
+        let middle = middle - centre;
+        let sinking =
+            |own: &BedSpring| over_nodes([((node, Y), 1.0), ((node, THETA), middle + own.at)]);
+        self.add_bed(foundation, under.bed.clone(), sinking);
+        if under.vertical_damping > 0.0 {
+            self.stick_model.elements.push(Element::Spring {
+                part: Part::Dashpot,
+                stiffness: under.vertical_damping,
+                row: over_nodes([((node, Y), 1.0), ((node, THETA), middle)]),
+            });
+        }
     }
 
-    /// Adds contact springs in compression alone under a foundation whose middle lies this far to the right of its node, and the
-    /// dashpot beside them (theory, Eq. B25).
-    fn add_bed(&mut self, foundation: &Foundation, under: &Subgrade, middle: f64) {
-        let Some(node) = self.foot else { return };
+    /// Adds contact springs in compression alone under a foundation; `rise`: that of the foundation at a spring (theory, Eq. B25).
+    pub(super) fn add_bed(
+        &mut self,
+        foundation: &Foundation,
+        bed: Vec<BedSpring>,
+        rise: impl Fn(&BedSpring) -> Row,
+    ) {
         let bearing = foundation.uplift.and_then(|own| own.bearing);
-        let sinking = |at: f64| over_nodes([((node, Y), 1.0), ((node, THETA), middle + at)]);
-        for (index, spring) in under.bed.iter().enumerate() {
+        for (index, spring) in bed.iter().enumerate() {
             let strength = bearing.map(|own| [own.strength * spring.area, own.hardening]);
             // What is not positive is a fault of the model.
             let Ok(hysteresis) = Hysteresis::ground(spring.stiffness, strength) else {
                 continue;
             };
             self.stick_model.yielding.push(YieldingElement {
-                row: sinking(spring.at),
+                row: rise(spring),
                 hysteresis,
                 proportional_damping: ProportionalDamping::None,
             });
@@ -134,13 +145,7 @@ impl Discretization {
             self.spring_places
                 .push(SpringPlace::Footing { line, spring });
         }
-        if under.vertical_damping > 0.0 {
-            self.stick_model.elements.push(Element::Spring {
-                part: Part::Dashpot,
-                stiffness: under.vertical_damping,
-                row: sinking(0.0),
-            });
-        }
+        self.stick_model.bed = bed;
     }
 
     /// Adds ground in compression alone under every foot of a column, by column lines.
@@ -174,11 +179,12 @@ impl Discretization {
             return;
         }
         let sticks = &mut self.stick_model;
+        let lifts = !sticks.bed.is_empty();
         let ground = sticks.add_node(0.0, 0.0);
         sticks.nodes[ground].support = Support::Fixed;
         let base = sticks.nodes[foundation.node];
         let turning = (foundation.node, THETA);
-        let raised = (!foundation.bed.is_empty()).then_some(((foundation.node, Y), -1.0));
+        let raised = lifts.then_some(((foundation.node, Y), -1.0));
         for node in 0..ground {
             let own = sticks.nodes[node];
             let of_mass = alpha * own.mass;

@@ -164,7 +164,7 @@ impl Ties {
                 }
             }
             // Without contact springs it does not rise.
-            let held = [(X, !foundation.sways), (Y, foundation.bed.is_empty())];
+            let held = [(X, !foundation.sways), (Y, stick_model.bed.is_empty())];
             for (component, _) in held.into_iter().filter(|(_, held)| *held) {
                 ties.merge(Self::place(foundation.node, component), GROUND);
             }

@@ -20,6 +20,12 @@ impl PlanBase {
             .chain(self.uncoupled.or(self.rocking))
     }
 
+    /// The rise of its middle over displacements of nodes; `None` if it keeps its height.
+    pub(crate) fn rise(self) -> Option<Row> {
+        let node = self.rocking.filter(|_| self.rises)?;
+        Some(over_nodes([((node, THETA), 1.0)]))
+    }
+
     /// Its motions over displacements of nodes: sway along and across of its middle, rotation about the vertical axis, and rocking along
     /// and across, as displacements of floors per height.
     pub(crate) fn motions(self) -> [Row; 5] {
@@ -44,7 +50,14 @@ impl PlanBase {
     fn rise_at(self, point: PlanPoint) -> Option<Row> {
         let node = self.rocking?;
         let arms = [0, 1].map(|axis| point[axis] - self.middle[axis]);
-        Some(leant(node, arms))
+        Some(self.risen(leant(node, arms)))
+    }
+
+    /// A rise by rocking with that of the middle.
+    fn risen(self, mut row: Row) -> Row {
+        let rise = self.rise().unwrap_or_default();
+        row.extend(rise.entries().iter().copied());
+        row
     }
 
     /// How its rocking turns a vertical plane along this direction, counter-clockwise; `None` if it does not rock.
@@ -70,8 +83,17 @@ impl Discretization {
         let directions = base.in_plan();
         let sticks = &mut self.stick_model;
         let Some(own) = sticks.plan_base else { return };
+        let bed = base.foundation.filter(|_| own.rises).and_then(|plate| {
+            let vertical = base.vertical_stiffness?;
+            let uplift = plate.uplift?;
+            let rocking = directions.map(|own| own.rotational_stiffness.unwrap_or(0.0));
+            // What is not possible is found where the ground is.
+            let bed = plate.bed_in_plan(vertical, uplift.ground.is_none().then_some(rocking));
+            Some((plate, bed.ok()?))
+        });
         if let Some(rocking) = own.rocking {
-            let stiffness = directions.map(|own| own.rotational_stiffness.unwrap_or(0.0));
+            let springs = directions.map(|own| own.rotational_stiffness.unwrap_or(0.0));
+            let stiffness = springs.map(|own| if bed.is_some() { 0.0 } else { own });
             let springs = [
                 (Part::Undamped, stiffness),
                 (Part::Dashpot, directions.map(|own| own.rotational_damping)),
@@ -85,6 +107,13 @@ impl Discretization {
                 let springs = springs.map(|(ends, value)| Element::between(ends, part, value));
                 sticks.elements.extend(springs);
             }
+        }
+        if let Some(rise) = own.rise().filter(|_| base.vertical_damping > 0.0) {
+            sticks.elements.push(Element::Spring {
+                part: Part::Dashpot,
+                stiffness: base.vertical_damping,
+                row: rise,
+            });
         }
         let sways = directions.map(|own| own.horizontal_stiffness);
         sticks.nodes[node].support = match (sways, base.torsional_stiffness) {
@@ -113,6 +142,31 @@ impl Discretization {
         sticks.elements.extend(matrix.elements(ground, &[node]));
         sticks.uncouple_rocking();
         self.foot = Some(node);
+        if let (Some((plate, bed)), Some(rocking)) = (bed, own.rocking) {
+            self.add_bed(&plate, bed, |spring| {
+                own.risen(leant(rocking, [spring.at, spring.across]))
+            });
+        }
+    }
+
+    /// Lets floors that neither columns nor walls carry rise with the base as a rigid body, with their masses and loads \[kg, N\].
+    pub(super) fn let_floors_rise(&mut self, carried: &[[f64; 2]]) {
+        let sticks = &mut self.stick_model;
+        if !sticks.plan_base.is_some_and(|own| own.rises) {
+            return;
+        }
+        for (floor, [mass, load]) in carried.iter().enumerate() {
+            let height = sticks.nodes[self.floors[floor]].y;
+            let node = sticks.nodes.len();
+            sticks.nodes.push(Node {
+                load: *load,
+                inertia: [0.0, 0.0, *mass],
+                influence: [Influence::NONE, Influence::NONE, Influence::UP],
+                ..Node::at(0.0, height).held(Support::Turning)
+            });
+            sticks.note_rise((node, THETA), self.centres[floor]);
+            sticks.raise((node, THETA));
+        }
     }
 
     /// Mass-proportional damping of the motion relative to the base in plan: C = Tᵀ α M T instead of α M, T taking sway, rotation and
@@ -186,6 +240,7 @@ impl StickModel {
             centre: footing.tier.centre,
             middle: area.centroid,
             rocking: None,
+            rises: base.lifts(),
             uncoupled: None,
         });
         if !base.rocks_in_plan() {
@@ -195,7 +250,8 @@ impl StickModel {
         let mass = base.foundation.map_or(base.mass, |own| own.mass);
         let [along, across] = [along, across].map(|squared| mass * squared);
         let along = base.foundation.map_or(along, |own| own.rotary_inertia);
-        let rocking = self.add_leaning([along, across]);
+        let raised = if base.lifts() { mass } else { 0.0 };
+        let rocking = self.add_leaning([along, across, raised]);
         if let Some(own) = &mut self.plan_base {
             own.rocking = Some(rocking);
         }
@@ -222,14 +278,21 @@ impl StickModel {
         self.elements = deformed.collect();
     }
 
-    /// Adds a node of two displacements of floors per height, with these inertias, and returns it. It comes after the roof, because it
-    /// deforms every storey.
-    fn add_leaning(&mut self, [along, across]: [f64; 2]) -> usize {
+    /// Adds a node of two displacements of floors per height, and of a rise if the base can lift off, with these inertias, and returns it.
+    /// It comes after the roof, because it deforms every storey.
+    fn add_leaning(&mut self, inertia: [f64; 3]) -> usize {
         let node = self.nodes.len();
+        let rises = self.plan_base.is_some_and(|own| own.rises);
         self.nodes.push(Node {
-            inertia: [along, across, 0.0],
-            influence: [Influence::NONE; 3],
-            ..Node::at(0.0, 0.0).held(Support::Swaying)
+            inertia,
+            influence: match rises {
+                true => [Influence::NONE, Influence::NONE, Influence::UP],
+                false => [Influence::NONE; 3],
+            },
+            ..Node::at(0.0, 0.0).held(match rises {
+                true => Support::Free,
+                false => Support::Swaying,
+            })
         });
         let top = self.nodes.iter().map(|own| own.y).fold(0.0, f64::max);
         let last = Turn {
@@ -289,44 +352,47 @@ impl StickModel {
         self.plan_base.is_some_and(|own| own.rocking.is_some())
     }
 
-    /// Lets rocking along and across follow displacements that masses which rise with them do not couple: of the inertia M = L D Lᵀ
-    /// the motions q = L⁻ᵀ q′ leave D.
+    /// Lets rocking along and across, and a rise, follow displacements that masses which rise with them do not couple: of the inertia
+    /// M = L D Lᵀ the motions q = L⁻ᵀ q′ leave D.
     fn uncouple_rocking(&mut self) {
         let Some((base, rocking)) = self.plan_base.and_then(|own| Some((own, own.rocking?))) else {
             return;
         };
-        let (mut along, mut both, mut across) = (0.0, 0.0, 0.0);
+        let mut coupled = [[0.0; 3]; 3];
         for (node, own) in self.nodes.iter().enumerate() {
             for (component, inertia) in own.inertia.into_iter().enumerate() {
                 if inertia == 0.0 || own.support == Support::Fixed {
                     continue;
                 }
                 let row = self.carried((node, component));
-                let share = |component| {
+                let shares = [X, Y, THETA].map(|component| {
                     let mut all = places(&row);
                     let found = all.find(|(place, _)| *place == (rocking, component));
                     found.map_or(0.0, |(_, share)| share)
-                };
-                let (a, b) = (share(X), share(Y));
-                along += inertia * a * a;
-                both += inertia * a * b;
-                across += inertia * b * b;
+                });
+                for i in 0..3 {
+                    for j in 0..=i {
+                        coupled[i][j] += inertia * shares[i] * shares[j];
+                    }
+                }
             }
         }
-        if both.abs() <= COUPLED * (along * across).sqrt() {
+        let size = |i: usize| coupled[i][i];
+        let is_coupled =
+            |&(i, j): &(usize, usize)| coupled[i][j].abs() > COUPLED * (size(i) * size(j)).sqrt();
+        if ![(1, 0), (2, 0), (2, 1)].iter().any(is_coupled) {
             return;
         }
-        let follows = self.add_leaning([0.0; 2]);
+        let follows = self.add_leaning([0.0; 3]);
         self.plan_base = Some(PlanBase {
             uncoupled: Some(follows),
             ..base
         });
-        let [x, y] = [X, Y].map(|component| (follows, component));
-        let rows = [
-            over_nodes([(x, 1.0), (y, -both / along)]),
-            over_nodes([(y, 1.0)]),
-        ];
-        for (component, row) in [X, Y].into_iter().zip(rows) {
+        let shares = uncoupled(&coupled);
+        let last = if base.rises { THETA } else { Y };
+        for component in X..=last {
+            let own = (component..=last).map(|other| ((follows, other), shares[component][other]));
+            let row = over_nodes(own.filter(|(_, share)| *share != 0.0));
             self.ties.insert(index_of((rocking, component)), row);
         }
         let ties = self.ties.iter();
@@ -334,4 +400,31 @@ impl StickModel {
         let ties = ties.map(|(index, row)| (*index, self.carried_row(row).merged()));
         self.ties = ties.collect();
     }
+}
+
+/// L⁻ᵀ of M = L D Lᵀ, with ones on the diagonal; `lower`: the lower triangle of M. A motion without inertia stays as it is.
+fn uncoupled(lower: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
+    let mut factor = [[0.0; 3]; 3];
+    let mut pivots = [0.0; 3];
+    for i in 0..3 {
+        for j in 0..=i {
+            let known = (0..j).map(|k| factor[i][k] * pivots[k] * factor[j][k]);
+            let left = lower[i][j] - known.sum::<f64>();
+            match (i == j, pivots[j] > 0.0) {
+                (true, _) => (pivots[i], factor[i][i]) = (left, 1.0),
+                (false, true) => factor[i][j] = left / pivots[j],
+                (false, false) => {}
+            }
+        }
+    }
+    // Lᵀ X = 1 from the last row up.
+    let mut shares = [[0.0; 3]; 3];
+    for column in 0..3 {
+        for i in (0..=column).rev() {
+            let below = (i + 1..=column).map(|k| factor[k][i] * shares[k][column]);
+            let own = if i == column { 1.0 } else { 0.0 };
+            shares[i][column] = own - below.sum::<f64>();
+        }
+    }
+    shares
 }

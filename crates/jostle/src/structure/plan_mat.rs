@@ -28,9 +28,18 @@ pub(super) fn put_on_mat(
     let share = 1.0 / bearings.len() as f64;
     let isolator = &isolation.isolator;
     let stiffness = isolator.stiffness(weight);
-    let (elastic, slider) = match isolator.yielding(weight) {
-        None => (stiffness, None),
-        Some([strength, second, _]) => {
+    let stages = isolator.stages(weight);
+    let (elastic, slider) = match (stages, isolator.yielding(weight)) {
+        (Some((stages, elastic)), _) => {
+            let stages = stages.map(|own| own.of_share(share));
+            let least = stages.iter().map(|own| own.friction);
+            let least = least.fold(f64::INFINITY, f64::min);
+            let law = CircularLaw::Pendulums(stages);
+            let rows = Hysteresis::in_plan(law, share * elastic, least);
+            (0.0, rows.ok())
+        }
+        (None, None) => (stiffness, None),
+        (None, Some([strength, second, _])) => {
             let own = [stiffness - second, strength].map(|value| share * value);
             let law = match *isolator {
                 Isolator::Pendulum { friction, .. } if !friction.is_constant() => {

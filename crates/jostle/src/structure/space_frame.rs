@@ -68,7 +68,7 @@ pub(super) enum Unknown {
     Floor(usize),
     /// Rise or rotation of an end of a member beyond a hinge or fibres, about an axis of the lines.
     End(usize),
-    /// Rocking of the base along or across the lines, as a displacement of floors per height.
+    /// Rocking of the base along or across the lines, as a displacement of floors per height, and its rise.
     Rocking(usize),
 }
 
@@ -257,7 +257,7 @@ pub(super) struct Assembly<'a> {
     /// Whether the first of them is a mat.
     on_mat: bool,
     /// The point about which the mat rocks, if it does.
-    rocks_about: Option<PlanPoint>,
+    rocks_about: Option<(PlanPoint, bool)>,
     pub(super) joints: Joints,
 }
 
@@ -290,24 +290,22 @@ impl<'a> Assembly<'a> {
     }
 
     /// The same on a mat that rocks about a point of the site.
-    pub(super) fn rocking_about(mut self, point: Option<PlanPoint>) -> Self {
-        self.rocks_about = point.map(|point| self.frame.from_site(point));
+    pub(super) fn rocking_about(mut self, base: Option<(PlanPoint, bool)>) -> Self {
+        self.rocks_about = base.map(|(point, rises)| (self.frame.from_site(point), rises));
         self
     }
 
     /// How the rocking of the mat raises and turns what stands on it at a crossing; nothing if it does not rock.
     pub(super) fn rocked(&self, crossing: [usize; 2]) -> [Deformation; 3] {
-        let Some(middle) = self.rocks_about else {
+        let Some((middle, rises)) = self.rocks_about else {
             return [const { Deformation::new() }; 3];
         };
         let x = self.frame.lines_x[crossing[0]] - middle[0];
         let y = self.frame.lines_y[crossing[1]] - middle[1];
-        let [along, across] = [0, 1].map(Unknown::Rocking);
-        [
-            vec![(along, -x), (across, -y)],
-            vec![(across, -1.0)],
-            vec![(along, 1.0)],
-        ]
+        let [along, across, rise] = [0, 1, 2].map(Unknown::Rocking);
+        let mut raised = vec![(along, -x), (across, -y)];
+        raised.extend(rises.then_some((rise, 1.0)));
+        [raised, vec![(across, -1.0)], vec![(along, 1.0)]]
     }
 
     /// Place of a floor among all that moves; what is below the floors is `None`, and does not move without a mat.

@@ -223,18 +223,26 @@ impl StickModel {
         let [c, s] = assembly.frame.direction;
         let rocked = assembly.rocked(crossing);
         let shares = rocked[motion].iter().flat_map(|own| {
-            let along_and_across = match own.0 {
-                Unknown::Rocking(0) => [c, s],
-                _ => [-s, c],
+            let shares = match own.0 {
+                Unknown::Rocking(direction) => rocked_on_site(direction, [c, s]),
+                _ => [0.0; 3],
             };
-            let places = [X, Y].map(|component| (rocking, component));
-            let shares = along_and_across.map(|share| share * own.1);
-            places.into_iter().zip(shares)
+            let places = [X, Y, THETA].map(|component| (rocking, component));
+            places.into_iter().zip(shares.map(|share| share * own.1))
         });
         let row = over_nodes(shares.filter(|(_, share)| *share != 0.0)).merged();
         let node = self.add_turning(Stage::Joints, self.nodes.len(), height);
         self.ties.insert(index_of((node, THETA)), row);
         Some(node)
+    }
+}
+
+/// Rocking along x and across, and the rise of the base, in a rocking along or across the lines of a frame, or in that rise.
+fn rocked_on_site(motion: usize, [c, s]: [f64; 2]) -> [f64; 3] {
+    match motion {
+        0 => [c, s, 0.0],
+        1 => [-s, c, 0.0],
+        _ => [0.0, 0.0, 1.0],
     }
 }
 
@@ -404,11 +412,8 @@ impl Builder<'_> {
                 Unknown::End(index) => add((self.ends[index], THETA), *share),
                 Unknown::Rocking(direction) => {
                     let rocking = self.sticks.plan_base.and_then(|own| own.rocking);
-                    let shares = match direction {
-                        0 => [c, s],
-                        _ => [-s, c],
-                    };
-                    for (component, own) in [X, Y].into_iter().zip(shares) {
+                    let shares = rocked_on_site(direction, [c, s]);
+                    for (component, own) in [X, Y, THETA].into_iter().zip(shares) {
                         if let Some(node) = rocking {
                             add((node, component), own * share);
                         }

@@ -83,14 +83,21 @@ impl MemberForces {
         });
         for (index, wall, forms) in walls.collect::<Vec<_>>() {
             let [axial, moment, elongation] = forms.map(|form| self.index_of(form));
+            let hinge = |storey, end| SpringPlace::InSpace {
+                place: wall.column(storey),
+                end,
+                axis: wall.along,
+            };
+            let foot = hinge(wall.storeys[0], MemberEnd::First);
+            let storeys = wall.storeys[0]..=wall.storeys[1];
+            let upper = storeys.flat_map(|storey| {
+                [MemberEnd::First, MemberEnd::Last].map(|end| hinge(storey, end))
+            });
             self.walls.push(WallForce {
                 frame: None,
                 number: index + 1,
-                hinge: SpringPlace::InSpace {
-                    place: wall.column(wall.storeys[0]),
-                    end: MemberEnd::First,
-                    axis: wall.along,
-                },
+                hinge: foot,
+                upper_hinges: upper.filter(|own| *own != foot).collect(),
                 sliding: None,
                 axial,
                 moment,

@@ -43,6 +43,8 @@ pub struct StickModel {
     pub plan_base: Option<PlanBase>,
     /// Rigid foundation on springs and dashpots, if it stands on one.
     pub foundation: Option<RigidFoundation>,
+    /// Contact springs of a foundation that can lift off, in one plane or in plan; they stand among the elements that yield.
+    pub bed: Vec<BedSpring>,
 }
 
 /// The end of a column inside a joint, which turns with it as a rigid body.
@@ -71,8 +73,6 @@ pub struct RigidFoundation {
     pub sways: bool,
     /// How far its middle lies to the right of its node, which is the centre of the masses that rise with it \[m\].
     pub middle: f64,
-    /// Contact springs, if it can lift off; they stand among the elements that yield.
-    pub bed: Vec<BedSpring>,
 }
 
 /// A point with three displacements: in the plane x (right), y (up) and θ (counter-clockwise); of a floor in plan x, across and θ.
@@ -343,9 +343,11 @@ pub struct PlanBase {
     pub centre: [f64; 2],
     /// Where springs act and about which it rocks \[m\].
     pub middle: [f64; 2],
-    /// Node of its rocking, if it rocks: displacements of floors per height, along and across \[–\].
+    /// Node of its rocking, if it rocks: displacements of floors per height, along and across \[–\], and its rise \[m\].
     pub rocking: Option<usize>,
-    /// The node that it follows in its place, if masses that rise couple both directions.
+    /// Whether it rises and sinks, because it can lift off.
+    pub rises: bool,
+    /// The node that it follows in its place, if masses that rise couple these motions.
     pub uncoupled: Option<usize>,
 }
 

@@ -82,7 +82,7 @@ pub(super) fn discretize_tiers(tiers: &Tiers, gravity: Gravity, base: &Base) -> 
     let jointed = jointed.map(|frame| {
         let assembly = Assembly::new(frame, &tiers.storey_heights, mat.as_ref(), &lumped);
         let base = stick_model.plan_base.filter(|own| own.rocking.is_some());
-        let assembly = assembly.rocking_about(base.map(|own| own.middle));
+        let assembly = assembly.rocking_about(base.map(|own| (own.middle, own.rises)));
         let floors = tiers.floors.iter().enumerate();
         let weights = floors.map(|(floor, own)| [own.mass, tiers.floor_load(floor)]);
         let carried: Vec<[f64; 2]> = weights.filter(|_| carries).collect();
@@ -162,6 +162,11 @@ pub(super) fn discretize_tiers(tiers: &Tiers, gravity: Gravity, base: &Base) -> 
     }
     let below = mat.as_ref().map(|mat| (foot, mat));
     add_frames(tiers, &lumped, below, carries, &mut discretization);
+    if tiers.frames.is_empty() && tiers.space_frame.is_none() {
+        let floors = lumped.iter().enumerate();
+        let carried = floors.map(|(floor, own)| [own.tier.mass, tiers.floor_load(floor)]);
+        discretization.let_floors_rise(&carried.collect::<Vec<_>>());
+    }
     let places = [ground, foot];
     match (&base.isolation, mat) {
         (Some(isolation), Some(mat)) => {

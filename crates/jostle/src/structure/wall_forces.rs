@@ -18,7 +18,7 @@ pub(crate) struct AtRest<'a> {
 }
 
 /// Forces at the foot of a wall, positive as those of columns: indices into [`MemberForces::forms`].
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct WallForce {
     /// Its frame, where several stand in a plan.
     pub frame: Option<usize>,
@@ -26,6 +26,8 @@ pub struct WallForce {
     pub number: usize,
     /// Where it turns at its foot, if it yields there.
     pub hinge: SpringPlace,
+    /// Where it turns above.
+    pub upper_hinges: Vec<SpringPlace>,
     /// Where it slides, if it yields there.
     pub sliding: Option<SpringPlace>,
     /// Axial force, positive in tension.
@@ -89,11 +91,17 @@ impl MemberForces {
             });
             let (line, storey) = (own.part.line, own.part.storeys[0]);
             let before = discretization.walls[..wall].iter();
-            let end = MemberEnd::First;
+            let hinge = |storey, end| SpringPlace::Column { storey, line, end };
+            let upper = own.part.hinges.iter().map(|own| match own.at_head {
+                true => hinge(own.storey, MemberEnd::Last),
+                false => hinge(own.storey, MemberEnd::First),
+            });
+            let foot_hinge = hinge(storey, MemberEnd::First);
             self.walls.push(WallForce {
+                upper_hinges: upper.filter(|own| *own != foot_hinge).collect(),
                 frame: own.frame,
                 number: 1 + before.filter(|other| other.frame == own.frame).count(),
-                hinge: SpringPlace::Column { storey, line, end },
+                hinge: foot_hinge,
                 sliding: Some(SpringPlace::sliding(place)),
                 axial,
                 moment,

@@ -13,8 +13,8 @@ use crate::interface::{
 };
 use crate::linear::{Row, sort_by};
 use crate::model::{
-    Base, Building, Damping, FloorPairs, Foundation, HalfSpace, LEVEL_TOLERANCE, Level, Link,
-    LinkLaw, LumpedFloor, MassDamping, Model, ModelFault, PlanPoint, Structure,
+    Base, Building, Damping, FloorPairs, Foundation, LEVEL_TOLERANCE, Level, Link, LinkLaw,
+    LumpedFloor, MassDamping, Model, ModelFault, PlanPoint, Structure,
 };
 use crate::structure::{Discretization, InnerLink, LinkEnd};
 
@@ -52,8 +52,8 @@ impl System {
                 (None, Some((foundation, ground)), _) => fixed(false)
                     .and_then(|fixed| Founded::new(building, &fixed, points, foundation, ground))
                     .map(|founded| (founded.damping.clone(), Some((founded, *foundation)), None)),
-                (None, None, Some((foundation, soil))) => fixed(false).and_then(|fixed| {
-                    let own = FoundationInPlan::new(building, &fixed, &foundation, &soil)?;
+                (None, None, Some((foundation, ground))) => fixed(false).and_then(|fixed| {
+                    let own = FoundationInPlan::new(building, &fixed, &foundation, &ground)?;
                     Ok((rayleigh(&fixed), None, Some(own)))
                 }),
                 (None, None, None) => Ok((building.damping.clone(), None, None)),
@@ -91,6 +91,14 @@ impl System {
                 continue;
             }
             assembled.weaken_with_ductility(building);
+            assembled.limit_rotations(building);
+            if assembled.limited_ends.is_empty() && !building.rotation_limits.is_empty() {
+                faults.push(ModelFault {
+                    path: format!("building[{index}].rotation_limit"),
+                    problem: "names no hinge of a member: the building is elastic, or its members have other lines and storeys; add hinges, or leave it out".into(),
+                });
+                continue;
+            }
             // Modes and damping are those with the links between its floors.
             match inner_links(&assembled, model, index) {
                 Ok(links) if founded.is_none() => assembled.link(links),
@@ -328,10 +336,10 @@ fn fixed(
     Ok(assembled)
 }
 
-/// The foundation of a building, and the half-space under it.
-fn founded_in_plan(model: &Model, index: usize) -> Option<(Foundation, HalfSpace)> {
+/// The foundation of a building with a plan, and the ground under it.
+fn founded_in_plan(model: &Model, index: usize) -> Option<(Foundation, Ground<'_>)> {
     let foundation = model.buildings[index].base.foundation?;
-    Some((foundation, model.soil.as_ref()?.half_space?))
+    Some((foundation, Ground::of(model, &foundation, 0)?))
 }
 
 fn rayleigh(building: &BuildingSystem) -> Damping {

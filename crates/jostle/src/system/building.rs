@@ -4,6 +4,7 @@ use std::ops::Deref;
 use std::sync::Arc;
 
 use super::damping::DampedMode;
+use super::limited_ends::LimitedEnd;
 use super::plan_mat::MatInPlan;
 use super::plan_soil::FoundationInPlan;
 use super::plan_storey::PlanStorey;
@@ -73,6 +74,8 @@ pub struct BuildingSystem {
     pub members: MemberForces,
     /// Columns whose shear strength falls with the ductility of their hinges.
     pub(crate) weakening: Vec<Weakening>,
+    /// Hinges whose rotations have limits.
+    pub limited_ends: Vec<LimitedEnd>,
     /// The same building without neighbours on the soil, where they act on its foundation.
     alone: Option<Arc<AssembledBuilding>>,
     /// The recursion through its equations, shared by all runs.
@@ -240,6 +243,7 @@ impl BuildingSystem {
             modes,
             members: MemberForces::default(),
             weakening: Vec::new(),
+            limited_ends: Vec::new(),
             alone: None,
             sweep: Arc::new(sweep),
         }
@@ -303,6 +307,11 @@ impl BuildingSystem {
     /// Lets the shear strength of its columns fall with the ductility of their hinges, where the model says so.
     pub(super) fn weaken_with_ductility(&mut self, model: &Building) {
         self.weakening = Weakening::all(model, &self.structure);
+    }
+
+    /// Finds the hinges whose rotations the model limits.
+    pub(super) fn limit_rotations(&mut self, model: &Building) {
+        self.limited_ends = LimitedEnd::all(model, &self.structure);
     }
 
     /// Lowers shear strengths to those at the ductility so far. `memories`: those of its springs.
@@ -507,6 +516,13 @@ impl BuildingSystem {
         let sticks = &self.discretization.stick_model;
         let motions = sticks.plan_base?.motions();
         Some(motions.map(|row| self.equations.row(&sticks.carried_row(&row))))
+    }
+
+    /// The rise of the middle of its base in plan over the displacements of this building; `None` if it keeps its height.
+    pub(crate) fn base_rise(&self) -> Option<Row> {
+        let sticks = &self.discretization.stick_model;
+        let rise = sticks.plan_base?.rise()?;
+        Some(self.equations.row(&sticks.carried_row(&rise)))
     }
 
     /// The displacement of a point of its footing in a direction, over the vectors of a [`crate::State`]; `None` where it does not move.

@@ -1,8 +1,8 @@
 //! Buildings with a plan on the soil: springs of their base at the periods that these springs give.
 
 use super::BuildingSystem;
-use super::soil::{MOST_STEPS, SAME_PERIOD, damping_ratio};
-use crate::model::{Base, Building, Foundation, Gravity, HalfSpace, PlanFoundationSprings};
+use super::soil::{Ground, MOST_STEPS, SAME_PERIOD, damping_ratio};
+use crate::model::{Base, BedSpring, Building, Foundation, Gravity, PlanFoundationSprings};
 use crate::structure::Discretization;
 
 /// The foundation of a building with a plan, and the soil under it.
@@ -31,7 +31,7 @@ impl FoundationInPlan {
         building: &Building,
         fixed: &BuildingSystem,
         foundation: &Foundation,
-        soil: &HalfSpace,
+        ground: &Ground<'_>,
     ) -> Result<Self, (&'static str, String)> {
         let [fixed_periods, fixed_damping] = of_modes(fixed)?;
         let mut found = Self {
@@ -43,7 +43,8 @@ impl FoundationInPlan {
             damping: fixed_damping,
         };
         for _ in 0..MOST_STEPS {
-            found.springs = soil.springs_in_plan(foundation, found.periods);
+            found.springs = springs_in_plan(ground, foundation, found.periods)
+                .map_err(|problem| ("foundation", problem))?;
             let standing = Building {
                 base: found.base(&building.base),
                 ..building.clone()
@@ -88,6 +89,54 @@ impl FoundationInPlan {
             ..self
         })
     }
+}
+
+/// Springs and dashpots of the ground under a foundation, at periods along x and across \[s\]. Rocking of one that can lift off is that
+/// of its contact springs, and its vertical spring that at the longer period.
+///
+/// # Errors
+/// Contact springs that the soil does not allow.
+fn springs_in_plan(
+    ground: &Ground<'_>,
+    foundation: &Foundation,
+    periods: [f64; 2],
+) -> Result<PlanFoundationSprings, String> {
+    let mut found = match ground {
+        Ground::HalfSpace(soil) => soil.springs_in_plan(foundation, periods),
+        Ground::Springs(_) | Ground::Given(_) => PlanFoundationSprings {
+            along: ground.springs(foundation, periods[0]),
+            across: ground.springs(&foundation.turned(), periods[1]),
+            torsion: [
+                foundation.torsional_stiffness.unwrap_or(0.0),
+                foundation.torsional_damping.unwrap_or(0.0),
+            ],
+        },
+    };
+    if foundation.uplift.is_none() {
+        return Ok(found);
+    }
+    let PlanFoundationSprings { along, across, .. } = &mut found;
+    let slower = if periods[0] >= periods[1] {
+        *along
+    } else {
+        *across
+    };
+    let rocking = [along.rocking_stiffness, across.rocking_stiffness];
+    let rocking = matches!(ground, Ground::HalfSpace(_)).then_some(rocking);
+    let bed = foundation.bed_in_plan(slower.vertical_stiffness, rocking)?;
+    let arms: [fn(&BedSpring) -> f64; 2] = [|own| own.at, |own| own.across];
+    for (springs, arm) in [along, across].into_iter().zip(arms) {
+        springs.vertical_stiffness = slower.vertical_stiffness;
+        springs.vertical_damping = slower.vertical_damping;
+        let turned = bed.iter().map(|own| own.stiffness * arm(own) * arm(own));
+        springs.rocking_stiffness = turned.sum();
+        if rocking.is_none() {
+            // Dashpots stand beside the springs, and share their sum as they do.
+            let ratio = slower.vertical_damping / slower.vertical_stiffness;
+            springs.rocking_damping = ratio * springs.rocking_stiffness;
+        }
+    }
+    Ok(found)
 }
 
 /// Periods \[s\] and damping ratios \[–\] of the fundamental modes along x and across.

@@ -90,7 +90,8 @@ impl<'a> Ground<'a> {
         }
     }
 
-    fn springs(&self, foundation: &Foundation, period: f64) -> FoundationSprings {
+    /// Springs and dashpots of a foundation in motions of a period \[s\].
+    pub(super) fn springs(&self, foundation: &Foundation, period: f64) -> FoundationSprings {
         match self {
             Self::HalfSpace(soil) => soil.springs(foundation, period),
             Self::Given([stiffness, damping]) => FoundationSprings {

@@ -9,6 +9,7 @@ use super::isolation::{Floors, IsolationSummary};
 use super::joints::JointSummary;
 use super::members::MemberSummary;
 use super::parts::PartSummary;
+use super::rotation_levels::RotationLevelsSummary;
 use super::sections::FibreSummary;
 use super::shear_failure::ShearFailureSummary;
 use crate::quantity::{Quantity, Unit};
@@ -61,6 +62,9 @@ pub struct BuildingSummary {
     /// Columns that failed in shear; absent if none can.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shear_failures: Option<ShearFailureSummary>,
+    /// Members against stated limits of the rotation of their hinges; absent without limits.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rotation_levels: Option<RotationLevelsSummary>,
     /// Share of the moment at the base that axial forces of coupled walls bear, without that of self weight: the greatest of their moment
     /// about the middle of the walls over the greatest of all; absent without coupling beams \[–\].
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -14,6 +14,7 @@ mod joints;
 mod links;
 mod members;
 mod parts;
+mod rotation_levels;
 mod sections;
 mod shear_failure;
 
@@ -36,6 +37,7 @@ pub use members::{
     AcrossSummary, ForcesSummary, MemberComparison, MemberSummary, SectionSummary, StruckSummary,
 };
 pub use parts::{PanelDamageSummary, PartSummary};
+pub use rotation_levels::{MemberLevel, ReachedLevel, RotationLevelsSummary};
 pub use sections::{FibreAcrossSummary, FibreSummary, StrainLimitSummary};
 pub use shear_failure::{ShearFailure, ShearFailureSummary};
 

@@ -38,6 +38,19 @@ pub(super) fn answer(
     }
 }
 
+/// Moves the stages of pendulums of several surfaces on, before the forces of an accepted step are taken over.
+pub(super) fn slide_stages(
+    spring: &YieldingSpring,
+    rows: &[SpringTrial],
+    memories: &mut [HysteresisMemory],
+) {
+    if let (Some(law), [x, y, ..], Some(memories)) =
+        (spring.hysteresis.circular(), rows, memories.get_mut(..3))
+    {
+        law.slide_stages(memories, [x.answer, y.answer]);
+    }
+}
+
 /// Slope of the potential of the step at a share of the way to the displacement reached, as far as this force goes \[J\].
 pub(super) fn slope(
     springs: &[YieldingSpring],

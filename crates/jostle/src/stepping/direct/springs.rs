@@ -401,6 +401,10 @@ impl Direct {
             .flat_map(|building| &building.equations.springs);
         let time = run.time;
         for (index, (spring, trial)) in springs.zip(&self.yielding.trials).enumerate() {
+            if spring.hysteresis.slides_in_stages() {
+                let rows = &self.yielding.trials[index..];
+                plan_forces::slide_stages(spring, rows, &mut self.state.springs[index..]);
+            }
             let memory = &mut self.state.springs[index];
             let change = trial.reached - memory.deformation();
             let work = 0.5 * (self.yielding.balanced[index] + trial.on_line) * change;

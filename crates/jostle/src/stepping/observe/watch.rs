@@ -73,6 +73,7 @@ pub(super) fn watches(system: &System, rises: bool) -> Vec<Watch> {
         of_sections(index, building, &mut all);
         of_panels(building, &mut all);
         of_footings(building, &mut all);
+        of_limited_ends(building, &mut all);
         if rises {
             all.extend(building.vertical_points().map(|(floor, dof)| {
                 let column = Column::displacement(index, floor + 1).up();
@@ -190,6 +191,13 @@ fn of_foundation_in_plan(index: usize, building: &BuildingSystem, all: &mut Vec<
     let watches = columns.into_iter().zip(&motions);
     all.extend(watches.map(|(column, row)| Watch::new(column, Statistic::Extremes(row.clone()))));
     let [sway, sway_across, turned, rocked, rocked_across] = motions;
+    if let Some(rise) = building.base_rise() {
+        let rise = rise.moved_up(building.offset);
+        all.push(Watch::new(moved.up(), Statistic::Extremes(rise.clone())));
+        let damping = [own.springs.along.vertical_damping, 0.0, 0.0];
+        let dashpots = Statistic::Dashpots(damping, [rise, Row::default()]);
+        all.push(Watch::new(of(Kind::Work), dashpots));
+    }
     let PlanFoundationSprings {
         along,
         across,
@@ -222,6 +230,25 @@ fn of_footings(building: &BuildingSystem, all: &mut Vec<Watch>) {
         let column = Column::along(Owner::Spring(spring), Kind::Lifted);
         Watch::new(column, Statistic::Lifted(spring))
     }));
+}
+
+/// Hinges whose rotations have limits.
+fn of_limited_ends(building: &BuildingSystem, all: &mut Vec<Watch>) {
+    for own in &building.limited_ends {
+        let law = &building.equations.springs[own.spring].hysteresis;
+        let spring = building.spring_offset + own.spring;
+        for (level, limit) in &own.limits {
+            let column = Column::along(Owner::Spring(spring), Kind::Beyond(*level));
+            all.extend(Side::BOTH.map(|side| {
+                let limit = DeformationLimit {
+                    springs: vec![spring],
+                    side,
+                    deformation: own.deformation_at(law, side, *limit),
+                };
+                Watch::new(column, Statistic::Passed(limit))
+            }));
+        }
+    }
 }
 
 /// Bays of infill panels whose damage is judged: how much their diagonals change their length.

@@ -67,7 +67,7 @@ fn on_soil(structure: Structure, foundation: Foundation, solver: Solver) -> Mode
 }
 
 /// Three storeys as stiff across as along.
-fn tiers(plan: &[PlanPoint]) -> Tiers {
+pub(super) fn tiers(plan: &[PlanPoint]) -> Tiers {
     let floor = |mass: &f64| Tier::uniform(*mass, plan.to_vec()).expect("an area");
     let floors: Vec<Tier> = MASSES.iter().map(floor).collect();
     let storey = |stiffness: &f64| TierStorey {
@@ -224,7 +224,7 @@ fn base() -> Base {
     }
 }
 
-fn frame(columns_mass: bool) -> Frame {
+pub(super) fn frame(columns_mass: bool) -> Frame {
     let mut own = plane_frame(3, &[5.0, 7.0], concrete(0.5, 0.5), concrete(0.3, 0.6));
     if !columns_mass {
         own.columns.iter_mut().for_each(|own| own.line_mass = 0.0);
@@ -232,7 +232,7 @@ fn frame(columns_mass: bool) -> Frame {
     own
 }
 
-fn standing(name: &str, at: PlanPoint, frame: Frame) -> PlanFrame {
+pub(super) fn standing(name: &str, at: PlanPoint, frame: Frame) -> PlanFrame {
     PlanFrame {
         name: name.to_owned(),
         at,
@@ -349,7 +349,7 @@ fn pushed(own: &BuildingSystem, forces: &[[f64; 3]]) -> Vec<[f64; 3]> {
         .collect()
 }
 
-fn kinds() -> Vec<(&'static str, Tiers)> {
+pub(super) fn kinds() -> Vec<(&'static str, Tiers)> {
     let mut all = vec![("storeys", tiers(&rectangle(0.0, 0.0, 12.0, 8.0)))];
     all[0].1.storeys[1].centre = [7.0, 3.0];
     all[0].1.floors[2].centre = [5.0, 5.0];
@@ -704,7 +704,7 @@ fn what_a_foundation_in_plan_cannot_have_is_refused() {
     let mut modal = sound.clone();
     modal.analysis.solver = Some(Solver::Modal);
     for (model, field) in [
-        (lifts, "foundation.uplift"),
+        (lifts, "building[0].gravity"),
         (negative, "foundation.torsional_damping"),
         (bare, "building[0].foundation"),
         (coupled, "soil.coupling"),

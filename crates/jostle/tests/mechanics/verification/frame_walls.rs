@@ -7,7 +7,7 @@ use jostle::structure::solve_once;
 use jostle::{
     Axial, Base, Building, CouplingBeam, Damping, Foundation, Frame, FrameHinges, FrameWall,
     Gravity, HalfSpace, MemberRequest, Model, Outcome, PlanFrame, RiccatiSweep, Section, Shear,
-    Soil, SoilCoupling, Solver, Structure, Summary, System, Tier, Tiers,
+    Soil, SoilCoupling, Solver, Structure, Summary, System, Tier, Tiers, WallHinge,
 };
 use jostle_testkit::compare::close;
 use jostle_testkit::models::{bending, rectangle};
@@ -30,13 +30,24 @@ fn law(rule: HysteresisRule, initial: f64, yielding: f64, post_yield: f64) -> Hy
     Hysteresis::new(rule, backbone).expect("sound")
 }
 
+fn at_foot(hysteresis: Hysteresis) -> Vec<WallHinge> {
+    vec![WallHinge {
+        storey: 1,
+        at_head: false,
+        hysteresis,
+    }]
+}
+
 /// Two walls of 3 m and 2 m, 5 m apart, coupled at every floor, and a column line beside them.
 fn coupled(storeys: usize, yields: bool) -> Frame {
     let wall = |line: usize, length: f64, moment: f64| FrameWall {
         line,
         storeys: [1, storeys],
         length,
-        hinge: yields.then(|| law(HysteresisRule::Bilinear, 5e10, moment, 0.02)),
+        hinges: match yields {
+            true => at_foot(law(HysteresisRule::Bilinear, 5e10, moment, 0.02)),
+            false => Vec::new(),
+        },
         shear: yields.then(|| law(HysteresisRule::Bilinear, 8e8, 6e5, 0.05)),
         stiffness_factors: [1.0; 2],
     };
@@ -165,7 +176,7 @@ fn a_pair_of_walls_sways_as_in_closed_form() {
             line,
             storeys: [1, 1],
             length,
-            hinge: None,
+            hinges: Vec::new(),
             shear: None,
             stiffness_factors: [1.0; 2],
         });
@@ -203,7 +214,7 @@ fn a_coupling_beam_yields_over_the_distance_of_its_walls() {
         storeys: [1, 1],
         length: [2.5, 1.5][line - 1],
         // Elastic: it never yields.
-        hinge: Some(law(HysteresisRule::Bilinear, k[line - 1], 1e12, 1.0)),
+        hinges: at_foot(law(HysteresisRule::Bilinear, k[line - 1], 1e12, 1.0)),
         shear: None,
         stiffness_factors: [1.0; 2],
     };
@@ -347,7 +358,7 @@ fn walls_yield_in_shear_as_a_storey() {
             line,
             storeys: [1, 1],
             length: 2.0,
-            hinge: None,
+            hinges: Vec::new(),
             shear: Some(own_law),
             stiffness_factors: [1.0; 2],
         });
@@ -687,4 +698,69 @@ fn turning_with_a_foundation_strains_no_beam() {
     let most = equations.stiffness.quadratic_form(&turned);
     assert!(most > 1e6);
     close(strained, 0.0, most, 1e-9, "strain energy");
+}
+
+/// A wall that yields at the ends of its storeys is a wide column of the frame with hinges there: what beams and floors bring to it stays.
+#[test]
+fn walls_yield_above_their_feet_as_wide_columns() {
+    let storeys = 4;
+    let [weak, strong] = [0.4, 0.9].map(|share| {
+        let moment = share * 1.0e6;
+        law(HysteresisRule::Bilinear, 4e10, moment, 0.03)
+    });
+    let own = coupled(storeys, false);
+    // Without arms: a wall of no length is a column.
+    let mut thin = own.clone();
+    thin.coupling_beams.clear();
+    for wall in &mut thin.walls {
+        wall.length = 1e-9;
+    }
+    let mut columns = thin.clone();
+    let walls = std::mem::take(&mut columns.walls);
+    let hinges = |line: usize| if line == 1 { strong } else { weak };
+    for wall in &mut thin.walls {
+        let ends = (1..=storeys).flat_map(|storey| [(storey, false), (storey, true)]);
+        wall.hinges = ends
+            .map(|(storey, at_head)| WallHinge {
+                storey,
+                at_head,
+                hysteresis: hinges(wall.line),
+            })
+            .collect();
+    }
+    let elastic = law(HysteresisRule::Bilinear, 1e16, 1e20, 1.0);
+    let of_columns = (0..storeys).map(|_| {
+        let lines = (1..=3).map(|line| match walls.iter().any(|own| own.line == line) {
+            true => hinges(line),
+            false => elastic,
+        });
+        lines.collect()
+    });
+    let hinged = FrameHinges {
+        columns: of_columns.collect(),
+        ..FrameHinges::default()
+    };
+    let mut of_walls = alone(thin);
+    let mut of_columns = alone(columns);
+    of_columns.buildings[0].hinges = Some(jostle::Hinges::Frame(hinged));
+    for model in [&mut of_walls, &mut of_columns] {
+        model.analysis.members = MemberRequest::default();
+        model.buildings[0].damping = Damping::Rayleigh {
+            alpha: 0.4,
+            beta: 0.0,
+        };
+    }
+    let [a, b] = [of_walls, of_columns].map(|model| shaken(&model).1);
+    assert!(b.energy.hysteretic > 1e3, "{}", b.energy.hysteretic);
+    close(
+        a.energy.hysteretic,
+        b.energy.hysteretic,
+        b.energy.hysteretic,
+        1e-6,
+        "energy",
+    );
+    for (a, b) in a.peaks.floors(0).iter().zip(b.peaks.floors(0)) {
+        let most = b.displacement_max().value;
+        close(a.displacement_max().value, most, most, 1e-6, "displacement");
+    }
 }

@@ -7,8 +7,8 @@ use jostle::history::{Kind, Owner};
 use jostle::model::STANDARD_GRAVITY;
 use jostle::{
     Analysis, Base, Bearing, Building, Column, Damping, FloorPairs, Gap, GroundMotion, Isolation,
-    Isolator, IsolatorDamping, Level, Model, Outcome, PlanArea, PlanPoint, Solver, SpeedFriction,
-    Stop, Structure, System, Tier, TierStorey, Tiers, Wall,
+    Isolator, IsolatorDamping, Level, Model, Outcome, PlanArea, PlanPoint, SlidingSurface, Solver,
+    SpeedFriction, Stop, Structure, System, Tier, TierStorey, Tiers, Wall,
 };
 use jostle_testkit::models::{CONCRETE, UNDAMPED, equal_storeys, rectangle};
 use jostle_testkit::motions::fading;
@@ -132,8 +132,37 @@ pub(crate) fn fast_pendulum() -> Isolator {
     }
 }
 
+fn surface(radius: f64, friction: f64, capacity: f64) -> SlidingSurface {
+    SlidingSurface {
+        radius,
+        friction,
+        capacity,
+    }
+}
+
+fn double_pendulum() -> Isolator {
+    Isolator::DoublePendulum {
+        surfaces: [surface(0.9, 0.02, 0.3), surface(1.4, 0.05, 0.3)],
+        slip_displacement: 1e-3,
+    }
+}
+
+/// Its inner surfaces reach their rims.
+fn triple_pendulum() -> Isolator {
+    let inner = surface(0.25, 0.01, 0.006);
+    Isolator::TriplePendulum {
+        surfaces: [
+            surface(1.5, 0.03, 0.3),
+            inner,
+            inner,
+            surface(1.5, 0.06, 0.3),
+        ],
+        slip_displacement: 1e-3,
+    }
+}
+
 /// Bearings of all kinds, one with a dashpot and a stop.
-fn bearings() -> [Isolation; 5] {
+fn bearings() -> [Isolation; 7] {
     let mut linear = Isolation::new(Isolator::Linear { stiffness: 4e6 }, 9e4);
     linear.damping = IsolatorDamping::Ratio(0.12);
     let mut stopped = Isolation::new(lead_rubber(), 9e4);
@@ -148,6 +177,8 @@ fn bearings() -> [Isolation; 5] {
         Isolation::new(lead_rubber(), 9e4),
         Isolation::new(pendulum(), 9e4),
         Isolation::new(fast_pendulum(), 9e4),
+        Isolation::new(double_pendulum(), 9e4),
+        Isolation::new(triple_pendulum(), 9e4),
     ]
 }
 

@@ -509,8 +509,7 @@ fn a_half_space_gives_both_sums() {
     let own = &system.buildings[0];
     let place = own.foundation.expect("one");
     let due = half_space.springs(&foundation, place.period);
-    let bed = &own.discretization.stick_model.foundation;
-    let bed = &bed.as_ref().expect("one").bed;
+    let bed = &own.discretization.stick_model.bed;
     let vertical: f64 = bed.iter().map(|own| own.stiffness).sum();
     let turned: f64 = bed.iter().map(|own| own.stiffness * own.at * own.at).sum();
     close(

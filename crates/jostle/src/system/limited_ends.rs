@@ -1,0 +1,133 @@
+//! Ends of members whose rotations are compared with limits that the user states.
+
+use std::collections::BTreeMap;
+
+use crate::hysteresis::{Hysteresis, HysteresisMemory, Side};
+use crate::model::{Building, LimitedMembers, RotationLevel, RotationMeasure, SpacePlace};
+use crate::structure::{AssembledBuilding, SpringPlace, end_stiffnesses};
+
+/// A hinge of a member with limits of its rotation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LimitedEnd {
+    /// Its index among the springs of the building.
+    pub spring: usize,
+    /// Name of the member within the building, such as `column.2.3`.
+    pub member: String,
+    /// The end in words: `foot`, `head`, `left`, `right`, `first` or `last`.
+    pub at: &'static str,
+    /// Which rotation is limited.
+    pub measure: RotationMeasure,
+    /// Greatest rotation of each level \[rad\].
+    pub limits: BTreeMap<RotationLevel, f64>,
+    /// Stiffness of the member behind it \[N·m/rad\].
+    behind: Option<f64>,
+}
+
+/// Kind of the member of a hinge, its line or bay and its storey or floor, from 1, its name and its end; `None` for other springs.
+type Place = (LimitedMembers, [usize; 2], String, &'static str);
+
+fn place_of(place: &SpringPlace, frames: &[String]) -> Option<Place> {
+    let of_frame = |frame: usize| frames.get(frame - 1).map_or("", String::as_str);
+    let (columns, beams) = (LimitedMembers::Columns, LimitedMembers::Beams);
+    Some(match *place {
+        SpringPlace::Column { storey, line, end } => {
+            let name = format!("column.{line}.{storey}");
+            (columns, [line, storey], name, end.of_column())
+        }
+        SpringPlace::Beam { floor, bay, end } => {
+            let name = format!("beam.{floor}.{bay}");
+            (beams, [bay, floor], name, end.of_beam())
+        }
+        SpringPlace::ColumnInPlan {
+            frame,
+            storey,
+            line,
+            end,
+        } => {
+            let name = format!("{}.column.{line}.{storey}", of_frame(frame));
+            (columns, [line, storey], name, end.of_column())
+        }
+        SpringPlace::BeamInPlan {
+            frame,
+            floor,
+            bay,
+            end,
+        } => {
+            let name = format!("{}.beam.{floor}.{bay}", of_frame(frame));
+            (beams, [bay, floor], name, end.of_beam())
+        }
+        SpringPlace::InSpace { place, end, .. } => {
+            let kind = match place {
+                SpacePlace::Column { .. } => columns,
+                SpacePlace::BeamX { .. } | SpacePlace::BeamY { .. } => beams,
+            };
+            let at = [0, place.storey() + 1];
+            (kind, at, place.to_string(), end.in_space(place))
+        }
+        _ => return None,
+    })
+}
+
+impl LimitedEnd {
+    /// Every hinge of a building that a limit of the model names.
+    pub(super) fn all(model: &Building, building: &AssembledBuilding) -> Vec<Self> {
+        if model.rotation_limits.is_empty() {
+            return Vec::new();
+        }
+        let discretization = &building.discretization;
+        let behind = end_stiffnesses(&discretization.stick_model);
+        let springs = discretization.spring_places.iter().enumerate();
+        let ends = springs.filter_map(|(spring, place)| {
+            let (kind, [line, storey], member, at) = place_of(place, &discretization.frames)?;
+            let mut limits = model.rotation_limits.iter().rev();
+            let limit = limits.find(|own| own.holds_for(kind, line, storey))?;
+            Some(Self {
+                spring,
+                member,
+                at,
+                measure: limit.measure,
+                limits: limit.limits.clone(),
+                behind: behind.get(spring).copied().flatten(),
+            })
+        });
+        ends.collect()
+    }
+
+    /// Deformation of the hinge on its curve of first loading at which its rotation has this size, to a side \[rad\].
+    pub(crate) fn deformation_at(&self, law: &Hysteresis, side: Side, rotation: f64) -> f64 {
+        let curve = law.backbone().side(side);
+        let behind = match self.measure {
+            RotationMeasure::Plastic => return curve.yielding.deformation + rotation,
+            RotationMeasure::Chord => self.behind,
+        };
+        let Some(stiffness) = behind else {
+            return rotation;
+        };
+        // Rotation of hinge and member, along straight lines between corners.
+        let mut last = [0.0; 2];
+        for corner in [curve.cracking, curve.yielding] {
+            let chord = corner.deformation + corner.force / stiffness;
+            if rotation <= chord {
+                let share = (rotation - last[1]) / (chord - last[1]);
+                return last[0] + share * (corner.deformation - last[0]);
+            }
+            last = [corner.deformation, chord];
+        }
+        last[0] + (rotation - last[1]) / (1.0 + curve.post_yield / stiffness)
+    }
+
+    /// Its greatest rotation so far, either side, ≥ 0 \[rad\]; `memory`: that of its spring.
+    pub(crate) fn rotation(&self, law: &Hysteresis, memory: &HysteresisMemory) -> f64 {
+        let of = |side: Side| {
+            let (turned, curve) = (memory.greatest(side), law.backbone().side(side));
+            match (self.measure, self.behind) {
+                (RotationMeasure::Plastic, _) => turned - curve.yielding.deformation,
+                (RotationMeasure::Chord, Some(stiffness)) => {
+                    turned + curve.force_at(turned) / stiffness
+                }
+                (RotationMeasure::Chord, None) => turned,
+            }
+        };
+        of(Side::Positive).max(of(Side::Negative)).max(0.0)
+    }
+}
